@@ -5,7 +5,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <termios.h>
@@ -49,29 +48,23 @@ typedef struct Terminal {
     int line_count;
     char lines[HD_VIEW_LINES][HD_VIEW_LINE];
     gchar **shown; /* owned; rows of a picture of symbols; NULL: none is on the screen */
-    char *said;    /* owned; for the end */
-    size_t said_length;
+    GString *said; /* owned; for the end */
 } Terminal;
 
 /* ---- bytes to and fro ---- */
 
-static HdStatus send_bytes(const Terminal *t, const char *bytes, size_t size, HdError *error) {
-    while (size > 0) {
-        const ssize_t sent = write(t->file, bytes, size);
+static HdStatus send_text(const Terminal *t, const char *text, HdError *error) {
+    while (*text != '\0') {
+        const ssize_t sent = write(t->file, text, strlen(text));
         if (sent < 0 && errno == EINTR && hd_interrupt_signal() == 0)
             continue;
         if (sent < 0 && hd_interrupt_signal() != 0)
             return hd_fail(error, HD_INTERRUPTED, "interrupted");
         if (sent < 0)
             return hd_fail(error, HD_FAILED, "cannot write to the terminal: %s", strerror(errno));
-        bytes += sent;
-        size -= (size_t)sent;
+        text += sent;
     }
     return HD_OK;
-}
-
-static HdStatus send_text(const Terminal *t, const char *text, HdError *error) {
-    return send_bytes(t, text, strlen(text), error);
 }
 
 /* What comes within that time; 0: nothing. */
@@ -172,29 +165,21 @@ static void take_keys(Terminal *t) {
 
 /* ---- drawing ---- */
 
-static int least(int a, int b) {
-    return a < b ? a : b;
-}
-
-static int most(int a, int b) {
-    return a > b ? a : b;
-}
-
 /* The largest area of the picture's shape above the lines. Sixels are as large as they are on the
    screen: so few columns that they are sent in time; and below the last row they would scroll. */
 static Area place_of_picture(const Terminal *t) {
-    int width, height, columns = t->columns, rows = most(t->rows - t->line_count, 1);
+    int width, height, columns = t->columns, rows = MAX(t->rows - t->line_count, 1);
     hd_viewer_size(t->viewer, &width, &height);
     if (t->protocol == CHAFA_PIXEL_MODE_SIXELS) {
-        columns = least(columns, most(MOST_SIXEL_WIDTH / t->cell_width, 1));
-        rows = least(rows, most(t->rows - 1, 1));
+        columns = MIN(columns, MAX(MOST_SIXEL_WIDTH / t->cell_width, 1));
+        rows = MIN(rows, MAX(t->rows - 1, 1));
     }
     const double shape = (double)width * t->cell_height / ((double)height * t->cell_width);
     Area area = {.columns = columns, .rows = rows};
     if (columns > rows * shape)
-        area.columns = most((int)(rows * shape), 1);
+        area.columns = MAX((int)(rows * shape), 1);
     else
-        area.rows = most((int)(columns / shape), 1);
+        area.rows = MAX((int)(columns / shape), 1);
     area.left = 1 + (t->columns - area.columns) / 2;
     area.top = 1 + (rows - area.rows) / 2;
     return area;
@@ -207,8 +192,8 @@ static ChafaCanvas *create_canvas(const Terminal *t, const HdViewImage *image) {
     const bool has_256 = chafa_term_info_have_seq(t->info, CHAFA_TERM_SEQ_SET_COLOR_FGBG_256);
     int width = t->cell_width, height = t->cell_height;
     if (t->protocol == CHAFA_PIXEL_MODE_KITTY) {
-        width = least(width, most(image->width / t->area.columns, 1));
-        height = least(height, most(image->height / t->area.rows, 1));
+        width = MIN(width, MAX(image->width / t->area.columns, 1));
+        height = MIN(height, MAX(image->height / t->area.rows, 1));
     }
     chafa_canvas_config_set_pixel_mode(config, t->protocol);
     chafa_canvas_config_set_canvas_mode(config, has_all || t->protocol != CHAFA_PIXEL_MODE_SYMBOLS
@@ -224,16 +209,16 @@ static ChafaCanvas *create_canvas(const Terminal *t, const HdViewImage *image) {
 }
 
 /* Sends the rows that are other than before. */
-static void write_symbols(Terminal *t, const char *text, FILE *out) {
+static void write_symbols(Terminal *t, const char *text, GString *out) {
     gchar **rows = g_strsplit(text, "\n", t->area.rows);
     for (int i = 0; rows[i] != NULL; i++)
         if (t->shown == NULL || strcmp(rows[i], t->shown[i]) != 0)
-            fprintf(out, "\033[%d;%dH%s", t->area.top + i, t->area.left, rows[i]);
+            g_string_append_printf(out, "\033[%d;%dH%s", t->area.top + i, t->area.left, rows[i]);
     g_strfreev(t->shown);
     t->shown = rows;
 }
 
-static void write_picture(Terminal *t, FILE *out) {
+static void write_picture(Terminal *t, GString *out) {
     int version = t->version;
     const HdViewImage *image = hd_viewer_picture(t->viewer, &version);
     if (version == t->version || image->width == 0)
@@ -246,38 +231,38 @@ static void write_picture(Terminal *t, FILE *out) {
     if (t->protocol == CHAFA_PIXEL_MODE_SYMBOLS)
         write_symbols(t, text->str, out);
     else
-        fprintf(out, "\033[%d;%dH%s", t->area.top, t->area.left, text->str);
+        g_string_append_printf(out, "\033[%d;%dH%s", t->area.top, t->area.left, text->str);
     g_string_free(text, TRUE);
     chafa_canvas_unref(canvas);
 }
 
 /* What was on the screen is forgotten. */
-static void clear_screen(Terminal *t, FILE *out) {
-    fputs("\033[0m\033[2J", out);
+static void clear_screen(Terminal *t, GString *out) {
+    g_string_append(out, "\033[0m\033[2J");
     if (t->protocol == CHAFA_PIXEL_MODE_KITTY)
-        fputs(kitty_clear, out);
+        g_string_append(out, kitty_clear);
     g_strfreev(t->shown);
     t->shown = NULL;
     memset(t->lines, 0, sizeof t->lines);
     t->version = -1;
 }
 
-static void write_lines(Terminal *t, char lines[HD_VIEW_LINES][HD_VIEW_LINE], FILE *out) {
+static void write_lines(Terminal *t, char lines[HD_VIEW_LINES][HD_VIEW_LINE], GString *out) {
     const int first = t->rows - t->line_count + 1;
     for (int i = 0; i < t->line_count; i++) {
         if (strcmp(lines[i], t->lines[i]) == 0)
             continue;
         memcpy(t->lines[i], lines[i], HD_VIEW_LINE);
-        fprintf(out, "\033[%d;1H\033[%sm%.*s\033[0m\033[K", first + i,
-                lines[i][0] == '!' ? "91" : "0", t->columns, lines[i]);
+        g_string_append_printf(out, "\033[%d;1H\033[%sm%.*s\033[0m\033[K", first + i,
+                               lines[i][0] == '!' ? "91" : "0", t->columns, lines[i]);
     }
 }
 
-static void fit_screen(Terminal *t, int line_count, FILE *out) {
+static void fit_screen(Terminal *t, int line_count, GString *out) {
     const int columns = t->columns, rows = t->rows, lines = t->line_count;
     const Area before = t->area;
     measure(t);
-    t->line_count = least(line_count, t->rows);
+    t->line_count = MIN(line_count, t->rows);
     t->area = place_of_picture(t);
     const bool is_text = t->protocol == CHAFA_PIXEL_MODE_SYMBOLS;
     hd_viewer_limit(t->viewer, t->area.columns * (is_text ? SYMBOL_WIDTH : t->cell_width));
@@ -288,17 +273,12 @@ static void fit_screen(Terminal *t, int line_count, FILE *out) {
 
 static HdStatus draw(Terminal *t, HdError *error) {
     char lines[HD_VIEW_LINES][HD_VIEW_LINE];
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (out == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the terminal's picture");
+    GString *out = g_string_new(NULL);
     fit_screen(t, hd_viewer_lines(t->viewer, lines), out);
     write_picture(t, out);
     write_lines(t, lines, out);
-    fclose(out);
-    HdStatus status = send_bytes(t, text, size, error);
-    free(text);
+    HdStatus status = send_text(t, out->str, error);
+    g_string_free(out, TRUE);
     return status;
 }
 
@@ -336,19 +316,13 @@ static HdStatus run(Terminal *t, HdError *error) {
 /* ---- from open to close ---- */
 
 static void say(void *context, const char *lines) {
-    Terminal *t = context;
-    if (!isatty(STDOUT_FILENO)) {
-        fputs(lines, stdout);
-        fflush(stdout);
+    const Terminal *t = context;
+    if (isatty(STDOUT_FILENO)) {
+        g_string_append(t->said, lines);
         return;
     }
-    const size_t length = strlen(lines);
-    char *said = realloc(t->said, t->said_length + length + 1);
-    if (said == NULL)
-        return;
-    memcpy(said + t->said_length, lines, length + 1);
-    t->said = said;
-    t->said_length += length;
+    fputs(lines, stdout);
+    fflush(stdout);
 }
 
 static HdStatus open_terminal(Terminal *t, HdError *error) {
@@ -398,18 +372,17 @@ static void close_terminal(Terminal *t) {
             close(t->wakes[i]);
     if (t->file >= 0)
         close(t->file);
-    if (t->said != NULL)
-        fputs(t->said, stdout);
+    fputs(t->said->str, stdout);
     if (t->info != NULL)
         chafa_term_info_unref(t->info);
     if (t->symbols != NULL)
         chafa_symbol_map_unref(t->symbols);
     g_strfreev(t->shown);
-    free(t->said);
+    g_string_free(t->said, TRUE);
 }
 
 HdStatus hd_view_in_terminal(const HdViewPlan *plan, HdError *error) {
-    Terminal t = {.file = -1, .wakes = {-1, -1}, .version = -1};
+    Terminal t = {.file = -1, .wakes = {-1, -1}, .version = -1, .said = g_string_new(NULL)};
     const HdViewHost host = {wake, say, &t};
     HdStatus status = open_terminal(&t, error);
     if (status == HD_OK)

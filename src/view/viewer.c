@@ -105,10 +105,10 @@ static HdStatus find_camera(const HdViewer *viewer, HdCamera *camera, HdError *e
 
 /* ---- what is wished of the workers ---- */
 
-static bool all_idle(const HdViewer *viewer) {
+static bool all_idle(HdViewer *viewer) {
     bool idle = true;
     for (int i = 0; i < viewer->side_count; i++)
-        idle = idle && hd_view_worker_is_idle(viewer->sides[i].worker);
+        idle = idle && hd_view_side_is_idle(&viewer->sides[i]);
     return idle;
 }
 
@@ -134,14 +134,8 @@ static void wish_for(HdViewer *viewer, bool is_moving) {
         return;
     }
     wish.detail = hd_pace_choose(&viewer->pace, &full);
-    for (int i = 0; i < viewer->side_count; i++) {
-        HdViewSide *side = &viewer->sides[i];
-        wish.plan = &side->plan.devices;
-        wish.file = &side->file;
-        wish.device_change = side->device_change;
-        wish.scene_change = side->scene_change;
-        hd_view_worker_show(side->worker, &wish);
-    }
+    for (int i = 0; i < viewer->side_count; i++)
+        hd_view_side_show(&viewer->sides[i], &wish);
 }
 
 bool hd_viewer_is_moving(const HdViewer *viewer, double now) {
@@ -174,12 +168,11 @@ static void note_moving_picture(HdViewer *viewer, const HdViewImage *image) {
 
 static void fetch_pictures(HdViewer *viewer) {
     for (int i = 0; i < viewer->side_count; i++) {
-        HdViewSide *side = &viewer->sides[i];
-        if (!hd_view_worker_image(side->worker, &side->image, &side->version))
+        if (!hd_view_side_fetch(&viewer->sides[i]))
             continue;
         viewer->version++;
         if (viewer->settling == 0 && i == 0)
-            note_moving_picture(viewer, &side->image);
+            note_moving_picture(viewer, &viewer->sides[i].image);
     }
 }
 
@@ -224,7 +217,7 @@ static void save(HdViewer *viewer) {
     HdError error;
     viewer->saves = false;
     free_name(viewer, path);
-    if (hd_view_worker_save(viewer->sides[viewer->active].worker, path, &error) != HD_OK) {
+    if (hd_view_side_save(&viewer->sides[viewer->active], path, &error) != HD_OK) {
         snprintf(viewer->note, sizeof viewer->note, "%.500s", error.message);
         return;
     }
@@ -460,12 +453,12 @@ add(Lines *lines, const char *format, ...) {
     add_text(lines, text);
 }
 
-static void add_settings(Lines *lines, const HdViewer *viewer, int number) {
-    const HdViewSide *side = &viewer->sides[number];
+static void add_settings(Lines *lines, HdViewer *viewer, int number) {
+    HdViewSide *side = &viewer->sides[number];
     const HdScene *scene = &side->file.scene;
     const bool is_split = viewer->side_count > 1;
     char device[512], problem[4096], prefix[24] = "";
-    hd_view_worker_describe(side->worker, device, sizeof device, problem, sizeof problem);
+    hd_view_side_describe(side, device, sizeof device, problem, sizeof problem);
     if (is_split)
         snprintf(prefix, sizeof prefix, "%s%s: ", number == 0 ? "left" : "right",
                  viewer->active == number ? " *" : "");
