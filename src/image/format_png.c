@@ -372,7 +372,7 @@ static HdStatus open_bytes(PngReader **reader, const unsigned char *bytes, size_
     if (file == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
     const HdStatus status = open_reader(reader, file, name, error);
-    if (status != HD_OK)
+    if (*reader == NULL)
         fclose(file);
     return status;
 }
@@ -384,11 +384,11 @@ static void close_bytes(PngReader *reader) {
 
 static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                        const char *name, HdCurve curve, HdError *error) {
-    PngReader *reader;
+    PngReader *reader = NULL; /* stays so on failure */
     HdStatus status = create_texture(texture, bytes, size, name, error);
     if (status == HD_OK)
         status = open_bytes(&reader, bytes, size, name, error);
-    if (status != HD_OK)
+    if (reader == NULL)
         return status;
     status = read_rows(reader, texture->texels, texture->height, error);
     if (status == HD_OK)
@@ -423,9 +423,9 @@ static HdStatus load_rows(HdFrame *frame, PngReader *reader, const char *name, H
 
 static HdStatus load(HdFrame *frame, const unsigned char *bytes, size_t size, const char *name,
                      HdError *error) {
-    PngReader *reader;
+    PngReader *reader = NULL; /* stays so on failure */
     HdStatus status = open_bytes(&reader, bytes, size, name, error);
-    if (status != HD_OK)
+    if (reader == NULL)
         return status;
     const HdPngFacts *facts = &reader->facts;
     if (facts->width != frame->width || facts->height != frame->height || facts->bits != 8 ||
@@ -482,14 +482,14 @@ static HdStatus write_frame(const HdFrame *frame, const HdPictureStyle *style,
                               .height = frame->height,
                               .bits = style->bits,
                               .is_srgb = style->curve == HD_CURVE_SRGB};
-    HdPngWriter *writer = NULL;
+    HdPngWriter *writer = NULL; /* stays so on failure */
     uint16_t *row = malloc((size_t)frame->width * 3 * sizeof *row);
     if (row == NULL)
         return hd_fail(error, HD_FAILED, "cannot write %s: out of memory", path);
     HdStatus status = hd_png_begin(&writer, stream, path, &facts, label, error);
-    if (status == HD_OK)
+    if (writer != NULL)
         status = write_rows(writer, frame, style, row, error);
-    if (status == HD_OK)
+    if (writer != NULL && status == HD_OK)
         status = hd_png_end(writer, label, error);
     hd_png_free(writer);
     free(row);
@@ -500,9 +500,9 @@ static HdStatus write_frame(const HdFrame *frame, const HdPictureStyle *style,
 
 static HdStatus open_rows(void **rows, FILE *file, const char *path, HdPictureFacts *facts,
                           HdError *error) {
-    PngReader *reader;
+    PngReader *reader = NULL; /* stays so on failure */
     HdStatus status = open_reader(&reader, file, path, error);
-    if (status != HD_OK)
+    if (reader == NULL)
         return status;
     if (reader->is_interlaced) {
         close_reader(reader);
