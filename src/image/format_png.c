@@ -32,7 +32,7 @@ typedef struct PngReader {
     FILE *file;
     size_t allowed;   /* to be read still */
     const char *name; /* for messages */
-    HdPngFacts facts;
+    HdPictureFacts facts;
     bool is_interlaced;
     int passes; /* over the same rows */
     int next;
@@ -101,7 +101,8 @@ static bool try_head(PngReader *reader) {
     limit_reading(png);
     png_read_info(png, info);
     reader->is_interlaced = png_get_interlace_type(png, info) != PNG_INTERLACE_NONE;
-    reader->facts.is_srgb = png_get_valid(png, info, PNG_INFO_sRGB) != 0;
+    reader->facts.curve =
+        png_get_valid(png, info, PNG_INFO_sRGB) != 0 ? HD_CURVE_SRGB : HD_CURVE_LINEAR;
     convert_to_rgb(png);
     reader->passes = png_set_interlace_handling(png);
     png_read_update_info(png, info);
@@ -221,7 +222,8 @@ static int make_texts(const HdPictureLabel *label, char number[NUMBER_SIZE],
 
 /* Frames are many and short-lived. After the filter what repeats is mostly zeros, and looking for
    nothing else is both faster and smaller than level 1. */
-static bool try_begin(HdPngWriter *writer, const HdPngFacts *facts, png_text *texts, int count) {
+static bool try_begin(HdPngWriter *writer, const HdPictureFacts *facts, png_text *texts,
+                      int count) {
     png_structp png = writer->png;
     if (setjmp(png_jmpbuf(png)) != 0)
         return false;
@@ -231,7 +233,7 @@ static bool try_begin(HdPngWriter *writer, const HdPngFacts *facts, png_text *te
     png_set_IHDR(png, writer->info, (png_uint_32)facts->width, (png_uint_32)facts->height,
                  facts->bits, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
-    if (facts->is_srgb)
+    if (facts->curve == HD_CURVE_SRGB)
         png_set_sRGB(png, writer->info, PNG_sRGB_INTENT_PERCEPTUAL);
     else
         png_set_gAMA_fixed(png, writer->info, PNG_GAMMA_LINEAR);
@@ -298,8 +300,8 @@ static HdStatus status_of(bool good, const HdPngWriter *writer, HdError *error) 
                 : hd_fail(error, HD_FAILED, "cannot write %s: %s", writer->path, writer->message);
 }
 
-HdStatus hd_png_begin(HdPngWriter **out, FILE *stream, const char *path, const HdPngFacts *facts,
-                      const HdPictureLabel *label, HdError *error) {
+HdStatus hd_png_begin(HdPngWriter **out, FILE *stream, const char *path,
+                      const HdPictureFacts *facts, const HdPictureLabel *label, HdError *error) {
     char number[NUMBER_SIZE];
     png_text texts[MAX_TEXTS];
     const int count = make_texts(label, number, texts);
@@ -427,7 +429,7 @@ static HdStatus load(HdFrame *frame, const unsigned char *bytes, size_t size, co
     HdStatus status = open_bytes(&reader, bytes, size, name, error);
     if (reader == NULL)
         return status;
-    const HdPngFacts *facts = &reader->facts;
+    const HdPictureFacts *facts = &reader->facts;
     if (facts->width != frame->width || facts->height != frame->height || facts->bits != 8 ||
         reader->is_interlaced)
         status = hd_fail(error, HD_FAILED,
@@ -478,10 +480,8 @@ static HdStatus write_rows(HdPngWriter *writer, const HdFrame *frame, const HdPi
 static HdStatus write_frame(const HdFrame *frame, const HdPictureStyle *style,
                             const HdPictureLabel *label, FILE *stream, const char *path,
                             HdError *error) {
-    const HdPngFacts facts = {.width = frame->width,
-                              .height = frame->height,
-                              .bits = style->bits,
-                              .is_srgb = style->curve == HD_CURVE_SRGB};
+    const HdPictureFacts facts = {
+        .width = frame->width, .height = frame->height, .bits = style->bits, .curve = style->curve};
     HdPngWriter *writer = NULL; /* stays so on failure */
     uint16_t *row = malloc((size_t)frame->width * 3 * sizeof *row);
     if (row == NULL)
@@ -510,12 +510,7 @@ static HdStatus open_rows(void **rows, FILE *file, const char *path, HdPictureFa
                        "%s is an interlaced PNG, expected one whose rows follow each other", path);
     }
     *rows = reader;
-    *facts = (HdPictureFacts){
-        .width = reader->facts.width,
-        .height = reader->facts.height,
-        .bits = reader->facts.bits,
-        .curve = reader->facts.is_srgb ? HD_CURVE_SRGB : HD_CURVE_LINEAR,
-    };
+    *facts = reader->facts;
     return HD_OK;
 }
 

@@ -303,12 +303,11 @@ static void wait_for_more(Terminal *t) {
 
 static HdStatus run(Terminal *t, HdError *error) {
     HdStatus status = HD_OK;
-    while (status == HD_OK && !hd_viewer_has_ended(t->viewer)) {
+    while (status == HD_OK && hd_viewer_tick(t->viewer, hd_monotonic_seconds())) {
+        status = draw(t, error);
         wait_for_more(t);
         if (hd_interrupt_signal() != 0)
             return hd_fail(error, HD_INTERRUPTED, "interrupted");
-        hd_viewer_tick(t->viewer, hd_monotonic_seconds());
-        status = draw(t, error);
     }
     return status;
 }

@@ -212,9 +212,11 @@ static void free_name(const HdViewer *viewer, char path[160]) {
     }
 }
 
-static void save(HdViewer *viewer) {
+static void save_when_whole(HdViewer *viewer) {
     char path[160], line[192];
     HdError error;
+    if (!viewer->saves || viewer->settling != viewer->change || !all_idle(viewer))
+        return;
     viewer->saves = false;
     free_name(viewer, path);
     if (hd_view_side_save(&viewer->sides[viewer->active], path, &error) != HD_OK) {
@@ -224,11 +226,6 @@ static void save(HdViewer *viewer) {
     snprintf(viewer->note, sizeof viewer->note, "saved %s", path);
     snprintf(line, sizeof line, "%s\n", path);
     viewer->host.say(viewer->host.context, line);
-}
-
-static void save_when_whole(HdViewer *viewer) {
-    if (viewer->saves && viewer->settling == viewer->change && all_idle(viewer))
-        save(viewer);
 }
 
 static void print_camera(HdViewer *viewer, int by) {
@@ -546,17 +543,14 @@ static void watch_files(HdViewer *viewer) {
             settings_changed(viewer);
 }
 
-void hd_viewer_tick(HdViewer *viewer, double now) {
+bool hd_viewer_tick(HdViewer *viewer, double now) {
     viewer->now = now;
     fetch_pictures(viewer);
     watch_files(viewer);
     fly_on(viewer);
     ask_workers(viewer);
     save_when_whole(viewer);
-}
-
-bool hd_viewer_has_ended(const HdViewer *viewer) {
-    return viewer->has_ended;
+    return !viewer->has_ended;
 }
 
 bool hd_viewer_is_split(const HdViewer *viewer) {

@@ -34,14 +34,11 @@ void hd_viewer_key(HdViewer *viewer, int key, double now);
 void hd_viewer_drag(HdViewer *viewer, bool moves, double right, double down, double now);
 
 /* To be called when woken, after keys, and 60 times a second while something moves: flies on, looks
-   after the files, gives wishes to the workers. */
-void hd_viewer_tick(HdViewer *viewer, double now);
+   after the files, gives wishes to the sides. False once the user wants to end. */
+bool hd_viewer_tick(HdViewer *viewer, double now);
 
 /* False where nothing will change by itself before a key or a wake. */
 bool hd_viewer_is_moving(const HdViewer *viewer, double now);
-
-/* The user wants to end. */
-bool hd_viewer_has_ended(const HdViewer *viewer);
 
 /* The picture; `version` is set to its number, which changes with the picture. Until the first one
    is there its width is 0. */

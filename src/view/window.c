@@ -266,7 +266,8 @@ static void take_event(Window *w, const SDL_Event *event) {
 
 static HdStatus run(Window *w, HdError *error) {
     HdStatus status = HD_OK;
-    while (status == HD_OK && !hd_viewer_has_ended(w->viewer)) {
+    while (status == HD_OK && hd_viewer_tick(w->viewer, hd_monotonic_seconds())) {
+        status = draw(w, error);
         SDL_Event event;
         const bool is_moving = hd_viewer_is_moving(w->viewer, hd_monotonic_seconds());
         if (SDL_WaitEventTimeout(&event, is_moving ? MOVING_WAIT_MS : IDLE_WAIT_MS) != 0)
@@ -276,8 +277,6 @@ static HdStatus run(Window *w, HdError *error) {
         if (hd_interrupt_signal() != 0)
             return hd_fail(error, HD_INTERRUPTED, "interrupted");
         glide(w, hd_monotonic_seconds());
-        hd_viewer_tick(w->viewer, hd_monotonic_seconds());
-        status = draw(w, error);
     }
     return status;
 }
