@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Compiles the kernels to PTX while the program is built, as a C file of what src/device/cuda/ptx.h
-   declares:
+/* Compiles the kernels to PTX while the program is built, as a C file of what
+   src/device/cuda/compile.h declares:
 
        embed_ptx OUTPUT.c [NVRTC [COUNT]]
 
@@ -10,7 +10,6 @@
 #include <stdlib.h>
 
 #include "device/cuda/compile.h"
-#include "device/cuda/ptx.h"
 
 #define COMMON                                                                                     \
     .lanes = 1, .pixels_per_item = 1, .group_size = HD_CUDA_PTX_BLOCK,                             \
@@ -91,7 +90,7 @@ static void write_table(FILE *file, int count, const HdNvrtc *nvrtc) {
 }
 
 static bool write_all(FILE *file, int count, const HdNvrtc *nvrtc, HdError *error) {
-    fprintf(file, "/* Written by embed_ptx. */\n#include \"device/cuda/ptx.h\"\n\n");
+    fprintf(file, "/* Written by embed_ptx. */\n#include \"device/cuda/compile.h\"\n\n");
     for (int i = 0; i < count; i++)
         if (!write_text(file, i, nvrtc, error))
             return false;

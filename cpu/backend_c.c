@@ -15,7 +15,6 @@
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
-#include "system/warnings.h"
 #include "tables/room.h"
 
 /* A thread's rays should stay in its processor's own cache. */
@@ -184,6 +183,17 @@ static HdStatus prepare_queues(CRenderer *c, int samples, HdError *error) {
     return HD_OK;
 }
 
+/* A frame is rendered when it is collected. */
+static HdStatus c_submit(void *renderer, const HdFrameTables *tables, const HdFrameWish *wish,
+                         HdError *error) {
+    (void)renderer, (void)tables, (void)wish, (void)error;
+    return HD_OK;
+}
+
+static void c_drop(void *renderer) {
+    (void)renderer;
+}
+
 typedef struct FrameWork {
     CRenderer *c;
     const HdFrameTables *tables;
@@ -218,6 +228,7 @@ static HdStatus c_collect(void *renderer, const HdFrameTables *tables, HdFrame *
     if (!hd_thread_pool_run(c->pool, items, render_one_item, &work, must_stop))
         return hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
     frame->is_encoded = false;
+    frame->longest_launch = -1.0;
     frame->trace_seconds = hd_monotonic_seconds() - start;
     hd_frame_set_counts(frame, tables->samples, c->counts, items);
     return HD_OK;
@@ -256,8 +267,10 @@ static void c_describe(const void *renderer, char *text, int capacity) {
 static const HdRendererFunctions functions = {
     .open = c_open,
     .upload = c_upload,
+    .submit = c_submit,
     .collect = c_collect,
     .first_hits = c_first_hits,
+    .drop = c_drop,
     .lanes = c_lanes,
     .describe = c_describe,
     .close = c_close,

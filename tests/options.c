@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "options.h"
+#include "render/backends.h"
 
 #include <ctype.h>
 #include <errno.h>

@@ -11,9 +11,10 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-#include "verify/random_test.h"
 #include "options.h"
+#include "render/backends.h"
 #include "system/machine.h"
+#include "verify/random_scenes.h"
 
 typedef struct Options {
     const HdBackend *backend;

@@ -24,6 +24,7 @@
 #include "input/check.h"
 #include "input/load.h"
 #include "input/meshes.h"
+#include "render/backends.h"
 #include "render/frame.h"
 #include "switches.h"
 #include "system/interrupt.h"
@@ -138,7 +139,10 @@ static HdStatus open_all(const Bench *bench, Contender *contenders, int count, H
 
 static bool render(Contender *contender, Bench *bench, uint64_t *hash) {
     HdFlight flight;
-    HdStatus status = hd_frame_begin(&contender->maker, &bench->camera, &flight, &contender->error);
+    HdStatus status =
+        hd_frame_prepare(&contender->maker, &bench->camera, &flight, &contender->error);
+    if (status == HD_OK)
+        status = hd_frame_begin(&contender->maker, &flight, &contender->error);
     if (status == HD_OK)
         status = hd_frame_end(&contender->maker, &flight, &bench->frame, &contender->error);
     contender->status = status;

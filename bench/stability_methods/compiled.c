@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "input/check.h"
-#include "scene/triangulate/scene.h"
+#include "scene/triangulate.h"
 
 enum { DISC_SIDES = 16, DEPTH = 1000 };
 

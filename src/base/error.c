@@ -3,6 +3,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/text.h"
 
@@ -19,4 +20,65 @@ HdStatus hd_fail(HdError *error, HdStatus status, const char *format, ...) {
 
 void hd_error_prefix(HdError *error, const char *name) {
     hd_fail(error, error->status, "%s: %s", name, error->message);
+}
+
+/* ---- problems ---- */
+
+/* With the break; a problem names a place, a value and what was expected. */
+enum { SHORTEST_LINE = 16 };
+
+void hd_problem(HdProblems *problems, const char *format, ...) {
+    char text[2048], line[sizeof text];
+    va_list arguments;
+    if (hd_problems_are_full(problems)) {
+        problems->count++;
+        return;
+    }
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    hd_escape(text, line, sizeof line);
+    problems->count++;
+    const size_t room = sizeof problems->text - problems->used;
+    if (strlen(line) + 2 > room)
+        return;
+    problems->used += (size_t)snprintf(problems->text + problems->used, room, "%s\n", line);
+}
+
+bool hd_problems_are_full(const HdProblems *problems) {
+    return problems->count >= (int)sizeof problems->text / SHORTEST_LINE;
+}
+
+static void append_line(char *whole, size_t size, const char *line, size_t length) {
+    const size_t used = strlen(whole);
+    snprintf(whole + used, size - used, "\n  %.*s", (int)length, line);
+}
+
+HdStatus hd_problems_first(const HdProblems *problems, HdError *error) {
+    if (problems->count == 0)
+        return HD_OK;
+    return hd_fail(error, HD_BAD_INPUT, "%.*s", (int)strcspn(problems->text, "\n"), problems->text);
+}
+
+void hd_problems_print(const HdProblems *problems, FILE *out, const char *name, const char *kind) {
+    for (const char *line = problems->text; *line != '\0'; line += strcspn(line, "\n") + 1)
+        fprintf(out, "%s%s%.*s\n", name, kind, (int)strcspn(line, "\n"), line);
+}
+
+HdStatus hd_problems_status(const HdProblems *problems, const char *name, HdError *error) {
+    char whole[sizeof error->message];
+    int listed = 0;
+    const HdStatus status = hd_problems_first(problems, error);
+    if (problems->count == 1)
+        hd_error_prefix(error, name);
+    if (problems->count <= 1)
+        return status;
+    snprintf(whole, sizeof whole, "%s: %d problems", name, problems->count);
+    for (const char *line = problems->text; *line != '\0'; line += strcspn(line, "\n") + 1) {
+        append_line(whole, sizeof whole, line, strcspn(line, "\n"));
+        listed++;
+    }
+    if (listed < problems->count)
+        append_line(whole, sizeof whole, "and more of them", strlen("and more of them"));
+    return hd_fail(error, HD_BAD_INPUT, "%s", whole);
 }

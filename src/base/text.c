@@ -3,10 +3,13 @@
 
 #include <limits.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/minmax.h"
 
 /* ---- text of others ---- */
 
@@ -112,13 +115,23 @@ const char *hd_plural(int count) {
     return count == 1 ? "" : "s";
 }
 
+/* ---- texts of several parts ---- */
+
+void hd_add_text(char *text, size_t size, const char *separator, const char *format, ...) {
+    va_list arguments;
+    size_t length = strlen(text);
+    if (length > 0)
+        length += (size_t)snprintf(text + length, size - length, "%s", separator);
+    if (length >= size)
+        return;
+    va_start(arguments, format);
+    vsnprintf(text + length, size - length, format, arguments);
+    va_end(arguments);
+}
+
 /* ---- names ---- */
 
 enum { MAX_LETTERS = 31 };
-
-static int least(int a, int b) {
-    return a < b ? a : b;
-}
 
 /* The table of distances between the beginnings of both words (R. A. Wagner and M. J. Fischer, The
    string-to-string correction problem, 1974), two swapped neighbours counting as one mistake. */
@@ -134,9 +147,9 @@ int hd_edit_distance(const char *a, const char *b) {
                 continue;
             }
             int replaced = table[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
-            table[i][j] = least(replaced, least(table[i - 1][j], table[i][j - 1]) + 1);
+            table[i][j] = hd_min(replaced, hd_min(table[i - 1][j], table[i][j - 1]) + 1);
             if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                table[i][j] = least(table[i][j], table[i - 2][j - 2] + 1);
+                table[i][j] = hd_min(table[i][j], table[i - 2][j - 2] + 1);
         }
     }
     return table[a_length][b_length];

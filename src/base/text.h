@@ -36,6 +36,13 @@ void hd_short_number(double value, char out[HD_NUMBER_SIZE]);
 /* What a word for that many things ends in: "s", or nothing for one. */
 const char *hd_plural(int count);
 
+/* ---- texts of several parts ---- */
+
+/* Appends what printf would print, after the separator unless the text is empty; cut to `size`
+   bytes with the zero byte. */
+__attribute__((format(printf, 4, 5))) void
+hd_add_text(char *text, size_t size, const char *separator, const char *format, ...);
+
 /* ---- names ---- */
 
 /* Keeps the nearest of the names that are offered one after the other. Start with the word alone.

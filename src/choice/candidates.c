@@ -2,27 +2,34 @@
 #define _POSIX_C_SOURCE 200809L
 #include "choice/candidates.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
+#include "base/minmax.h"
+#include "base/text.h"
+
+/* ---- reasons ---- */
+
 /* Each reason once, though several devices may have it. */
 static void add_reason(HdCandidates *candidates, const char *name, const char *reason) {
-    size_t used = strlen(candidates->reasons);
     if (strstr(candidates->reasons, reason) == NULL)
-        snprintf(candidates->reasons + used, sizeof candidates->reasons - used, "%s%s: %s",
-                 used > 0 ? "; " : "", name, reason);
+        hd_add_text(candidates->reasons, sizeof candidates->reasons, "; ", "%s: %s", name, reason);
+}
+
+static void note_failure(HdCandidates *candidates, const char *message) {
+    hd_add_text(candidates->note, sizeof candidates->note, "; ", "%.600s", message);
 }
 
 /* A GPU that is there and not used is worth a word, unless the user's own wish rules out all. */
 static void tell_passed(HdCandidates *candidates, const char *what, const char *reason,
                         const char *help) {
     const HdDeviceWish *wish = &candidates->wish;
-    size_t used = strlen(candidates->passed);
     if (candidates->is_free && wish->kind != HD_ONLY_CPU && wish->options->lanes <= 1)
-        snprintf(candidates->passed + used, sizeof candidates->passed - used,
-                 "%s%s is passed over: %s%s", used > 0 ? "; " : "", what, reason, help);
+        hd_add_text(candidates->passed, sizeof candidates->passed, "; ", "%s is passed over: %s%s",
+                    what, reason, help);
 }
 
 static void tell_passed_device(HdCandidates *candidates, const HdDevice *device,
@@ -33,6 +40,8 @@ static void tell_passed_device(HdCandidates *candidates, const HdDevice *device,
     tell_passed(candidates, what, reason,
                 is_strictness ? "; --math fast would take it, for other bytes" : "");
 }
+
+/* ---- names ---- */
 
 static bool contains(const char *text, const char *part) {
     size_t length = strlen(part);
@@ -66,16 +75,41 @@ static HdStatus split_name(HdDeviceWish *wish, HdError *error) {
 static bool is_named(const HdDevice *device, const char *wish) {
     if (wish == NULL)
         return true;
-    if (is_number(wish))
-        return strtol(wish, NULL, 10) == device->index;
-    return contains(device->name, wish);
+    return is_number(wish) ? strtol(wish, NULL, 10) == device->index : contains(device->name, wish);
 }
 
+HdStatus hd_devices_named(const char *backend, const char *device, HdDevice *devices, int *count,
+                          HdError *error) {
+    bool is_any = device == NULL || strcmp(device, "all") == 0;
+    HdCandidates none = {.wish = {.backend = backend, .device = is_any ? NULL : device}};
+    HdStatus status = split_name(&none.wish, error);
+    *count = 0;
+    for (int i = 0; status == HD_OK && i < HD_BACKEND_COUNT; i++) {
+        int found = 0, kept = *count;
+        if (none.wish.backend != NULL && strcmp(none.wish.backend, hd_backends[i]->name) != 0)
+            continue;
+        if (hd_backend_enumerate(hd_backends[i], devices + kept, HD_MAX_DEVICES, &found, error) !=
+            HD_OK)
+            add_reason(&none, hd_backends[i]->name, error->message);
+        for (int d = kept; d < kept + found; d++)
+            if (is_named(&devices[d], none.wish.device))
+                devices[(*count)++] = devices[d];
+        if (found > 0 && *count == kept)
+            add_reason(&none, hd_backends[i]->name, "no device of that number or name");
+    }
+    if (status == HD_OK && *count == 0)
+        status = hd_fail(error, HD_UNAVAILABLE, "there is no such device%s%s%s: %s",
+                         device != NULL ? " ('" : "", device != NULL ? device : "",
+                         device != NULL ? "')" : "", none.reasons);
+    return status;
+}
+
+/* ---- finding ---- */
+
 static bool is_in_question(const HdDevice *device, const HdDeviceWish *wish) {
-    if (!is_named(device, wish->device))
-        return false;
-    return !device->is_cpu || device->backend->needs_no_driver || wish->backend != NULL ||
-           wish->device != NULL || wish->kind == HD_PREFER_GPU;
+    return is_named(device, wish->device) &&
+           (!device->is_cpu || device->backend->needs_no_driver || wish->backend != NULL ||
+            wish->device != NULL || wish->kind == HD_PREFER_GPU);
 }
 
 static double speed(const HdDevice *device) {
@@ -155,22 +189,43 @@ static int count_compared(const HdCandidates *candidates) {
     return count;
 }
 
-/* How long plain C takes for a frame. */
+/* How long plain C takes for a frame. A texture takes longer to upload than a small picture to
+   render, and little of its time. */
 static HdStatus estimate(HdCandidates *candidates, double enough, HdError *error) {
-    const HdDeviceWish *wish = &candidates->wish;
-    return hd_trial_estimate(wish->options, wish->job, enough, &candidates->frame_seconds, error);
+    const HdRenderOptions *options = candidates->wish.options;
+    const HdTrialWish wish = hd_trial_estimates(enough);
+    HdScene plain = *candidates->wish.job->scene;
+    HdJob job = *candidates->wish.job;
+    HdDevice device;
+    HdRenderer *renderer;
+    HdTrial trial;
+    int count;
+    plain.floor.texture = (HdTexture){0};
+    job.scene = &plain;
+    HdStatus status = hd_backend_enumerate(hd_backend_always_there(), &device, 1, &count, error);
+    if (status == HD_OK)
+        status = hd_trial_open(&renderer, &device, options, &job, error);
+    if (status != HD_OK)
+        return status;
+    status = hd_trial(renderer, &job, &wish, &trial, error);
+    candidates->frame_seconds = trial.frame_seconds;
+    hd_renderer_close(renderer);
+    return status;
+}
+
+static double job_seconds(const HdCandidates *candidates) {
+    return candidates->frame_seconds * candidates->wish.job->frame_count;
 }
 
 /* Plain C is asked how long it takes before any driver is: drivers take their time to start. */
 static HdStatus estimate_any(HdCandidates *candidates, HdError *error) {
-    HdDeviceWish *wish = &candidates->wish;
     HdStatus status = estimate(candidates, HD_AUTO_SMALL_SECONDS, error);
-    double seconds = candidates->frame_seconds * wish->job->frame_count;
-    if (status != HD_OK || seconds > HD_AUTO_SMALL_SECONDS)
+    if (status != HD_OK || job_seconds(candidates) > HD_AUTO_SMALL_SECONDS)
         return status;
-    wish->kind = HD_ONLY_CPU;
+    candidates->wish.kind = HD_ONLY_CPU;
     snprintf(candidates->why, sizeof candidates->why,
-             "it needs about %.2g s, less than other devices take to start", seconds);
+             "it needs about %.2g s, less than other devices take to start",
+             job_seconds(candidates));
     return HD_OK;
 }
 
@@ -202,28 +257,140 @@ HdStatus hd_candidates_find(HdCandidates *candidates, const HdDeviceWish *wish, 
     return status;
 }
 
-HdStatus hd_devices_named(const char *backend, const char *device, HdDevice *devices, int *count,
-                          HdError *error) {
-    bool is_any = device == NULL || strcmp(device, "all") == 0;
-    HdCandidates none = {.wish = {.backend = backend, .device = is_any ? NULL : device}};
-    HdStatus status = split_name(&none.wish, error);
-    *count = 0;
-    for (int i = 0; status == HD_OK && i < HD_BACKEND_COUNT; i++) {
-        int found = 0, kept = *count;
-        if (none.wish.backend != NULL && strcmp(none.wish.backend, hd_backends[i]->name) != 0)
-            continue;
-        if (hd_backend_enumerate(hd_backends[i], devices + kept, HD_MAX_DEVICES, &found, error) !=
-            HD_OK)
-            add_reason(&none, hd_backends[i]->name, error->message);
-        for (int d = kept; d < kept + found; d++)
-            if (is_named(&devices[d], none.wish.device))
-                devices[(*count)++] = devices[d];
-        if (found > 0 && *count == kept)
-            add_reason(&none, hd_backends[i]->name, "no device of that number or name");
+/* ---- comparing ---- */
+
+enum { MAX_COMPARED = 16 };
+
+static bool is_faster(const HdCandidates *candidates, int index) {
+    const HdTeamDevice *list = candidates->list;
+    return isfinite(list[index].seconds) &&
+           (candidates->best < 0 || list[index].seconds < list[candidates->best].seconds);
+}
+
+/* False where none was measured earlier, or none works. */
+static bool recall(HdCandidates *candidates) {
+    const HdDeviceWish *wish = &candidates->wish;
+    if (!hd_measured_get(candidates->list, candidates->compared, wish->options, wish->job->scene))
+        return false;
+    for (int i = 0; i < candidates->compared; i++)
+        if (is_faster(candidates, i))
+            candidates->best = i;
+    return candidates->best >= 0;
+}
+
+static void explain_speed(HdCandidates *candidates, const char *when) {
+    const HdTeamDevice *list = candidates->list, *best = &list[candidates->best];
+    snprintf(candidates->why, sizeof candidates->why, "the fastest of %d on this kind of scene%s",
+             candidates->compared, when);
+    for (int i = 0; i < candidates->compared; i++)
+        if (&list[i] != best && isfinite(list[i].seconds))
+            hd_add_text(candidates->why, sizeof candidates->why, ", ",
+                        "%.3g ms against %.3g ms (%s %d)", 1e3 * best->seconds,
+                        1e3 * list[i].seconds, list[i].device.backend->name, list[i].device.index);
+}
+
+/* So small a picture that plain C renders it in a tenth of a second. The first of two frames warms
+   up. The fastest so far stays open. */
+static HdStatus measure_one(HdCandidates *candidates, int index, HdError *error) {
+    const double seconds = 0.1;
+    const HdDeviceWish *wish = &candidates->wish;
+    const HdTrialWish how = {.share = fmin(1.0, seconds / candidates->frame_seconds), .times = 2};
+    HdTeamDevice *member = &candidates->list[index];
+    HdTrial trial;
+    HdStatus status = hd_team_device_open(member, wish->options, wish->job, true, error);
+    if (status == HD_OK)
+        status = hd_trial(member->renderer, wish->job, &how, &trial, error);
+    member->seconds = status == HD_OK ? trial.seconds : (double)INFINITY;
+    int slower = index;
+    if (is_faster(candidates, index)) {
+        slower = candidates->best;
+        candidates->best = index;
     }
-    if (status == HD_OK && *count == 0)
-        status = hd_fail(error, HD_UNAVAILABLE, "there is no such device%s%s%s: %s",
-                         device != NULL ? " ('" : "", device != NULL ? device : "",
-                         device != NULL ? "')" : "", none.reasons);
+    if (slower >= 0)
+        hd_team_device_close(&candidates->list[slower]);
+    return status;
+}
+
+/* What failed at work may do better another time, so that nothing is remembered then. */
+static HdStatus measure_all(HdCandidates *candidates, HdError *error) {
+    const HdDeviceWish *wish = &candidates->wish;
+    bool is_lasting = true;
+    HdError ignored; /* next time it is measured again */
+    for (int i = 0; i < candidates->compared; i++) {
+        HdStatus status = measure_one(candidates, i, error);
+        if (status == HD_INTERRUPTED || status == HD_BAD_INPUT)
+            return status;
+        if (status != HD_OK)
+            note_failure(candidates, error->message);
+        bool is_passing = status == HD_FAILED || (status != HD_OK && hd_is_loss(error));
+        is_lasting = is_lasting && !is_passing;
+    }
+    if (candidates->best < 0)
+        return HD_OK;
+    if (is_lasting)
+        hd_measured_put(candidates->list, candidates->compared, wish->options, wish->job->scene,
+                        &ignored);
+    explain_speed(candidates, "");
+    return HD_OK;
+}
+
+/* ---- opening ---- */
+
+static int find_plain_c(const HdCandidates *candidates) {
+    for (int i = 0; i < candidates->compared; i++)
+        if (candidates->list[i].device.backend->needs_no_driver)
+            return i;
+    return -1;
+}
+
+static HdStatus choose(HdCandidates *candidates, HdError *error) {
+    candidates->best = -1;
+    candidates->compared = hd_min(candidates->compared, MAX_COMPARED);
+    if (candidates->compared < 2)
+        return HD_OK;
+    if (recall(candidates)) {
+        explain_speed(candidates, ", measured earlier");
+        return HD_OK;
+    }
+    if (job_seconds(candidates) >= HD_AUTO_MEASURE_SECONDS)
+        return measure_all(candidates, error);
+    candidates->best = find_plain_c(candidates);
+    if (candidates->best >= 0)
+        snprintf(candidates->why, sizeof candidates->why,
+                 "it needs about %.2g s, too little to measure other devices for",
+                 job_seconds(candidates));
+    return HD_OK;
+}
+
+/* The best, else those that follow it, else those before it. Kernels that are compiled for the
+   scene must prove themselves first; those compiled ahead get it when it is rendered. */
+static HdStatus open_next(HdCandidates *candidates, HdError *error) {
+    const HdDeviceWish *wish = &candidates->wish;
+    const int first = hd_max(candidates->best, 0);
+    const int tries = candidates->is_free ? candidates->count : 1;
+    HdStatus status = HD_UNAVAILABLE;
+    for (int i = 0; status == HD_UNAVAILABLE && i < tries; i++) {
+        candidates->best = (first + i) % candidates->count;
+        HdTeamDevice *member = &candidates->list[candidates->best];
+        bool is_proven = candidates->is_free && member->device.backend->functions->kernels != NULL;
+        status = hd_team_device_open(member, wish->options, wish->job, is_proven, error);
+        if (status == HD_UNAVAILABLE)
+            note_failure(candidates, error->message);
+        if (i > 0 && candidates->compared > 0)
+            snprintf(candidates->why, sizeof candidates->why,
+                     "the next after one that cannot be used");
+    }
+    return status;
+}
+
+HdStatus hd_candidates_open(HdCandidates *candidates, HdTeamDevice *opened, HdError *error) {
+    HdStatus status = choose(candidates, error);
+    if (status == HD_OK &&
+        (candidates->best < 0 || candidates->list[candidates->best].renderer == NULL))
+        status = open_next(candidates, error);
+    if (status == HD_OK)
+        *opened = candidates->list[candidates->best];
+    else if (candidates->best >= 0)
+        hd_team_device_close(&candidates->list[candidates->best]);
     return status;
 }

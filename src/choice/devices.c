@@ -6,12 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "choice/fastest_device.h"
+#include "base/minmax.h"
+#include "base/text.h"
 #include "system/machine.h"
 
 void hd_close_devices(HdDeviceTeam *team) {
     for (; team->count > 0; team->count--)
-        hd_launch_close(&team->list[team->count - 1]);
+        hd_team_device_close(&team->list[team->count - 1]);
 }
 
 /* ---- one ---- */
@@ -55,7 +56,7 @@ static HdStatus open_one(HdDeviceTeam *team, const HdDeviceWish *wish, HdError *
     team->note[0] = team->why[0] = '\0';
     HdStatus status = hd_candidates_find(&candidates, wish, error);
     if (status == HD_OK)
-        status = hd_fastest_open(&candidates, &team->list[team->count], error);
+        status = hd_candidates_open(&candidates, &team->list[team->count], error);
     if (status != HD_OK)
         return status;
     team->count++;
@@ -141,9 +142,8 @@ static HdRenderOptions options_of(const HdDeviceTeam *team, const HdDevice *devi
     int gpus = 0;
     for (int i = 0; i < team->count; i++)
         gpus += !team->list[i].device.is_cpu;
-    int left = hd_processor_count() - gpus;
     if (device->backend->uses_host_threads && own.threads == 0 && gpus > 0)
-        own.threads = left > 1 ? left : 1;
+        own.threads = hd_max(hd_processor_count() - gpus, 1);
     return own;
 }
 
@@ -155,15 +155,14 @@ static HdStatus add_device(HdDeviceTeam *team, const HdDevice *device, const HdD
     if (obstacle == NULL) {
         HdTeamDevice *member = &team->list[team->count];
         *member = (HdTeamDevice){.device = *device};
-        HdStatus status = hd_launch_open(member, &own, wish->job, false, error);
+        HdStatus status = hd_team_device_open(member, &own, wish->job, false, error);
         team->count += status == HD_OK;
         if (status == HD_OK || status == HD_INTERRUPTED)
             return status;
         obstacle = error->message;
     }
-    size_t length = strlen(team->note);
-    snprintf(team->note + length, sizeof team->note - length, "%s%s:%d (%s) is left out: %s",
-             length > 0 ? "; " : "", device->backend->name, device->index, device->name, obstacle);
+    hd_add_text(team->note, sizeof team->note, "; ", "%s:%d (%s) is left out: %s",
+                device->backend->name, device->index, device->name, obstacle);
     return HD_OK;
 }
 
@@ -209,6 +208,7 @@ static HdStatus open_wanted(HdDeviceTeam *team, const HdDeviceWish *wish, HdErro
 
 HdStatus hd_open_devices(HdDeviceTeam *team, const HdDeviceWish *wish, HdError *error) {
     memset(team, 0, sizeof *team);
+    team->precision = wish->options->precision;
     HdStatus status = open_wanted(team, wish, error);
     if (status != HD_OK)
         hd_close_devices(team);

@@ -8,12 +8,13 @@
 typedef struct HdDeviceTeam {
     HdTeamDevice list[HD_MOST_TRACERS]; /* open */
     int count;
-    char note[4096]; /* worth telling unasked; empty: nothing is */
-    char why[8192];  /* why these devices, and why others were passed over */
+    HdPrecision precision; /* that was asked for */
+    char note[4096];       /* worth telling unasked; empty: nothing is */
+    char why[8192];        /* why these devices, and why others were passed over */
 } HdDeviceTeam;
 
 /* Opens a device that can do what the wish's options ask: the best candidate (candidates.h), or,
-   where nobody named one, the fastest (fastest_device.h): among GPUs where one is preferred, else
+   where nobody named one, the fastest (hd_candidates_open): among GPUs where one is preferred, else
    among GPUs and plain C. Where a GPU was preferred, no backend was named and there is none, a note
    says so in a sentence.
 

@@ -1,44 +1,71 @@
 /* SPDX-License-Identifier: MIT */
-/* The program's commands. Each returns the status that becomes the exit code. */
+/* The program's commands: the table of them, the texts that help and man page share, and what they
+   do. */
 #ifndef HD_CLI_COMMANDS_H
 #define HD_CLI_COMMANDS_H
 
-#include "cli/options.h"
+#include "base/error.h"
 
-/* The classic mode: input on standard input, one line for each frame on standard output. */
-HdStatus hd_command_classic(const HdOptions *options, HdError *error);
+/* Each is a bit, for the options to tell which commands they belong to. */
+typedef enum HdCommand {
+    HD_COMMAND_CLASSIC = 1, /* no command at all */
+    HD_COMMAND_RENDER = 2,
+    HD_COMMAND_CHECK = 4,
+    HD_COMMAND_CONVERT = 8,
+    HD_COMMAND_DEVICES = 16,
+    HD_COMMAND_TUNE = 32,
+    HD_COMMAND_HELP = 64,
+    HD_COMMAND_VERSION = 128,
+    HD_COMMAND_COMPARE = 256,
+    HD_COMMAND_NEW = 512,
+    HD_COMMAND_COMPLETE = 1024,
+    HD_COMMAND_SELFTEST = 2048,
+    HD_COMMAND_VIEW = 4096
+} HdCommand;
 
-/* Renders a scene file, or the built-in scene. */
-HdStatus hd_command_render(const HdOptions *options, HdError *error);
+typedef struct HdExplained {
+    const char *text, *meaning;
+} HdExplained;
 
-/* Reads scenes and says what is wrong with them. */
-HdStatus hd_command_check(const HdOptions *options, HdError *error);
+/* What there is help about, apart from commands. */
+enum { HD_HELP_SCENE, HD_HELP_MAN, HD_HELP_BASH, HD_HELP_ZSH, HD_HELP_FISH, HD_HELP_TOPIC_COUNT };
+extern const HdExplained hd_help_topics[HD_HELP_TOPIC_COUNT];
 
-/* Turns a classic input into a scene file. */
-HdStatus hd_command_convert(const HdOptions *options, HdError *error);
+/* Negative where there is none of that name. */
+int hd_help_topic_named(const char *name);
 
-/* Lists backends and devices on standard output. */
-HdStatus hd_command_devices(const HdOptions *options, HdError *error);
+typedef struct HdCommandSpec {
+    HdCommand command;
+    const char *name;        /* NULL: the classic mode */
+    const char *operands;    /* as the usage shows them; "" where there are none */
+    const char *ending;      /* of the files that are operands; NULL: any, or no files */
+    int most_operands;       /* -1: any number */
+    const char *summary;     /* half a sentence for lists */
+    const char *description; /* paragraphs, separated by empty lines */
+} HdCommandSpec;
 
-/* Tests what devices compute and prints a certificate for each; HD_FAILED where one is wrong. */
-HdStatus hd_command_selftest(const HdOptions *options, HdError *error);
+enum { HD_COMMAND_SPEC_COUNT = 12 };
+extern const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT];
 
-/* Measures ways to launch a device's kernels for a scene, prints them and remembers the best. */
-HdStatus hd_command_tune(const HdOptions *options, HdError *error);
+/* NULL where no command has that name. */
+const HdCommandSpec *hd_command_named(const char *name);
+const HdCommandSpec *hd_command_spec(HdCommand command);
 
-/* Prints how far two pictures are apart; HD_FAILED where that is too far. */
-HdStatus hd_command_compare(const HdOptions *options, HdError *error);
+/* The program in half a sentence. */
+extern const char hd_program_summary[];
 
-/* Writes the scene to start from. */
-HdStatus hd_command_new(const HdOptions *options, HdError *error);
+enum { HD_EXIT_CODE_COUNT = 5, HD_EXAMPLE_COUNT = 13, HD_VARIABLE_COUNT = 4 };
+extern const HdExplained hd_exit_codes[HD_EXIT_CODE_COUNT];
+extern const HdExplained hd_examples[HD_EXAMPLE_COUNT];
+extern const HdExplained hd_variables[HD_VARIABLE_COUNT]; /* of the environment */
 
-/* Prints how the last word of a command line may go on, for the scripts in completions/. */
-void hd_command_complete(const HdOptions *options);
+typedef struct HdOptions HdOptions;
 
-/* Prints help, the man page or the completion script on standard output. */
-void hd_command_help(const HdHelpTopic *topic);
+/* What a command does; the status becomes the exit code. */
+typedef HdStatus HdCommandFunction(const HdOptions *options, HdError *error);
 
-/* A man page in troff, on standard output. */
-void hd_print_man_page(void);
+HdCommandFunction hd_command_classic, hd_command_render, hd_command_check, hd_command_convert,
+    hd_command_devices, hd_command_selftest, hd_command_tune, hd_command_compare, hd_command_new,
+    hd_command_complete, hd_command_help;
 
 #endif

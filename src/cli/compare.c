@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "cli/commands.h"
+#include "cli/options.h"
 #include "image/difference.h"
 #include "image/picture.h"
 #include "input/json/json_device_text.h"

@@ -3,8 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/commands.h"
+#include "cli/options.h"
 #include "input/fields.h"
+#include "render/backends.h"
 
 /* A command line up to the word that is being typed. */
 typedef struct Line {
@@ -18,43 +19,33 @@ typedef struct Line {
 
 /* ---- what the words before say ---- */
 
-static bool is_name(const HdOptionSpec *spec, const char *word, size_t length) {
-    const bool is_long = strlen(spec->name) == length && strncmp(spec->name, word, length) == 0;
-    return is_long || (spec->short_name != NULL && strcmp(spec->short_name, word) == 0);
-}
-
-/* The option of the command that the first `length` characters of a word name, or NULL. */
-static const HdOptionSpec *find_option(const HdCommandSpec *command, const char *word,
-                                       size_t length) {
-    const HdOptionSpec *spec = NULL;
-    do
-        spec = hd_option_next(spec, command->command);
-    while (spec != NULL && !is_name(spec, word, length));
-    return spec;
+/* Of the command. */
+static const HdOptionSpec *find_option(const Line *line, const char *word, const char **value) {
+    const HdCommand command = line->command->command;
+    const HdOptionSpec *spec = hd_option_find(word, command, value);
+    return spec != NULL && (spec->commands & (unsigned)command) != 0 ? spec : NULL;
 }
 
 static void read_word(Line *line, const char *word) {
+    const char *value;
     const bool is_value = line->option != NULL;
     line->option = NULL;
-    if (is_value)
-        return;
-    if (line->only_operands || word[0] != '-' || word[1] == '\0')
+    if (is_value || line->only_operands || word[0] != '-' || word[1] == '\0')
         return;
     line->only_operands = strcmp(word, "--") == 0;
-    const HdOptionSpec *spec = find_option(line->command, word, strlen(word));
-    if (spec != NULL && spec->value != NULL)
+    const HdOptionSpec *spec = find_option(line, word, &value);
+    if (spec != NULL && spec->value != NULL && value == NULL)
         line->option = spec;
 }
 
 static void read_typed(Line *line, const char *word) {
-    const size_t length = strcspn(word, "=");
-    line->kept = word;
-    line->typed = word;
-    if (line->option != NULL || line->only_operands || word[0] != '-' || word[length] == '\0')
+    const char *value, *equals = strchr(word, '=');
+    line->kept = line->typed = word;
+    if (line->option != NULL || line->only_operands || word[0] != '-' || equals == NULL)
         return;
-    line->option = find_option(line->command, word, length);
-    line->kept_length = (int)length + 1;
-    line->typed = word + length + 1;
+    line->option = find_option(line, word, &value);
+    line->typed = equals + 1;
+    line->kept_length = (int)(line->typed - word);
 }
 
 static Line read_line(char *const *words, int count) {
@@ -70,8 +61,7 @@ static Line read_line(char *const *words, int count) {
 /* ---- what may follow ---- */
 
 /* Prints it if it begins with what is typed. */
-static void offer(const void *of_line, const char *word, const char *about) {
-    const Line *line = of_line;
+static void offer(const Line *line, const char *word, const char *about) {
     if (strncmp(word, line->typed, strlen(line->typed)) != 0)
         return;
     printf("%.*s%s", line->kept_length, line->kept, word);
@@ -91,12 +81,6 @@ static void offer_commands(const Line *line) {
     for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
         if (hd_command_specs[i].name != NULL && hd_command_specs[i].command != HD_COMMAND_COMPLETE)
             offer(line, hd_command_specs[i].name, hd_command_specs[i].summary);
-}
-
-static void offer_topics(const Line *line) {
-    offer_commands(line);
-    for (int i = HD_HELP_TEXT + 1; i < HD_HELP_FORM_COUNT; i++)
-        offer(line, hd_help_forms[i].text, hd_help_forms[i].meaning);
 }
 
 static void offer_devices(const Line *line) {
@@ -170,16 +154,17 @@ static void offer_value(const Line *line) {
 
 static void offer_operands(const Line *line) {
     const HdCommandSpec *command = line->command;
-    if (command->name == NULL) {
-        if (line->is_first)
-            offer_commands(line);
-    } else if (command->command == HD_COMMAND_HELP)
-        offer_topics(line);
-    else if (command->most_operands != 0)
+    if (command->command == HD_COMMAND_HELP || (command->name == NULL && line->is_first))
+        offer_commands(line);
+    if (command->command == HD_COMMAND_HELP)
+        for (int i = 0; i < HD_HELP_TOPIC_COUNT; i++)
+            offer(line, hd_help_topics[i].text, hd_help_topics[i].meaning);
+    else if (command->name != NULL && command->most_operands != 0)
         printf(":%s\n", command->ending != NULL ? command->ending : "");
 }
 
-void hd_command_complete(const HdOptions *options) {
+HdStatus hd_command_complete(const HdOptions *options, HdError *error) {
+    (void)error;
     const Line line = read_line(options->operands, options->operand_count);
     if (line.option != NULL)
         offer_value(&line);
@@ -187,4 +172,5 @@ void hd_command_complete(const HdOptions *options) {
         offer_options(&line);
     else
         offer_operands(&line);
+    return HD_OK;
 }

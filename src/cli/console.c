@@ -15,7 +15,6 @@
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
-#include "system/warnings.h"
 
 enum { BAR_WIDTH = 24, SECONDS_BETWEEN_LINES = 5, MAX_HOURS = 99999, USUAL_COLUMNS = 80 };
 
@@ -334,7 +333,7 @@ static void note_device(const HdTeamDevice *opened, const char *why) {
     char launch[128];
     fprintf(stderr, "device    %s %d, %s (%s): %s\n", device->backend->name, device->index,
             device->name, device->driver, why);
-    hd_launch_describe(&opened->launch, launch, sizeof launch);
+    hd_launch_describe(&opened->options, launch, sizeof launch);
     if (opened->is_tuned)
         fprintf(stderr, "launch    %s: the best for this kind of scene, by 'hedron tune'\n",
                 launch);

@@ -3,9 +3,10 @@
 #include <stdio.h>
 
 #include "base/text.h"
-#include "cli/commands.h"
+#include "cli/options.h"
 #include "input/json/json_device_text.h"
 #include "output/fingerprint.h"
+#include "render/backends.h"
 
 /* What a driver says may command a terminal. */
 static void print_text(const char *before, const char *text) {

@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 #include "cli/options.h"
 
+#include <errno.h>
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/text.h"
 #include "input/classic.h"
 #include "output/outputs.h"
+#include "system/path.h"
 
 enum {
     RENDERING = HD_COMMAND_CLASSIC | HD_COMMAND_RENDER,
@@ -66,11 +70,277 @@ const HdOptionSpec *hd_option_next(const HdOptionSpec *spec, HdCommand command) 
     return spec->name != NULL ? spec : NULL;
 }
 
+/* "-n", or "-nVALUE" where it takes one. */
+static bool is_short(const HdOptionSpec *spec, const char *argument) {
+    if (spec->short_name == NULL || strncmp(argument, spec->short_name, 2) != 0)
+        return false;
+    return argument[2] == '\0' || (spec->value != NULL && argument[2] != '=');
+}
+
+const HdOptionSpec *hd_option_find(const char *argument, HdCommand command, const char **value) {
+    const HdOptionSpec *found = NULL;
+    size_t length = strcspn(argument, "=");
+    *value = argument[length] == '=' ? argument + length + 1 : NULL;
+    for (const HdOptionSpec *spec = hd_option_specs; spec->name != NULL; spec++) {
+        bool is_long = strlen(spec->name) == length && strncmp(spec->name, argument, length) == 0;
+        if (!is_long && !is_short(spec, argument))
+            continue;
+        if (!is_long)
+            *value = argument[2] != '\0' ? argument + 2 : NULL;
+        if (found == NULL || (spec->commands & (unsigned)command) != 0)
+            found = spec;
+    }
+    return found;
+}
+
 void hd_option_heading(const HdOptionSpec *spec, char *text, int capacity) {
     snprintf(text, (size_t)capacity, "%s%s%s%s%s", spec->short_name ? spec->short_name : "",
              spec->short_name ? ", " : "", spec->name, spec->value ? " " : "",
              spec->value ? spec->value : "");
 }
+
+/* ---- from the text behind an option to the member that it sets ---- */
+
+/* An option that was given. */
+typedef struct Given {
+    HdOptions *options;
+    const HdOptionSpec *spec;
+    const char *text; /* its value */
+    void *member;     /* of the options: what it sets */
+} Given;
+
+static void *at(HdOptions *options, size_t offset) {
+    return (char *)options + offset;
+}
+
+static HdStatus fail_expecting(const Given *given, const char *expected, HdError *error) {
+    return hd_fail(error, HD_BAD_INPUT, "%s is '%s', expected %s", given->spec->name, given->text,
+                   expected);
+}
+
+static HdStatus apply_flag(const Given *given, HdError *error) {
+    const char *only_one_of = given->spec->only_one_of;
+    *(bool *)given->member = true;
+    for (const HdOptionSpec *other = hd_option_specs; other->name != NULL; other++)
+        if (only_one_of != NULL && other->only_one_of == only_one_of && other != given->spec &&
+            *(const bool *)at(given->options, other->offset))
+            return hd_fail(error, HD_BAD_INPUT, "only one of %s may be given", only_one_of);
+    return HD_OK;
+}
+
+static HdStatus apply_command(const Given *given, HdError *error) {
+    (void)error;
+    given->options->topic = hd_command_spec(given->options->command)->name;
+    given->options->command = given->spec->command;
+    return HD_OK;
+}
+
+static size_t digits(const char *text) {
+    return strspn(text, "0123456789");
+}
+
+/* "1", "0.5", ".5" and "1e-3": what strtod takes beyond it is no number on a command line. */
+static bool is_decimal(const char *text) {
+    size_t whole = digits(text), fraction = 0;
+    text += whole;
+    if (*text == '.') {
+        fraction = digits(text + 1);
+        text += 1 + fraction;
+    }
+    if (*text == 'e' || *text == 'E') {
+        text += 1 + (text[1] == '-' || text[1] == '+');
+        if (digits(text) == 0)
+            return false;
+        text += digits(text);
+    }
+    return whole + fraction > 0 && *text == '\0';
+}
+
+/* Moves `*text` past a whole number in the range and one of the characters `ends`, of "" the end of
+   the text. */
+static bool take_number(const char **text, const char *ends, double low, double high, int *out) {
+    char *rest;
+    errno = 0;
+    if (digits(*text) == 0)
+        return false;
+    const long value = strtol(*text, &rest, 10);
+    const bool has_end = *rest == '\0' ? *ends == '\0' : strchr(ends, *rest) != NULL;
+    if (!has_end || errno != 0 || (double)value < low || (double)value > high)
+        return false;
+    *out = (int)value;
+    *text = rest + (*rest != '\0');
+    return true;
+}
+
+static HdStatus apply_integer(const Given *given, HdError *error) {
+    const HdOptionSpec *spec = given->spec;
+    const char *rest = given->text;
+    char expected[64];
+    int *out = given->member;
+    if (!take_number(&rest, "", spec->low, spec->high, out))
+        snprintf(expected, sizeof expected, "a whole number from %.0f to %.0f", spec->low,
+                 spec->high);
+    else if (spec->step != 0 && *out % spec->step != 0)
+        snprintf(expected, sizeof expected, "a multiple of %d", spec->step);
+    else
+        return HD_OK;
+    return fail_expecting(given, expected, error);
+}
+
+static HdStatus apply_real(const Given *given, HdError *error) {
+    const HdOptionSpec *spec = given->spec;
+    const double value = is_decimal(given->text) ? strtod(given->text, NULL) : (double)NAN;
+    char expected[64];
+    *(double *)given->member = value;
+    if (value >= spec->low && (spec->below_high ? value < spec->high : value <= spec->high))
+        return HD_OK;
+    snprintf(expected, sizeof expected, "a number from %g to %s%g", spec->low,
+             spec->below_high ? "below " : "", spec->high);
+    return fail_expecting(given, expected, error);
+}
+
+static HdStatus apply_size(const Given *given, HdError *error) {
+    HdPlannedSize *size = given->member;
+    const char *rest = given->text;
+    if (take_number(&rest, "xX", 1, HD_MAX_IMAGE_SIDE, &size->width) &&
+        take_number(&rest, "", 1, HD_MAX_IMAGE_SIDE, &size->height))
+        return HD_OK;
+    return fail_expecting(given, given->spec->expected, error);
+}
+
+static HdStatus apply_crop(const Given *given, HdError *error) {
+    HdPlannedCrop *crop = given->member;
+    const char *rest = given->text;
+    if (take_number(&rest, "x", 1, HD_MAX_IMAGE_SIDE, &crop->width) &&
+        take_number(&rest, "+", 1, HD_MAX_IMAGE_SIDE, &crop->height) &&
+        take_number(&rest, "+", 0, HD_MAX_IMAGE_SIDE, &crop->left) &&
+        take_number(&rest, "", 0, HD_MAX_IMAGE_SIDE, &crop->top))
+        return HD_OK;
+    return fail_expecting(given, given->spec->expected, error);
+}
+
+/* The number of the choice that the first `length` characters are, from 0; -1: it is none. */
+static int choice_of(const char *const *choices, const char *word, size_t length) {
+    for (int i = 0; choices[i] != NULL; i++)
+        if (strncmp(choices[i], word, length) == 0 && choices[i][length] == '\0')
+            return i;
+    return -1;
+}
+
+/* "auto, c, opencl or cuda" */
+static void list_choices(const char *const *choices, char *text, int capacity) {
+    size_t used = 0, room = (size_t)capacity;
+    text[0] = '\0';
+    for (int i = 0; choices[i] != NULL && used < room; i++) {
+        const char *separator = i == 0 ? "" : choices[i + 1] == NULL ? " or " : ", ";
+        used += (size_t)snprintf(text + used, room - used, "%s%s", separator, choices[i]);
+    }
+}
+
+/* With the first choice that begins with the text; nothing completes an empty one. */
+static HdStatus fail_choosing(const Given *given, HdError *error) {
+    const size_t length = strlen(given->text);
+    char list[256];
+    list_choices(given->spec->choices, list, sizeof list);
+    for (const char *const *choice = given->spec->choices; *choice != NULL && length > 0; choice++)
+        if (strncmp(given->text, *choice, length) == 0)
+            return hd_fail(error, HD_BAD_INPUT, "%s is '%s', expected %s; did you mean '%s'?",
+                           given->spec->name, given->text, list, *choice);
+    return fail_expecting(given, list, error);
+}
+
+static HdStatus apply_choice(const Given *given, HdError *error) {
+    const int number = choice_of(given->spec->choices, given->text, strlen(given->text));
+    if (number < 0)
+        return fail_choosing(given, error);
+    if (given->spec->type == HD_OPTION_WORD)
+        *(const char **)given->member = number > 0 ? given->text : NULL;
+    else
+        *(int *)given->member = given->spec->type == HD_OPTION_NUMERAL ? atoi(given->text) : number;
+    return HD_OK;
+}
+
+static HdStatus apply_set(const Given *given, HdError *error) {
+    const HdOptionSpec *spec = given->spec;
+    unsigned *set = given->member;
+    *set = 0;
+    for (const char *word = given->text;;) {
+        const size_t length = strcspn(word, ",");
+        const int number = choice_of(spec->choices, word, length);
+        if (number < 0) {
+            char list[256];
+            list_choices(spec->choices, list, sizeof list);
+            return hd_fail(error, HD_BAD_INPUT,
+                           "%s has '%.*s', expected some of %s, separated by commas", spec->name,
+                           (int)length, word, list);
+        }
+        if ((*set >> number & 1) != 0)
+            return hd_fail(error, HD_BAD_INPUT, "%s has %s twice", spec->name,
+                           spec->choices[number]);
+        *set |= 1u << number;
+        if (word[length] == '\0')
+            return HD_OK;
+        word += length + 1;
+    }
+}
+
+static HdStatus set_text(const Given *given, const char **out, HdError *error) {
+    const HdOptionSpec *spec = given->spec;
+    *out = given->text;
+    if (spec->check != NULL && spec->check(given->text, spec->name, error) != HD_OK)
+        return error->status;
+    if (given->text[0] == '\0' && spec->expected != NULL)
+        return hd_fail(error, HD_BAD_INPUT, "%s is empty, expected %s", spec->name, spec->expected);
+    return HD_OK;
+}
+
+static HdStatus apply_text(const Given *given, HdError *error) {
+    return set_text(given, given->member, error);
+}
+
+static HdStatus apply_texts(const Given *given, HdError *error) {
+    const char **texts = given->member;
+    int *count = at(given->options, given->spec->count_offset);
+    if (*count == (int)given->spec->high)
+        return hd_fail(error, HD_BAD_INPUT, "%s '%.4000s' is one too many, expected at most %d",
+                       given->spec->name, given->text, *count);
+    return set_text(given, &texts[(*count)++], error);
+}
+
+static HdStatus apply_change(const Given *given, HdError *error) {
+    const char *equals = strchr(given->text, '=');
+    if (equals == NULL || equals == given->text)
+        return fail_expecting(given, given->spec->expected, error);
+    return apply_texts(given, error);
+}
+
+/* What there is where no option is given. */
+static void reset(HdOptions *options) {
+    memset(options, 0, sizeof *options);
+    for (const HdOptionSpec *spec = hd_option_specs; spec->name != NULL; spec++)
+        if (spec->type == HD_OPTION_REAL)
+            *(double *)at(options, spec->offset) = spec->unset;
+        else if (spec->type == HD_OPTION_INTEGER || spec->type == HD_OPTION_CHOICE)
+            *(int *)at(options, spec->offset) = spec->unset;
+}
+
+/* Lays one option over those read before; `value` is "" for one that takes none. */
+static HdStatus apply_option(HdOptions *options, const HdOptionSpec *spec, const char *value,
+                             HdError *error) {
+    static HdStatus (*const apply[])(const Given *, HdError *) = {
+        [HD_OPTION_FLAG] = apply_flag,       [HD_OPTION_COMMAND] = apply_command,
+        [HD_OPTION_INTEGER] = apply_integer, [HD_OPTION_REAL] = apply_real,
+        [HD_OPTION_CHOICE] = apply_choice,   [HD_OPTION_NUMERAL] = apply_choice,
+        [HD_OPTION_WORD] = apply_choice,     [HD_OPTION_SET] = apply_set,
+        [HD_OPTION_SIZE] = apply_size,       [HD_OPTION_CROP] = apply_crop,
+        [HD_OPTION_TEXT] = apply_text,       [HD_OPTION_TEXTS] = apply_texts,
+        [HD_OPTION_CHANGES] = apply_change,
+    };
+    const Given given = {options, spec, value, at(options, spec->offset)};
+    return apply[spec->type](&given, error);
+}
+
+/* ---- and back ---- */
 
 /* The value of an option that was given; false: it was not, or is at its default. */
 static bool spell_value(const HdOptionSpec *spec, const void *member, char *value, size_t size) {
@@ -133,4 +403,206 @@ void hd_options_spell(const HdOptions *options, bool all, char *text, size_t siz
             append(text, size, value);
         }
     }
+}
+
+/* ---- the command line ---- */
+
+/* What a reference has where nothing else was asked for. */
+enum { REFERENCE_SAMPLES = 32 };
+#define REFERENCE_ERROR (1.0 / 64.0)
+
+typedef struct Parser {
+    HdOptions *options;
+    const HdCommandSpec *command;
+    int count, next; /* arguments, and the number of the one to be read next */
+    char **arguments;
+    bool only_operands; /* after "--" */
+} Parser;
+
+/* "did you mean '--size'?", or where to look. */
+static void suggest(const HdNearest *nearest, const char *prefix, const HdCommandSpec *command,
+                    char text[128]) {
+    if (nearest->name != NULL)
+        snprintf(text, 128, "did you mean '%s%s'?", prefix, nearest->name);
+    else if (command->name != NULL)
+        snprintf(text, 128, "see 'hedron help %s'", command->name);
+    else
+        snprintf(text, 128, "see 'hedron help'");
+}
+
+static HdStatus fail_unknown_option(const Parser *parser, const char *argument, HdError *error) {
+    char word[32], suggestion[128];
+    snprintf(word, sizeof word, "%.*s", (int)strcspn(argument, "="), argument);
+    HdNearest nearest = {.word = word};
+    const HdOptionSpec *spec = NULL;
+    while ((spec = hd_option_next(spec, parser->options->command)) != NULL)
+        hd_nearest_offer(&nearest, spec->name);
+    suggest(&nearest, "", parser->command, suggestion);
+    return hd_fail(error, HD_BAD_INPUT, "unknown option '%s'; %s", argument, suggestion);
+}
+
+static void offer_commands(HdNearest *nearest) {
+    for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
+        if (hd_command_specs[i].name != NULL)
+            hd_nearest_offer(nearest, hd_command_specs[i].name);
+}
+
+static HdStatus fail_unknown_command(const Parser *parser, const char *argument, HdError *error) {
+    char suggestion[sizeof error->message];
+    const size_t size = sizeof suggestion;
+    if (hd_path_has_ending(argument, ".json"))
+        snprintf(suggestion, size, "did you mean 'hedron render %s'?", argument);
+    else if (hd_help_topic_named(argument) >= 0)
+        snprintf(suggestion, size, "did you mean 'hedron help %s'?", argument);
+    else if (strcmp(argument, "version") == 0)
+        snprintf(suggestion, size, "did you mean 'hedron --version'?");
+    else if (strpbrk(argument, "./") != NULL)
+        snprintf(suggestion, size, "the classic mode reads standard input: hedron --cpu < %s",
+                 argument);
+    else {
+        HdNearest nearest = {.word = argument};
+        offer_commands(&nearest);
+        suggest(&nearest, "hedron ", parser->command, suggestion);
+    }
+    return hd_fail(error, HD_BAD_INPUT, "'%s' is neither a command nor an option; %s", argument,
+                   suggestion);
+}
+
+static HdStatus add_operand(Parser *parser, char *argument, HdError *error) {
+    HdOptions *options = parser->options;
+    const char *name = parser->command->name;
+    const int most = parser->command->most_operands;
+    if (name == NULL)
+        return fail_unknown_command(parser, argument, error);
+    if (argument[0] == '\0' && options->command != HD_COMMAND_COMPLETE)
+        return hd_fail(error, HD_BAD_INPUT, "'hedron %s' was given an empty name", name);
+    if (most == 0)
+        return hd_fail(error, HD_BAD_INPUT, "'hedron %s' takes options only, but '%s' was given",
+                       name, argument);
+    if (most > 0 && options->operand_count == most)
+        return hd_fail(error, HD_BAD_INPUT, "'hedron %s' takes %s only, but '%s' came after '%s'",
+                       name, most == 1 ? "one name" : "two names", argument,
+                       options->operands[most - 1]);
+    options->operands[options->operand_count++] = argument;
+    return HD_OK;
+}
+
+static HdStatus fail_foreign_option(const Parser *parser, const HdOptionSpec *spec,
+                                    HdError *error) {
+    const char *name = parser->command->name;
+    if (name == NULL)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s does not belong to the classic mode; see 'hedron help'", spec->name);
+    return hd_fail(error, HD_BAD_INPUT, "%s does not belong to 'hedron %s'; see 'hedron help %s'",
+                   spec->name, name, name);
+}
+
+static HdStatus parse_argument(Parser *parser, HdError *error) {
+    char *argument = parser->arguments[parser->next++];
+    const char *value;
+    if (!parser->only_operands && strcmp(argument, "--") == 0) {
+        parser->only_operands = true;
+        return HD_OK;
+    }
+    if (parser->only_operands || argument[0] != '-' || argument[1] == '\0')
+        return add_operand(parser, argument, error);
+    const HdOptionSpec *spec = hd_option_find(argument, parser->options->command, &value);
+    if (spec == NULL)
+        return fail_unknown_option(parser, argument, error);
+    if (!(spec->commands & (unsigned)parser->options->command))
+        return fail_foreign_option(parser, spec, error);
+    if (spec->value == NULL && value != NULL)
+        return hd_fail(error, HD_BAD_INPUT, "%s takes no value, but '%s' was given", spec->name,
+                       value);
+    if (spec->value != NULL && value == NULL) {
+        if (parser->next >= parser->count)
+            return hd_fail(error, HD_BAD_INPUT, "%s needs a value (%s)", spec->name, spec->value);
+        value = parser->arguments[parser->next++];
+    }
+    if (value == NULL) /* and none is wanted */
+        value = "";
+    return apply_option(parser->options, spec, value, error);
+}
+
+static HdStatus check_topic(const char *name, HdError *error) {
+    HdNearest nearest = {.word = name};
+    char suggestion[128];
+    if (hd_command_named(name) != NULL || hd_help_topic_named(name) >= 0)
+        return HD_OK;
+    for (int i = 0; i < HD_HELP_TOPIC_COUNT; i++)
+        hd_nearest_offer(&nearest, hd_help_topics[i].text);
+    offer_commands(&nearest);
+    suggest(&nearest, "hedron help ", hd_command_spec(HD_COMMAND_HELP), suggestion);
+    return hd_fail(error, HD_BAD_INPUT, "there is no help on '%s'; %s", name, suggestion);
+}
+
+/* What can only be told once all arguments are known. */
+static HdStatus check_together(HdOptions *options, HdError *error) {
+    if (options->command == HD_COMMAND_HELP && options->operand_count > 0) {
+        options->topic = options->operands[0];
+        return check_topic(options->topic, error);
+    }
+    if (options->command == HD_COMMAND_CHECK && options->schema && options->operand_count > 0)
+        return hd_fail(error, HD_BAD_INPUT, "--schema looks at no scene, but '%s' was given",
+                       options->operands[0]);
+    if (options->command == HD_COMMAND_CHECK && !options->schema && options->operand_count == 0)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "'hedron check' needs the name of a scene; see 'hedron help check'");
+    if (options->command == HD_COMMAND_COMPARE && options->operand_count < 2)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "'hedron compare' needs the names of two pictures; see 'hedron help "
+                       "compare'");
+    if (options->command == HD_COMMAND_CLASSIC && options->store.statistics != NULL &&
+        strcmp(options->store.statistics, "-") == 0)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "--stats is '-', but standard output has the lines of the classic mode; "
+                       "expected a file");
+    if (options->reference && options->scene.sampling >= 0)
+        return hd_fail(error, HD_BAD_INPUT, "--reference has samples of its own: leave out --aa");
+    return HD_OK;
+}
+
+/* What the command and several options together decide. */
+static void complete_plan(HdOptions *options) {
+    HdScenePlan *scene = &options->scene;
+    const bool is_classic = options->command == HD_COMMAND_CLASSIC;
+    if (options->reference)
+        options->devices.render.precision = HD_PRECISION_DOUBLE;
+    hd_options_spell(options, false, scene->given, sizeof scene->given);
+    hd_options_spell(options, true, options->store.given, sizeof options->store.given);
+    if (options->reference) {
+        scene->sampling = HD_SAMPLING_REFERENCE;
+        scene->samples = scene->samples > 0 ? scene->samples : REFERENCE_SAMPLES;
+        scene->max_error = scene->max_error > 0.0 ? scene->max_error : REFERENCE_ERROR;
+    }
+    scene->path = is_classic ? "-" : options->operand_count > 0 ? options->operands[0] : NULL;
+    if (is_classic)
+        options->devices.kind = options->cpu ? HD_ONLY_CPU : HD_PREFER_GPU;
+    options->store.again |= is_classic;
+    options->telling.wants_lines = options->command == HD_COMMAND_RENDER;
+}
+
+HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdError *error) {
+    reset(options);
+    const HdCommandSpec *command = count > 1 ? hd_command_named(arguments[1]) : NULL;
+    Parser parser = {
+        .options = options,
+        .command = command != NULL ? command : hd_command_spec(HD_COMMAND_CLASSIC),
+        .count = count,
+        .next = command != NULL ? 2 : 1,
+        .arguments = arguments,
+    };
+    options->command = parser.command->command;
+    options->operands = arguments + parser.next;
+    while (parser.next < count && options->command == parser.command->command) {
+        HdStatus status = parse_argument(&parser, error);
+        if (status != HD_OK)
+            return status;
+    }
+    if (options->command != parser.command->command)
+        return HD_OK;
+    HdStatus status = check_together(options, error);
+    if (status == HD_OK)
+        complete_plan(options);
+    return status;
 }

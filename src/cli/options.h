@@ -7,18 +7,17 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/error.h"
-#include "cli/command_table.h"
+#include "cli/commands.h"
 #include "run/plan.h"
 
 /* What the command line said: the parts of the plan, each for its reader, and what belongs to a
    single command. Where an option is not given, its member is 0, false or NULL, or what its row
    says
    (`unset`). */
-typedef struct HdOptions {
+struct HdOptions {
     HdCommand command;
-    HdHelpTopic help_topic; /* of HD_COMMAND_HELP */
-    char **operands;        /* what is no option, in order; at the front of main's arguments */
+    const char *topic; /* of HD_COMMAND_HELP: a command or a topic; NULL: the program */
+    char **operands;   /* what is no option, in order; at the front of main's arguments */
     int operand_count;
     HdScenePlan scene;
     HdDevicePlan devices;
@@ -29,7 +28,7 @@ typedef struct HdOptions {
 #include "cli/option_table.h"
 #undef ROW
 #undef OPTION
-} HdOptions;
+};
 
 /* What is behind an option, and the member that it sets. */
 typedef enum HdOptionType {
@@ -85,6 +84,11 @@ extern const HdOptionSpec hd_option_specs[];
 
 /* The option of the command that follows after `spec` (NULL: the first one), or NULL. */
 const HdOptionSpec *hd_option_next(const HdOptionSpec *spec, HdCommand command);
+
+/* The option that an argument names as "--name", "--name=value", "-n" or "-nvalue", or NULL;
+   `*value` is what came with it, or NULL. One of the command comes before one of the same name that
+   belongs to another. */
+const HdOptionSpec *hd_option_find(const char *argument, HdCommand command, const char **value);
 
 /* "-o, --output OUT" */
 void hd_option_heading(const HdOptionSpec *spec, char *text, int capacity);

@@ -7,12 +7,11 @@
 #include <unistd.h>
 
 #include "base/text.h"
-#include "cli/commands.h"
 #include "cli/console.h"
+#include "cli/options.h"
 #include "cli/statistics.h"
 #include "input/builtin.h"
 #include "output/fingerprint.h"
-#include "output/stale_files.h"
 #include "run/load_scene.h"
 #include "run/sequence.h"
 #include "system/interrupt.h"
@@ -107,14 +106,11 @@ static HdStatus render_sequence(Run *run, const HdSequence *sequence, HdError *e
 }
 
 /* A device that cannot be used leaves the statistics of an earlier run alone. */
-static HdStatus render_missing(Run *run, const HdDevicePlan *devices, HdDurability durability,
-                               HdError *error) {
+static HdStatus render_missing(Run *run, const HdDevicePlan *devices, HdError *error) {
     const HdSequence sequence = {
         .scene = &run->file->scene,
         .resume = &run->resume,
-        .precision = devices->render.precision,
         .outputs = run->outputs,
-        .durability = durability,
         .team = &run->team,
         .uploaded = scene_uploaded,
         .dropped = device_dropped,
@@ -127,7 +123,7 @@ static HdStatus render_missing(Run *run, const HdDevicePlan *devices, HdDurabili
         status = hd_statistics_open(&run->statistics, error);
     if (status == HD_OK)
         status = render_sequence(run, &sequence, error);
-    status = hd_statistics_close(&run->statistics, durability, status, error);
+    status = hd_statistics_close(&run->statistics, run->outputs->durability, status, error);
     hd_close_devices(&run->team);
     return status;
 }
@@ -144,10 +140,11 @@ static HdStatus settle_outputs(HdOutputPlan *outputs, const HdStorePlan *plan,
     HdStatus status =
         hd_outputs_settle(outputs, plan->count > 0 ? plan->names : &name,
                           plan->count > 0 ? plan->count : 1, &settings->style, frame_count, error);
-    if (status == HD_OK)
-        status =
-            hd_outputs_add_layers(outputs, plan->layers, hd_scene_is_surveyed(&file->scene), error);
-    return status;
+    if (status != HD_OK)
+        return status;
+    outputs->options = plan->given;
+    outputs->durability = plan->no_sync ? HD_FLEETING : HD_DURABLE;
+    return hd_outputs_add_layers(outputs, plan->layers, hd_scene_is_surveyed(&file->scene), error);
 }
 
 /* What fast arithmetic makes is not the same everywhere, and promises no bytes. */
@@ -160,13 +157,11 @@ static void set_fingerprint(const Run *run, const HdRenderOptions *render, bool 
 }
 
 static HdStatus render_run(Run *run, const HdOptions *options, HdError *error) {
-    const HdStorePlan *store = &options->store;
-    set_fingerprint(run, &options->devices.render, !store->again);
+    set_fingerprint(run, &options->devices.render, !options->store.again);
     HdStatus status = hd_resume_find(&run->resume, run->outputs, run->frames, error);
     if (status == HD_OK) {
         hd_console_start(&run->console, &run->resume);
-        status = render_missing(run, &options->devices, store->no_sync ? HD_FLEETING : HD_DURABLE,
-                                error);
+        status = render_missing(run, &options->devices, error);
     }
     hd_resume_free(&run->resume);
     return status;
@@ -187,10 +182,8 @@ static HdStatus render_frames(Run *run, const HdOptions *options, HdError *error
         return status;
     hd_console_open(&run->console, &options->telling);
     hd_console_tell_run(&run->console, name, &run->file->scene, run->outputs, run->frames->count);
-    hd_stale_files_remove(run->outputs, run->frames);
     hd_escape(slash != NULL ? slash + 1 : name, told, sizeof told);
     run->outputs->scene = told;
-    run->outputs->options = options->store.given;
     return render_run(run, options, error);
 }
 

@@ -7,7 +7,7 @@
 
 #include "base/text.h"
 #include "choice/candidates.h"
-#include "cli/commands.h"
+#include "cli/options.h"
 #include "input/json/json_device_text.h"
 #include "verify/certificate.h"
 
@@ -19,10 +19,6 @@ static void write_time(const HdCertificate *certificate, char text[TIME_SIZE]) {
     text[0] = '\0';
     if (gmtime_r(&seconds, &parts) != NULL)
         strftime(text, TIME_SIZE, "%Y-%m-%dT%H:%M:%SZ", &parts);
-}
-
-static void write_hash(uint64_t hash, char text[HASH_SIZE]) {
-    snprintf(text, HASH_SIZE, "%016" PRIx64, hash);
 }
 
 /* ---- text ---- */
@@ -47,10 +43,9 @@ static void print_certificate(const HdCertificate *certificate) {
     printf("%s:%d  %s\n  %s\n", device->backend->name, device->index, device->name, device->driver);
     for (int i = 0; i < certificate->test_count; i++)
         print_test(&certificate->tests[i]);
-    printf("  %s: hedron %s%s%s, %s, %.2f s, certificate %016" PRIx64 "\n",
-           hd_verdict_names[certificate->verdict], HD_VERSION,
+    printf("  %s: hedron %s%s%s, %s, %.2f s\n", hd_verdict_names[certificate->verdict], HD_VERSION,
            certificate->compiler[0] != '\0' ? ", kernels by " : "", certificate->compiler, when,
-           certificate->seconds, certificate->hash);
+           certificate->seconds);
 }
 
 /* ---- JSON ---- */
@@ -65,7 +60,7 @@ static json_t *count_or_null(int count) {
 
 static json_t *describe_test(const HdCertificateTest *test) {
     char hash[HASH_SIZE];
-    write_hash(test->hash, hash);
+    snprintf(hash, sizeof hash, "%016" PRIx64, test->hash);
     return json_pack("{s:s, s:s, s:o, s:o, s:o, s:b, s:s, s:f}", "name", test->name, "verdict",
                      hd_verdict_names[test->verdict], "reason", text_or_null(test->reason),
                      "tuples", count_or_null(test->tuples), "frames", count_or_null(test->frames),
@@ -84,16 +79,14 @@ static json_t *describe_tests(const HdCertificate *certificate) {
 
 static json_t *describe_certificate(const HdCertificate *certificate) {
     const HdDevice *device = &certificate->device;
-    char when[TIME_SIZE], hash[HASH_SIZE];
+    char when[TIME_SIZE];
     write_time(certificate, when);
-    write_hash(certificate->hash, hash);
-    return json_pack("{s:s, s:s, s:i, s:o, s:o, s:o, s:s, s:o, s:s, s:f, s:s}", "hedron",
-                     HD_VERSION, "backend", device->backend->name, "index", device->index, "name",
-                     hd_json_device_text(device->name), "driver",
-                     hd_json_device_text(device->driver), "compiler",
-                     text_or_null(certificate->compiler), "verdict",
-                     hd_verdict_names[certificate->verdict], "tests", describe_tests(certificate),
-                     "time", when, "seconds", certificate->seconds, "hash", hash);
+    return json_pack(
+        "{s:s, s:s, s:i, s:o, s:o, s:o, s:s, s:o, s:s, s:f}", "hedron", HD_VERSION, "backend",
+        device->backend->name, "index", device->index, "name", hd_json_device_text(device->name),
+        "driver", hd_json_device_text(device->driver), "compiler",
+        text_or_null(certificate->compiler), "verdict", hd_verdict_names[certificate->verdict],
+        "tests", describe_tests(certificate), "time", when, "seconds", certificate->seconds);
 }
 
 /* ---- the command ---- */

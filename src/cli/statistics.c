@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "input/json/json_device_text.h"
-#include "system/durable.h"
+#include "system/atomic_file.h"
 #include "system/interrupt.h"
 
 /* Nanoseconds are enough for a run of days. */
@@ -24,23 +24,18 @@ static HdStatus fail_to_write(const HdStatistics *statistics, HdError *error) {
                    strerror(errno));
 }
 
-static HdStatus check_begin(const char *file, const char *path, HdError *error) {
+static bool has_other_json(const char *file) {
     static const char expected[] = "{\"frame\"";
     char begin[sizeof expected - 1] = "";
     struct stat found;
     if (stat(file, &found) != 0 || !S_ISREG(found.st_mode))
-        return HD_OK;
+        return false;
     FILE *stream = fopen(file, "rb");
     if (stream == NULL)
-        return HD_OK;
+        return false;
     size_t count = fread(begin, 1, sizeof begin, stream);
     fclose(stream);
-    if (count > 0 && begin[0] == '{' && memcmp(begin, expected, sizeof begin) != 0)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "--stats is '%s', which has other JSON in it, expected a new file or one "
-                       "with statistics",
-                       path);
-    return HD_OK;
+    return count > 0 && begin[0] == '{' && memcmp(begin, expected, sizeof begin) != 0;
 }
 
 HdStatus hd_statistics_settle(HdStatistics *statistics, const char *path, const char *scene,
@@ -62,7 +57,12 @@ HdStatus hd_statistics_settle(HdStatistics *statistics, const char *path, const 
         if (status == HD_OK && hd_path_is_same(file, output))
             return hd_fail(error, HD_BAD_INPUT, "--stats is '%s', which is an output", path);
     }
-    return status == HD_OK ? check_begin(file, path, error) : status;
+    if (status == HD_OK && has_other_json(file))
+        return hd_fail(error, HD_BAD_INPUT,
+                       "--stats is '%s', which has other JSON in it, expected a new file or one "
+                       "with statistics",
+                       path);
+    return status;
 }
 
 static HdStatus open_file(HdStatistics *statistics, HdError *error) {
@@ -85,45 +85,39 @@ HdStatus hd_statistics_open(HdStatistics *statistics, HdError *error) {
         statistics->stream = stdout;
     if (statistics->is_standard_output || statistics->name[0] == '\0')
         return HD_OK;
-    HdStatus status = hd_path_make_parents(statistics->name, error);
+    HdStatus status = hd_path_make_parents(statistics->name, 0777, error);
     return status == HD_OK ? open_file(statistics, error) : status;
 }
 
-/* By the keys of docs/formats.md. */
-static json_t *describe_seconds(const HdFrameTimes *times) {
-    return json_pack("{s:f, s:f, s:f, s:f, s:f, s:f}", "prepare", times->prepare.seconds, "trace",
-                     times->trace.seconds, "copy", times->copy.seconds, "convert",
-                     times->convert.seconds, "store", times->store.seconds, "film",
-                     times->film.seconds);
+static json_t *describe_seconds(const HdSpan *span) {
+    return json_real(span->seconds);
 }
 
 static json_t *describe_begin(const HdSpan *span) {
     return span->began < 0.0 ? json_null() : json_real(span->began);
 }
 
-static json_t *describe_begins(const HdFrameTimes *times) {
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "prepare", describe_begin(&times->prepare),
-                     "trace", describe_begin(&times->trace), "copy", describe_begin(&times->copy),
-                     "convert", describe_begin(&times->convert), "store",
-                     describe_begin(&times->store), "film", describe_begin(&times->film));
-}
-
-/* Of GPUs only. */
-static json_t *describe_launch(const HdFrameTimes *times) {
-    return times->longest_launch < 0.0 ? json_null() : json_real(1e3 * times->longest_launch);
+/* By the keys of docs/formats.md. */
+static json_t *describe_spans(const HdFrameTimes *times, json_t *(*describe)(const HdSpan *span)) {
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "prepare", describe(&times->prepare),
+                     "trace", describe(&times->trace), "copy", describe(&times->copy), "convert",
+                     describe(&times->convert), "store", describe(&times->store), "film",
+                     describe(&times->film));
 }
 
 /* json_pack gives up as a whole where a part is missing. */
 static json_t *describe_frame(const HdRunFacts *facts, const HdStoredFrame *stored) {
     const HdFrame *frame = stored->frame;
+    const double launch = stored->times.longest_launch; /* of GPUs only */
     return json_pack(
         "{s:i, s:s, s:i, s:o, s:o, s:i, s:i, s:i, s:i, s:o, s:o, s:o, s:{s:I, s:I, s:I}, s:I, s:I}",
         "frame", stored->number, "backend", facts->device->backend->name, "index",
         facts->device->index, "device", hd_json_device_text(facts->device->name), "renderer",
         hd_json_device_text(facts->renderer), "width", frame->width, "height", frame->height,
         "samples", facts->scene->samples_per_side, "depth", facts->scene->depth, "seconds",
-        describe_seconds(&stored->times), "began", describe_begins(&stored->times),
-        "longest_launch_ms", describe_launch(&stored->times), "rays", "primary",
+        describe_spans(&stored->times, describe_seconds), "began",
+        describe_spans(&stored->times, describe_begin), "longest_launch_ms",
+        launch < 0.0 ? json_null() : json_real(1e3 * launch), "rays", "primary",
         (json_int_t)frame->primary_rays, "mirrored", (json_int_t)frame->mirrored_rays,
         "transmitted", (json_int_t)frame->transmitted_rays, "shadow_tests",
         (json_int_t)frame->shadow_tests, "clamps", (json_int_t)frame->clamps);
@@ -137,14 +131,11 @@ static bool add_bound(json_t *line, const HdFrame *frame) {
                                          frame->mean_bound)) == 0;
 }
 
-/* Nothing was traced for it. */
-static json_t *describe_finished(const HdStoredFrame *stored) {
-    return json_pack("{s:i, s:b}", "frame", stored->number, "resumed", 1);
-}
-
 HdStatus hd_statistics_add(HdStatistics *statistics, const HdRunFacts *facts,
                            const HdStoredFrame *stored, HdError *error) {
-    json_t *line = stored->was_finished ? describe_finished(stored) : describe_frame(facts, stored);
+    json_t *line = stored->was_finished
+                       ? json_pack("{s:i, s:b}", "frame", stored->number, "resumed", 1)
+                       : describe_frame(facts, stored);
     if (line != NULL && !stored->was_finished && !add_bound(line, stored->frame)) {
         json_decref(line);
         line = NULL;
@@ -162,17 +153,13 @@ HdStatus hd_statistics_add(HdStatistics *statistics, const HdRunFacts *facts,
     return HD_OK;
 }
 
-static HdStatus sync_file(const HdStatistics *statistics, HdError *error) {
-    HdFolderSet synced = {0};
-    HdStatus status = hd_sync_file(fileno(statistics->stream), statistics->name, error);
-    return status == HD_OK ? hd_sync_folder(&synced, statistics->name, error) : status;
-}
-
 static HdStatus close_file(HdStatistics *statistics, HdDurability durability, HdError *error) {
     errno = 0;
     HdStatus status = fflush(statistics->stream) == 0 ? HD_OK : fail_to_write(statistics, error);
     if (status == HD_OK && durability == HD_DURABLE)
-        status = sync_file(statistics, error);
+        status = hd_sync_file(fileno(statistics->stream), statistics->name, error);
+    if (status == HD_OK && durability == HD_DURABLE)
+        status = hd_sync_folder(statistics->name, error);
     errno = 0;
     if (fclose(statistics->stream) != 0 && status == HD_OK)
         status = fail_to_write(statistics, error);

@@ -2,9 +2,9 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "choice/tuning.h"
-#include "cli/commands.h"
+#include "choice/tune.h"
 #include "cli/console.h"
+#include "cli/options.h"
 #include "input/json/json_device_text.h"
 #include "run/load_scene.h"
 #include "scene/frame_list.h"
@@ -37,7 +37,7 @@ static void print_heading(const Run *run) {
 static void print_candidate(const HdTuning *tuning, int index) {
     const HdTuningCandidate *candidate = &tuning->candidates[index];
     char name[128];
-    hd_launch_describe(&candidate->launch, name, sizeof name);
+    hd_launch_describe(&candidate->options, name, sizeof name);
     if (candidate->failure[0] == '\0')
         printf("%-52s %10.3f %7.3f\n", name, 1e3 * candidate->seconds, ratio(tuning, index));
     else
@@ -49,7 +49,7 @@ static void print_table(const Run *run) {
     print_heading(run);
     for (int i = 0; i < run->tuning.count; i++)
         print_candidate(&run->tuning, i);
-    hd_launch_describe(&run->tuning.candidates[run->tuning.best].launch, name, sizeof name);
+    hd_launch_describe(&run->tuning.candidates[run->tuning.best].options, name, sizeof name);
     printf("\nthe best: %s; ", name);
     if (run->obstacle == NULL)
         printf("remembered for scenes of this kind\n");
@@ -65,7 +65,7 @@ static json_t *number_or_null(int number) {
 
 static json_t *describe_candidate(const HdTuning *tuning, int index) {
     const HdTuningCandidate *candidate = &tuning->candidates[index];
-    const HdLaunch *launch = &candidate->launch;
+    const HdRenderOptions *launch = &candidate->options;
     bool works = candidate->failure[0] == '\0';
     return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "pipeline",
                      hd_pipeline_names[launch->pipeline], "lanes", number_or_null(launch->lanes),
@@ -104,8 +104,8 @@ static HdStatus print_json(const Run *run, HdError *error) {
 
 /* Without a folder there is nothing to be done; a folder that fails is an error. */
 static HdStatus remember(Run *run, HdError *error) {
-    HdStatus status = hd_launch_remember(run->device, &run->render, run->scene,
-                                         &run->tuning.candidates[run->tuning.best].launch, error);
+    HdStatus status =
+        hd_tuning_remember(&run->tuning, run->device, &run->render, run->scene, error);
     run->obstacle = status == HD_OK ? NULL : error->message;
     return status == HD_UNAVAILABLE ? HD_OK : status;
 }

@@ -4,17 +4,17 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "device/arithmetic.h"
 #include "device/launch_size.h"
-#include "device/verdict.h"
 
 static void recall(HdDevice *device) {
-    char difference[512];
+    HdArithmetic known = {.difference = ""};
     device->is_measured =
         device->backend->needs_no_driver ||
-        hd_verdict_get(device->name, device->driver, difference, sizeof difference);
-    if (device->is_measured && !device->backend->needs_no_driver && difference[0] != '\0')
+        hd_arithmetic_recall(device->name, device->driver, HD_PRECISION_FLOAT, &known);
+    if (known.difference[0] != '\0')
         snprintf(device->not_strict, sizeof device->not_strict, "it computes wrongly: %s",
-                 difference);
+                 known.difference);
 }
 
 HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int capacity, int *count,
@@ -27,17 +27,10 @@ HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int c
     return status;
 }
 
-HdStatus hd_backend_submit(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
-                           const HdFrameWish *wish, HdError *error) {
-    return backend->functions->submit != NULL
-               ? backend->functions->submit(renderer, tables, wish, error)
-               : HD_OK;
-}
-
 HdStatus hd_backend_render(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
                            HdFrame *frame, HdError *error) {
     static const HdFrameWish radiance = {.radiance = true};
-    HdStatus status = hd_backend_submit(backend, renderer, tables, &radiance, error);
+    HdStatus status = backend->functions->submit(renderer, tables, &radiance, error);
     return status == HD_OK ? backend->functions->collect(renderer, tables, frame, error) : status;
 }
 

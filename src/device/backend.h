@@ -38,7 +38,7 @@ typedef struct HdDevice {
     bool has_timeout;     /* its driver may end long kernels, as where it draws a display; or does
                              not tell, and a display may be there */
     char unusable[1024];  /* why nothing can run there, say no compiler for it; empty: it can */
-    bool is_measured;     /* its arithmetic is known, being plain C's or remembered (verdict.h) */
+    bool is_measured; /* its arithmetic is known, being plain C's or remembered (arithmetic.h) */
     char not_strict[640]; /* then why it cannot do strict arithmetic; empty: it can */
 } HdDevice;
 
@@ -59,16 +59,16 @@ typedef struct HdRendererFunctions {
     /* Begins a frame of the uploaded scene; fewer than HD_FRAMES_IN_FLIGHT are under way. The
        tables live until the frame is collected or dropped. The device should be given all there is
        to do, and not be waited for. On failure, also HD_INTERRUPTED as below, the tables are no
-       longer used, and the earlier frames are still under way. NULL instead of a function where
-       nothing works by itself: a frame is rendered when it is collected. */
+       longer used, and the earlier frames are still under way. Where nothing works by itself, a
+       frame is rendered when it is collected. */
     HdStatus (*submit)(void *renderer, const HdFrameTables *tables, const HdFrameWish *wish,
                        HdError *error);
 
     /* Waits for the oldest frame under way, that of `tables`, which is so no longer in any case:
-       fills every pixel as wished for at its submission, is_encoded, the counts and trace_seconds
-       of `frame`. HD_INTERRUPTED where a signal came first (interrupt.h): then `frame` is worth
-       nothing. From its submission on the work is told to whom `tables` names, as it gets done, who
-       may end it as a signal does. */
+       fills every pixel as wished for at its submission, is_encoded, the counts, trace_seconds and
+       longest_launch of `frame`. HD_INTERRUPTED where a signal came first (interrupt.h): then
+       `frame` is worth nothing. From its submission on the work is told to whom `tables` names, as
+       it gets done, who may end it as a signal does. */
     HdStatus (*collect)(void *renderer, const HdFrameTables *tables, HdFrame *frame,
                         HdError *error);
 
@@ -78,26 +78,21 @@ typedef struct HdRendererFunctions {
     HdStatus (*first_hits)(void *renderer, const HdFrameTables *tables, HdFrame *frame,
                            HdError *error);
 
-    /* The seconds of the longest launch of the frame collected last; negative: not known. NULL
-       instead of a function where the device drives no display. */
-    double (*longest_launch)(const void *renderer);
-
-    /* Waits until the device is done with all frames under way, and forgets them. NULL instead of a
-       function as with `submit`. */
+    /* Waits until the device is done with all frames under way, and forgets them. */
     void (*drop)(void *renderer);
 
     /* The kernels that uploads compile, and what the last one did to have them (kernel_cache.h).
-       NULL instead of a function where they are compiled ahead. */
+       NULL instead of this function and the next two where they are compiled ahead. */
     HdKernelCache *(*kernels)(void *renderer);
 
     /* Computes a batch of the arithmetic probe with kernels of the same shape, and tells all that
        the results may depend on, apart from the number of tuples. The scene, if there is one, must
-       be uploaded again. NULL instead of functions as with `kernels`. */
+       be uploaded again. */
     HdStatus (*probe)(void *renderer, const HdProbeBatch *batch, HdProbeResults *results,
                       HdError *error);
     void (*probe_key)(void *renderer, char *text, size_t capacity);
 
-    /* The lanes of such kernels' bundles; NULL instead of a function where `kernels` tells. */
+    /* The lanes of the kernels' bundles. */
     int (*lanes)(const void *renderer);
 
     /* One line for people about what was chosen (lanes, threads, instruction set, registers). */
@@ -121,25 +116,11 @@ struct HdBackend {
     HdStatus (*enumerate)(HdDevice *devices, int capacity, int *count, HdError *error);
 };
 
-enum { HD_BACKEND_COUNT = 3, HD_MAX_DEVICES = 64 };
-
-/* All backends, the best first: cuda, opencl, c. The last one is always there. */
-extern const HdBackend hd_backend_cuda, hd_backend_opencl, hd_backend_c;
-extern const HdBackend *const hd_backends[HD_BACKEND_COUNT];
-
-/* NULL where no backend has that name. */
-const HdBackend *hd_backend_find(const char *name);
-
-/* The one that needs no driver. */
-const HdBackend *hd_backend_always_there(void);
+enum { HD_MAX_DEVICES = 64 }; /* of a backend */
 
 /* The backend's devices, with the backend and what is remembered of them filled in. */
 HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int capacity, int *count,
                               HdError *error);
-
-/* Calls `submit`, if there is any. */
-HdStatus hd_backend_submit(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
-                           const HdFrameWish *wish, HdError *error);
 
 /* Submits a frame to a backend's own renderer and collects its radiance. The arguments were
    checked, and no other frame is under way. */

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/hash.h"
-#include "device/self_test.h"
 #include "system/cache_folder.h"
 
 void hd_kernel_cache_begin(HdKernelCache *cache, const HdDevice *device) {
@@ -16,6 +15,12 @@ void hd_kernel_cache_begin(HdKernelCache *cache, const HdDevice *device) {
 }
 
 /* ---- entries: the stamp, the maker, a line each, then the binary ---- */
+
+/* What an entry, or a note, says of the kernels' test. */
+static const char *stamp_of(const HdKernelCache *cache) {
+    return cache->shape.math == HD_MATH_STRICT ? "passed the self-test"
+                                               : "not tested, for the arithmetic is fast";
+}
 
 /* Takes the line off the front of what is left; false where there is none that fits. */
 static bool take_line(unsigned char **bytes, size_t *size, char *line, size_t capacity) {
@@ -32,9 +37,9 @@ static bool take_line(unsigned char **bytes, size_t *size, char *line, size_t ca
 
 /* Turns an entry into its binary, at the front of the same memory. */
 static bool open_entry(HdKernelCache *cache, unsigned char *entry, size_t *size) {
-    char stamp[sizeof cache->stamp];
+    char stamp[64];
     unsigned char *rest = entry;
-    if (!take_line(&rest, size, stamp, sizeof stamp) || strcmp(stamp, cache->stamp) != 0 ||
+    if (!take_line(&rest, size, stamp, sizeof stamp) || strcmp(stamp, stamp_of(cache)) != 0 ||
         !take_line(&rest, size, cache->maker, sizeof cache->maker) || *size == 0)
         return false;
     memmove(entry, rest, *size);
@@ -43,11 +48,11 @@ static bool open_entry(HdKernelCache *cache, unsigned char *entry, size_t *size)
 
 static HdStatus store_binary(const HdKernelCache *cache, const unsigned char *binary, size_t size,
                              HdError *error) {
-    size_t capacity = sizeof cache->stamp + sizeof cache->maker + size;
+    size_t capacity = strlen(stamp_of(cache)) + sizeof cache->maker + 2 + size;
     char *entry = malloc(capacity);
     if (entry == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for compiled kernels");
-    int length = snprintf(entry, capacity, "%s\n%s\n", cache->stamp, cache->maker);
+    int length = snprintf(entry, capacity, "%s\n%s\n", stamp_of(cache), cache->maker);
     memcpy(entry + length, binary, size);
     HdStatus status = hd_cache_put(cache->backend, cache->key, entry, (size_t)length + size, error);
     free(entry);
@@ -106,7 +111,6 @@ bool hd_kernel_cache_find(HdKernelCache *cache, const void *source, size_t sourc
     HdError error;
     cache->is_untested = false;
     cache->note[0] = cache->maker[0] = '\0';
-    hd_self_test_stamp(&cache->shape, cache->stamp, sizeof cache->stamp);
     if (!hd_kernel_cache_key(cache, source, source_size, options, driver, cache->key,
                              sizeof cache->key)) {
         *binary = NULL;
@@ -118,7 +122,7 @@ bool hd_kernel_cache_find(HdKernelCache *cache, const void *source, size_t sourc
         return true;
     }
     if (status == HD_OK)
-        add_note(cache, "the cached kernels passed no test of this program's");
+        add_note(cache, "the cached kernels passed no test");
     else if (status == HD_FAILED)
         add_note(cache, error.message);
     free(*binary);
@@ -149,7 +153,7 @@ void hd_kernel_cache_accept(HdKernelCache *cache) {
     if (!cache->is_untested)
         return;
     cache->is_untested = false;
-    add_note(cache, cache->stamp);
+    add_note(cache, stamp_of(cache));
     bool stored = store(cache, &error) == HD_OK;
     add_note(cache, stored ? "cached" : "not cached");
     if (!stored)

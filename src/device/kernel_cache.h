@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The kernels that one renderer compiles while the program runs, kept on disk (cache_folder.h).
    What was compiled is stored only after it was accepted: with strict arithmetic, when it has
-   rendered the frames of self_test.h rightly. An entry tells so and by what it was compiled; one
-   that does not tell what this program would, is compiled anew. */
+   rendered golden frames rightly (verify/trust.h). An entry tells so and by what it was compiled;
+   what another one says is compiled anew. */
 #ifndef HD_DEVICE_KERNEL_CACHE_H
 #define HD_DEVICE_KERNEL_CACHE_H
 
@@ -22,10 +22,11 @@ struct HdKernelCache {
     char device[640];               /* name and driver, a part of every key */
     HdKernelShape shape;            /* of the kernels; the renderer's to set */
     char key[HD_KERNEL_KEY_LENGTH]; /* of the kernels in use */
-    char stamp[160];                /* what their entry says of their test */
     char maker[80];                 /* what compiled them; "": nobody knows */
     char note[1024];                /* where they came from, for people; "": there are none yet */
+    bool is_settled;                /* the device's arithmetic is known to be right */
     bool is_untested;               /* compiled anew and not yet accepted */
+    bool is_on_trial;               /* they may render meanwhile */
     HdKernelReader *read;           /* until they are accepted, */
     const void *context;            /* with this */
 };

@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "base/minmax.h"
 #include "kernels/host/shared.h"
 
 void hd_kernel_defines(const HdKernelShape *shape, char text[HD_KERNEL_DEFINES_SIZE]) {
@@ -47,7 +48,7 @@ int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked) {
         return asked;
     int limit = nvidia_arch >= 70 ? many : few;
     int share = BLOCK_REGISTERS / shape->group_size / GRANULARITY * GRANULARITY;
-    return share < limit ? share : limit;
+    return hd_min(share, limit);
 }
 
 const char *hd_kernel_name(const HdKernelShape *shape, HdKernel kernel) {
@@ -80,7 +81,7 @@ int hd_kernel_bound(int count) {
 /* Deep enough for nearly all meshes, so that few builds differ in it. */
 static int stack_bound(int count) {
     enum { USUAL = 32 };
-    return hd_kernel_bound(count < USUAL ? USUAL : count);
+    return hd_kernel_bound(hd_max(count, USUAL));
 }
 
 HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables) {

@@ -38,7 +38,7 @@ typedef struct HdKernelShape {
     int register_limit; /* of a thread on an NVIDIA device; 0: the compiler's own */
     int ptx_arch;       /* CUDA: compiled to PTX for compute_ of that number, and by the driver from
                            there on; 0: to the device's machine code */
-    bool is_probe;      /* the kernel of the probe (probe.h) and no others */
+    bool is_probe;      /* the kernel of the probe (verify/probe.h) and no others */
     bool rounds_by_fma; /* division and roots are made of fused operations: those of the device are
                            not correctly rounded */
 } HdKernelShape;

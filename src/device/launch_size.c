@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "device/launch_size.h"
 
-#include <string.h>
+#include <math.h>
+
+#include "base/minmax.h"
 
 enum {
     THREADS_PER_UNIT = 2048, /* at once, on most devices */
@@ -26,7 +28,7 @@ static int within(double work, int least, int most) {
 }
 
 HdLaunchSize hd_launch_size_start(int compute_units, double longest) {
-    int units = compute_units < MOST_UNITS ? compute_units : MOST_UNITS;
+    int units = hd_min(compute_units, MOST_UNITS);
     int start = within((double)units * THREADS_PER_UNIT, LEAST_START, HD_MOST_LAUNCH_WORK);
     return (HdLaunchSize){
         .limit = start,
@@ -59,8 +61,8 @@ int hd_launch_size_items(const HdLaunchSize *size, int left, int work, int grain
     int parts = (left - 1) / fitting + 1;
     int even = ((left - 1) / parts + grain) / grain * grain;
     if (even > fitting)
-        even = fitting > grain ? fitting / grain * grain : grain;
-    return even < left ? even : left;
+        even = hd_max(fitting / grain, 1) * grain;
+    return hd_min(even, left);
 }
 
 /* Of two launches, the time that does not grow with the work. Sizes that fall little by little are
@@ -70,9 +72,8 @@ static void look_for_tail(HdLaunchSize *size, double work, double seconds) {
     if (seconds <= size->longest)
         return;
     if (share < SMALLER && seconds > 0.5 * (1.0 + share) * before && seconds < ALIKE * before) {
-        double tail = (seconds - share * before) / (1.0 - share);
-        tail = tail < seconds ? tail : seconds;
-        size->tail = tail > size->tail ? tail : size->tail;
+        double tail = fmin(seconds, (seconds - share * before) / (1.0 - share));
+        size->tail = fmax(tail, size->tail);
         size->has_tail = true;
     }
     if (share < SMALLER || share > 1.0) {
@@ -82,13 +83,12 @@ static void look_for_tail(HdLaunchSize *size, double work, double seconds) {
 }
 
 static double longest_allowed(const HdLaunchSize *size) {
-    return TAILS * size->tail > size->longest ? TAILS * size->tail : size->longest;
+    return fmax(TAILS * size->tail, size->longest);
 }
 
 static void note_too_long(HdLaunchSize *size, int fitting) {
     size->too_long = true;
-    size->limit = fitting < size->limit ? fitting : size->limit;
-    size->ceiling = size->limit;
+    size->ceiling = size->limit = hd_min(fitting, size->limit);
 }
 
 void hd_launch_size_note(HdLaunchSize *size, double work, double seconds) {
@@ -96,10 +96,8 @@ void hd_launch_size_note(HdLaunchSize *size, double work, double seconds) {
         return;
     look_for_tail(size, work, seconds);
     const double longest = longest_allowed(size), aim = HD_LAUNCH_AIM * longest;
-    double growth = seconds > aim / MOST_GROWTH ? aim / seconds : MOST_GROWTH;
-    if (growth < LEAST_SHRINKING)
-        growth = LEAST_SHRINKING;
-    int fitting = within(growth * work, size->least, size->ceiling);
+    const double growth = seconds > aim / MOST_GROWTH ? aim / seconds : MOST_GROWTH;
+    int fitting = within(fmax(growth, LEAST_SHRINKING) * work, size->least, size->ceiling);
     if (seconds > longest)
         note_too_long(size, fitting);
     else if (fitting > size->limit)

@@ -59,9 +59,8 @@ typedef struct HdRenderOptions {
                                device */
         int launch_work;    /* of each launch, in samples or rays; 0: by measurement */
         int ptx_arch; /* as in HdKernelShape: 61 compiles for a Pascal card on any newer one */
-        bool is_for_one_scene; /* no self-test, no cache */
-        bool keeps_pipeline;   /* no other takes over where its kernels fail the self-test */
-    } test;                    /* no option of the command line sets these */
+        bool keeps_pipeline; /* no other takes over where its kernels are wrong */
+    } test;                  /* no option of the command line sets these */
 } HdRenderOptions;
 
 /* True for both kinds of wavefront. */

@@ -3,24 +3,17 @@
 #include "device/renderer.h"
 
 #include <limits.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "base/hash.h"
 #include "base/limits.h"
 #include "device/kernel_cache.h"
-#include "device/probe.h"
-#include "device/self_test.h"
 #include "kernels/host/shared.h"
-#include "system/warnings.h"
 
 struct HdRenderer {
     const HdBackend *backend;
     void *state; /* of the backend */
     HdDevice device;
     HdRenderOptions options;
-    bool is_probed; /* or need not be */
     bool has_scene;
     bool has_failed;
     double longest_launch; /* seconds; negative: none is known */
@@ -38,8 +31,7 @@ static HdStatus name_backend(const HdBackend *backend, HdStatus status, HdError 
     return status;
 }
 
-/* And that it is not the fault of what was asked for. */
-static HdStatus note_failure(HdRenderer *renderer, HdStatus status, HdError *error) {
+HdStatus hd_renderer_fail(HdRenderer *renderer, HdStatus status, HdError *error) {
     if (status != HD_OK && status != HD_INTERRUPTED)
         renderer->has_failed = true;
     return name_backend(renderer->backend, status, error);
@@ -91,24 +83,13 @@ static HdStatus check_precision(const HdRenderer *renderer, HdPrecision precisio
     return HD_OK;
 }
 
-static HdKernelCache *kernels_of(const HdRenderer *renderer) {
+HdKernelCache *hd_renderer_kernels(const HdRenderer *renderer) {
     return renderer->backend->functions->kernels != NULL
                ? renderer->backend->functions->kernels(renderer->state)
                : NULL;
 }
 
-/* Before the first kernels: whether the device is to be trusted, and how it divides. */
-static HdStatus settle_arithmetic(HdRenderer *renderer, HdError *error) {
-    if (renderer->is_probed || renderer->options.math != HD_MATH_STRICT ||
-        kernels_of(renderer) == NULL)
-        return HD_OK;
-    HdStatus status = hd_probe_settle(renderer->backend, renderer->state, &renderer->device, error);
-    renderer->is_probed = status == HD_OK;
-    return status;
-}
-
-/* Opens the device anew for the wavefront; false where it has none or works by it already. */
-static bool change_to_wavefront(HdRenderer *renderer) {
+bool hd_renderer_change_to_wavefront(HdRenderer *renderer) {
     HdRenderOptions waves = renderer->options;
     HdError ignored;
     void *state;
@@ -121,86 +102,15 @@ static bool change_to_wavefront(HdRenderer *renderer) {
     renderer->backend->functions->close(renderer->state);
     renderer->state = state;
     renderer->options = waves;
-    renderer->is_probed = false;
+    renderer->has_scene = false;
     return true;
 }
 
-/* After kernels of the megakernel computed wrongly, which `error` tells: it stays so where those of
-   the wavefront, with fewer branches within each other, do so too. */
-static HdStatus test_wavefront(HdRenderer *renderer, const HdSceneTables *tables, HdError *error) {
-    HdError later;
-    HdSelfTestFrame frame;
-    bool is_wrong;
-    if (!change_to_wavefront(renderer))
-        return HD_UNAVAILABLE;
-    HdStatus status = settle_arithmetic(renderer, &later);
-    if (status == HD_OK)
-        status = renderer->backend->functions->upload(renderer->state, tables, &later);
-    if (status == HD_OK)
-        status = hd_self_test(renderer->backend, renderer->state, &renderer->device, tables, &frame,
-                              &is_wrong, &later);
-    if (status == HD_OK)
-        hd_fallback_note("the wavefront takes over: %s", error->message);
-    else if (status == HD_INTERRUPTED)
-        *error = later;
-    return status == HD_OK || status == HD_INTERRUPTED ? status : HD_UNAVAILABLE;
-}
-
-/* The tables are on the device. If its kernels are new, they prove themselves first. */
-static HdStatus test_new_kernels(HdRenderer *renderer, const HdSceneTables *tables,
-                                 HdError *error) {
-    const HdBackend *backend = renderer->backend;
-    HdKernelCache *kernels = kernels_of(renderer);
-    HdStatus status = HD_OK;
-    HdSelfTestFrame frame;
-    bool is_wrong;
-    if (kernels == NULL || !kernels->is_untested || renderer->options.test.is_for_one_scene)
-        return HD_OK;
-    if (renderer->options.math == HD_MATH_STRICT) {
-        status = hd_self_test(backend, renderer->state, &renderer->device, tables, &frame,
-                              &is_wrong, error);
-        if (is_wrong)
-            status = test_wavefront(renderer, tables, error);
-        if (status == HD_OK)
-            status = backend->functions->upload(renderer->state, tables, error);
-    }
-    if (status == HD_OK)
-        hd_kernel_cache_accept(kernels_of(renderer));
-    return status;
-}
-
-HdStatus hd_renderer_probe(HdRenderer *renderer, int tuples, HdProbeReport *report,
-                           HdError *error) {
-    HdStatus status = hd_probe(renderer->backend, renderer->state, tuples, report, error);
+HdStatus hd_renderer_compute(HdRenderer *renderer, const HdProbeBatch *batch,
+                             HdProbeResults *results, HdError *error) {
     renderer->has_scene = false;
-    if (status == HD_OK)
-        hd_probe_remember(renderer->backend, renderer->state, &renderer->device, report);
-    renderer->is_probed = status == HD_OK && report->difference[0] == '\0';
-    return note_failure(renderer, status, error);
-}
-
-static uint64_t stamp_hash(const HdRenderer *renderer, const HdSceneTables *like) {
-    const HdKernelShape shape = {.precision = renderer->options.precision,
-                                 .needs = hd_kernel_needs(like)};
-    char stamp[160];
-    hd_self_test_stamp(&shape, stamp, sizeof stamp);
-    return hd_hash_bytes(HD_HASH_START, stamp, strlen(stamp));
-}
-
-HdStatus hd_renderer_self_test(HdRenderer *renderer, const HdSceneTables *like, uint64_t *hash,
-                               HdSelfTestFrame *frame, bool *is_wrong, HdError *error) {
-    const HdBackend *backend = renderer->backend;
-    HdKernelCache *kernels = kernels_of(renderer);
-    renderer->has_scene = false;
-    *is_wrong = false;
-    *hash = stamp_hash(renderer, like);
-    HdStatus status = settle_arithmetic(renderer, error);
-    if (status == HD_OK)
-        status =
-            hd_self_test(backend, renderer->state, &renderer->device, like, frame, is_wrong, error);
-    if (status == HD_OK && kernels != NULL)
-        hd_kernel_cache_accept(kernels);
-    return note_failure(renderer, status, error);
+    HdStatus status = renderer->backend->functions->probe(renderer->state, batch, results, error);
+    return hd_renderer_fail(renderer, status, error);
 }
 
 /* Must hold for `what` to be done. */
@@ -229,13 +139,9 @@ HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, H
     if (status != HD_OK)
         return status;
     renderer->has_scene = false;
-    status = settle_arithmetic(renderer, error);
-    if (status == HD_OK)
-        status = renderer->backend->functions->upload(renderer->state, tables, error);
-    if (status == HD_OK)
-        status = test_new_kernels(renderer, tables, error);
+    status = renderer->backend->functions->upload(renderer->state, tables, error);
     renderer->has_scene = status == HD_OK;
-    return note_failure(renderer, status, error);
+    return hd_renderer_fail(renderer, status, error);
 }
 
 /* Kernels count work items and the values of a picture in int, whole blocks at a time. */
@@ -257,6 +163,9 @@ static HdStatus check_frame_tables(const HdRenderer *renderer, const HdFrameTabl
                                    HdError *error) {
     if (!renderer->has_scene)
         return hd_fail(error, HD_BAD_INPUT, "a frame was asked for before a scene was uploaded");
+    const HdKernelCache *kernels = hd_renderer_kernels(renderer);
+    if (kernels != NULL && kernels->is_untested && !kernels->is_on_trial)
+        return hd_fail(error, HD_BAD_INPUT, "a frame was asked for by kernels that are not tested");
     HdStatus status =
         check_tables(tables->table, tables->table_count, HD_FRAME_TABLE_COUNT, "frame", error);
     if (status == HD_OK)
@@ -285,22 +194,13 @@ HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
         status = check_in_flight(renderer, HD_FRAMES_IN_FLIGHT - 1, "a frame was asked for", error);
     if (status != HD_OK)
         return status;
-    status = hd_backend_submit(renderer->backend, renderer->state, tables, wish, error);
+    status = renderer->backend->functions->submit(renderer->state, tables, wish, error);
     if (status != HD_OK)
-        return note_failure(renderer, status, error);
+        return hd_renderer_fail(renderer, status, error);
     int place = renderer->in_flight++;
     renderer->flights[place].tables = tables;
     renderer->flights[place].wants_radiance = wish->radiance;
     return HD_OK;
-}
-
-static void note_longest_launch(HdRenderer *renderer) {
-    const HdBackend *backend = renderer->backend;
-    double seconds = backend->functions->longest_launch != NULL
-                         ? backend->functions->longest_launch(renderer->state)
-                         : -1.0;
-    if (seconds > renderer->longest_launch)
-        renderer->longest_launch = seconds;
 }
 
 double hd_renderer_take_longest_launch(HdRenderer *renderer) {
@@ -317,12 +217,12 @@ HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *erro
     if (status != HD_OK)
         return status;
     status = renderer->backend->functions->collect(renderer->state, tables, frame, error);
-    if (status == HD_OK)
-        note_longest_launch(renderer);
+    if (status == HD_OK && frame->longest_launch > renderer->longest_launch)
+        renderer->longest_launch = frame->longest_launch;
     renderer->in_flight--;
     for (int i = 0; i < renderer->in_flight; i++)
         renderer->flights[i] = renderer->flights[i + 1];
-    return note_failure(renderer, status, error);
+    return hd_renderer_fail(renderer, status, error);
 }
 
 HdStatus hd_renderer_first_hits(HdRenderer *renderer, const HdFrameTables *tables, HdFrame *frame,
@@ -336,7 +236,7 @@ HdStatus hd_renderer_first_hits(HdRenderer *renderer, const HdFrameTables *table
         return hd_fail(error, HD_BAD_INPUT,
                        "a frame was given that has no room for what is met first");
     status = renderer->backend->functions->first_hits(renderer->state, tables, frame, error);
-    return note_failure(renderer, status, error);
+    return hd_renderer_fail(renderer, status, error);
 }
 
 bool hd_renderer_has_failed(const HdRenderer *renderer) {
@@ -344,7 +244,7 @@ bool hd_renderer_has_failed(const HdRenderer *renderer) {
 }
 
 void hd_renderer_drop(HdRenderer *renderer) {
-    if (renderer->in_flight > 0 && renderer->backend->functions->drop != NULL)
+    if (renderer->in_flight > 0)
         renderer->backend->functions->drop(renderer->state);
     renderer->in_flight = 0;
 }
@@ -371,9 +271,7 @@ const HdRenderOptions *hd_renderer_options(const HdRenderer *renderer) {
 }
 
 int hd_renderer_lanes(const HdRenderer *renderer) {
-    const HdKernelCache *kernels = kernels_of(renderer);
-    return kernels != NULL ? kernels->shape.lanes
-                           : renderer->backend->functions->lanes(renderer->state);
+    return renderer->backend->functions->lanes(renderer->state);
 }
 
 void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity) {
@@ -384,13 +282,8 @@ void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity) 
 }
 
 const char *hd_renderer_kernels_note(const HdRenderer *renderer) {
-    const HdKernelCache *kernels = kernels_of(renderer);
+    const HdKernelCache *kernels = hd_renderer_kernels(renderer);
     return kernels != NULL ? kernels->note : "";
-}
-
-void hd_renderer_kernel_maker(const HdRenderer *renderer, char *text, size_t capacity) {
-    const HdKernelCache *kernels = kernels_of(renderer);
-    snprintf(text, capacity, "%s", kernels != NULL ? kernels->maker : "");
 }
 
 void hd_renderer_close(HdRenderer *renderer) {

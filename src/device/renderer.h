@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* An open device of any backend: checks what it is asked, and tests what it compiled. */
+/* An open device of any backend: checks what it is asked, and has frames under way. */
 #ifndef HD_DEVICE_RENDERER_H
 #define HD_DEVICE_RENDERER_H
 
 #include <stdbool.h>
 
 #include "device/backend.h"
-#include "device/probe.h"
-#include "device/self_test_scenes.h"
 
 /* An open device. Messages of the functions below begin with the backend's name where the backend
    failed: "cuda: ...". */
@@ -17,14 +15,14 @@ typedef struct HdRenderer HdRenderer;
 HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
                           const HdRenderOptions *options, HdError *error);
 
-/* Kernels that were compiled anew for the scene must first pass the self-test (self_test.h), with
-   strict arithmetic. Where those of the megakernel fail it, the wavefront takes over, and a note
-   tells (warnings.h); HD_UNAVAILABLE where it fails too. Kernels that pass are kept on disk. */
+/* Users' scenes come by verify/trust.h, which looks at kernels that were compiled for them. */
 HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, HdError *error);
 
 /* Begins a frame, so that the device works on it while the caller does other things; at most
    HD_FRAMES_IN_FLIGHT are under way. The tables must live until the frame is collected or dropped;
-   on failure they need not, and the earlier frames are still under way. */
+   on failure they need not, and the earlier frames are still under way. HD_BAD_INPUT, as of
+   hd_renderer_first_hits, where the kernels are compiled anew and neither accepted nor on trial
+   (kernel_cache.h). */
 HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
                             const HdFrameWish *wish, HdError *error);
 
@@ -67,18 +65,20 @@ void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity);
 /* Where the kernels came from and what became of them, for people; "" where nobody compiles. */
 const char *hd_renderer_kernels_note(const HdRenderer *renderer);
 
-/* Probes the arithmetic of a device that compiles its kernels, whatever is remembered of it
-   (probe.h), and remembers what came of it. There is no scene afterwards. */
-HdStatus hd_renderer_probe(HdRenderer *renderer, int tuples, HdProbeReport *report, HdError *error);
+/* The kernels that the renderer compiles; NULL: nobody compiles. */
+HdKernelCache *hd_renderer_kernels(const HdRenderer *renderer);
 
-/* Renders the frames of the self-test (self_test.h) by kernels that do what a scene with tables
-   like these needs, `hash` being that of what is expected and `frame` the last one. There is no
-   scene afterwards. */
-HdStatus hd_renderer_self_test(HdRenderer *renderer, const HdSceneTables *like, uint64_t *hash,
-                               HdSelfTestFrame *frame, bool *is_wrong, HdError *error);
+/* Computes a batch of the arithmetic probe with such kernels. There is no scene afterwards. */
+HdStatus hd_renderer_compute(HdRenderer *renderer, const HdProbeBatch *batch,
+                             HdProbeResults *results, HdError *error);
 
-/* What compiled the kernels; "": nobody knows, or they are built in. */
-void hd_renderer_kernel_maker(const HdRenderer *renderer, char *text, size_t capacity);
+/* Opens the device anew for the wavefront, with other kernels and no scene. False, and nothing
+   happened, where it has none, works by it already or is to keep its pipeline. */
+bool hd_renderer_change_to_wavefront(HdRenderer *renderer);
+
+/* Notes a failure, other than HD_INTERRUPTED, as the backend's (hd_renderer_has_failed), and puts
+   its name before the message. Returns `status`. */
+HdStatus hd_renderer_fail(HdRenderer *renderer, HdStatus status, HdError *error);
 
 /* Drops what is under way. NULL is allowed. */
 void hd_renderer_close(HdRenderer *renderer);

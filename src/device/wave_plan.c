@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "base/minmax.h"
 #include "system/interrupt.h"
 #include "tables/room.h"
 
@@ -18,12 +19,10 @@ static int round_up(int count, int grain) {
 static int batch_samples(const HdWaveNeeds *needs, size_t ray_bytes) {
     size_t places = (size_t)wave_least_capacity(wave_lesser(needs->depth, WAVE_BATCH_LEVELS), 1);
     size_t fitting = needs->bytes / (places * ray_bytes + WAVE_SUMS * sizeof(int64_t));
-    size_t most = MAX_STRIDE / places;
-    fitting = fitting < most ? fitting : most;
+    fitting = hd_min_size(fitting, MAX_STRIDE / places);
     if (fitting >= (size_t)needs->samples)
         return needs->samples;
-    int whole = (int)fitting / needs->samples_at_once * needs->samples_at_once;
-    return whole > 0 ? whole : needs->samples_at_once;
+    return hd_max((int)fitting / needs->samples_at_once, 1) * needs->samples_at_once;
 }
 
 /* The queue's room: two places for each sample and level, as far as they fit. */
@@ -33,9 +32,8 @@ static int queue_places(const HdWaveNeeds *needs, int batch, size_t ray_bytes) {
     size_t fitting = needs->bytes > sums ? (needs->bytes - sums) / ray_bytes : 0;
     size_t useful =
         (size_t)wave_least_capacity(needs->depth, 1) * (size_t)round_up(batch, needs->grain);
-    useful = useful < MAX_STRIDE ? useful : MAX_STRIDE;
-    fitting = fitting < useful ? fitting : useful;
-    return fitting > (size_t)least ? (int)fitting : least;
+    fitting = hd_min_size(fitting, hd_min_size(useful, MAX_STRIDE));
+    return hd_max((int)fitting, least);
 }
 
 /* An odd number of bundles: a ray's numbers must not all fall into one set of a cache. */
@@ -45,9 +43,8 @@ static int spread_stride(int places) {
 }
 
 size_t hd_wave_budget(uint64_t device_memory) {
-    const uint64_t most = 1 << 30;
-    uint64_t share = device_memory / 8;
-    return (size_t)(share < most ? share : most);
+    const size_t most = 1 << 30;
+    return hd_min_size((size_t)(device_memory / 8), most);
 }
 
 HdWavePlan hd_wave_plan(const HdWaveNeeds *needs) {
@@ -65,9 +62,7 @@ HdWavePlan hd_wave_plan(const HdWaveNeeds *needs) {
 bool hd_wave_halve(HdWaveNeeds *needs) {
     if (needs->bytes <= HD_WAVE_LEAST_BYTES)
         return false;
-    needs->bytes /= 2;
-    if (needs->bytes < HD_WAVE_LEAST_BYTES)
-        needs->bytes = HD_WAVE_LEAST_BYTES;
+    needs->bytes = needs->bytes / 2 > HD_WAVE_LEAST_BYTES ? needs->bytes / 2 : HD_WAVE_LEAST_BYTES;
     return true;
 }
 
@@ -78,25 +73,21 @@ void hd_wave_tell_cut(size_t bytes, char *text, int capacity) {
 }
 
 int hd_wave_samples(int items, int samples_per_item) {
-    int most = MAX_STRIDE / samples_per_item;
-    return (items < most ? items : most) * samples_per_item;
+    return hd_min(items, MAX_STRIDE / samples_per_item) * samples_per_item;
 }
 
 int hd_wave_groups(const HdWavePlan *plan, int group_size, int grid) {
     enum { MAX_GROUPS = 1 << 15 };
-    int groups = (plan->queue_stride + group_size - 1) / group_size;
-    int samples = (plan->sum_stride + group_size - 1) / group_size;
-    int most = grid > 0 ? grid : (int)MAX_GROUPS;
-    groups = groups > samples ? groups : samples;
-    return groups < most ? groups : most;
+    int threads = hd_max(plan->queue_stride, plan->sum_stride);
+    return hd_min((threads + group_size - 1) / group_size, grid > 0 ? grid : (int)MAX_GROUPS);
 }
 
 /* None, where all items had theirs. */
 static void begin_batch(HdWaveRun *run) {
     HdWaveStep *step = &run->step;
     step->first_item += step->item_count;
-    int left = run->items - step->first_item, most = run->plan->sum_stride / run->samples_per_item;
-    step->item_count = left < most ? left : most;
+    step->item_count =
+        hd_min(run->items - step->first_item, run->plan->sum_stride / run->samples_per_item);
     run->top = -1;
     wave_put(run->stack, &run->top, 0, 0, step->item_count * run->samples_per_item);
 }

@@ -63,6 +63,7 @@ typedef struct HdFrame {
     uint64_t shadow_tests; /* pairs of a point and a light that may reach it */
     uint64_t clamps;       /* contributions cut to 2^16 */
     double trace_seconds;  /* on the device, copies left out */
+    double longest_launch; /* seconds, of a GPU's kernel; negative: not known, or on no GPU */
     bool has_bound;        /* of a surveyed scene: what was left out, in steps of 255 */
     double largest_bound, mean_bound;
     unsigned layers;  /* of HD_LAYER_BIT, that there is room for */

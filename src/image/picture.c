@@ -10,7 +10,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "system/file_bytes.h"
 #include "system/path.h"
 
 /* ---- formats ---- */

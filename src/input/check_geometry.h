@@ -3,7 +3,7 @@
 #ifndef HD_INPUT_CHECK_GEOMETRY_H
 #define HD_INPUT_CHECK_GEOMETRY_H
 
-#include "base/problems.h"
+#include "base/error.h"
 #include "scene/scene.h"
 
 /* How messages name the parts of a scene: "solid 2", or as JSON does, "solids[1]". */

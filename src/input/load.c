@@ -13,7 +13,7 @@
 #include "input/meshes.h"
 #include "input/notes.h"
 #include "input/read.h"
-#include "system/file_bytes.h"
+#include "system/path.h"
 
 static HdStatus fail_syntax(const json_error_t *found, const char *text_read, size_t size,
                             const char *name, HdError *error) {

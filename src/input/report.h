@@ -6,7 +6,7 @@
 #include <jansson.h>
 #include <stdbool.h>
 
-#include "base/problems.h"
+#include "base/error.h"
 #include "input/fields.h"
 #include "input/json/words.h"
 

@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-#include "base/problems.h"
+#include "base/error.h"
 #include "image/curve.h"
 #include "image/format.h"
 #include "scene/scene.h"

@@ -15,8 +15,7 @@ static HdStatus close_standard_output(HdError *error) {
     return hd_fail(error, HD_FAILED, "cannot write to standard output");
 }
 
-int hd_program_run(int count, char **arguments,
-                   HdStatus (*run)(const HdOptions *options, HdError *error)) {
+int hd_program_run(int count, char **arguments, HdCommandFunction *run) {
     static HdError error;
     HdOptions options;
     hd_interrupt_install();

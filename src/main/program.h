@@ -7,7 +7,6 @@
 
 /* Parses the command line, which the options point into afterwards, calls `run`, prints its error
    and returns the exit code. */
-int hd_program_run(int count, char **arguments,
-                   HdStatus (*run)(const HdOptions *options, HdError *error));
+int hd_program_run(int count, char **arguments, HdCommandFunction *run);
 
 #endif

@@ -1,8 +1,128 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
 #include "output/film.h"
 
+#include <inttypes.h>
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/hash.h"
+#include "output/fingerprint.h"
+
+/* ---- segments ---- */
+
+/* Whole seconds, so that the times of the frames are those of a film made in one go. */
+static int length_of(int frames_per_second) {
+    int length = frames_per_second;
+    while (length < HD_LEAST_SEGMENT)
+        length += frames_per_second;
+    return length;
+}
+
+static uint64_t name_of(const HdSegments *segments, const HdOutputPlan *plan,
+                        const HdOutput *output, const HdFrameList *frames, int index) {
+    const int begin = hd_segment_begin(segments, index);
+    const char *format = output->format->name;
+    uint64_t hash = hd_hash_bytes(plan->fingerprint, format, strlen(format));
+    hash = hd_frame_fingerprint(hash, plan->style.frames_per_second);
+    for (int i = 0; i < hd_segment_frames(segments, index); i++)
+        hash = hd_frame_fingerprint(hash, frames->frames[begin + i]);
+    return hash;
+}
+
+static HdStatus look_at_files(HdSegments *segments, const HdOutputPlan *plan,
+                              const HdOutput *output, const HdFrameList *frames, HdError *error) {
+    HdStatus status = HD_OK;
+    for (int i = 0; i < segments->count && status == HD_OK; i++) {
+        char path[HD_MAX_PATH];
+        struct stat found;
+        segments->names[i] = name_of(segments, plan, output, frames, i);
+        status = hd_segment_path(segments, i, path, error);
+        segments->is_whole[i] = status == HD_OK && plan->resumes && lstat(path, &found) == 0 &&
+                                S_ISREG(found.st_mode) && found.st_size > 0;
+    }
+    return status;
+}
+
+HdStatus hd_segments_find(HdSegments *segments, const HdOutputPlan *plan, const HdOutput *output,
+                          const HdFrameList *frames, HdError *error) {
+    *segments = (HdSegments){.frame_count = frames->count, .length = frames->count, .count = 1};
+    HdStatus status = output->is_film ? hd_output_file(output, 0, segments->film, error) : HD_OK;
+    if (status != HD_OK || !output->is_film || !plan->keeps_films)
+        return status;
+    const int length = length_of(plan->style.frames_per_second);
+    if (frames->count <= length)
+        return HD_OK;
+    segments->length = length;
+    segments->count = (frames->count + length - 1) / length;
+    segments->names = calloc((size_t)segments->count, sizeof *segments->names);
+    segments->is_whole = calloc((size_t)segments->count, sizeof *segments->is_whole);
+    if (segments->names == NULL || segments->is_whole == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a list of %d segments",
+                       segments->count);
+    return look_at_files(segments, plan, output, frames, error);
+}
+
+bool hd_segments_have(const HdSegments *segments, int item) {
+    return segments->count > 1 && segments->is_whole[item / segments->length];
+}
+
+int hd_segment_begin(const HdSegments *segments, int index) {
+    return index * segments->length;
+}
+
+int hd_segment_frames(const HdSegments *segments, int index) {
+    const int rest = segments->frame_count - hd_segment_begin(segments, index);
+    return rest < segments->length ? rest : segments->length;
+}
+
+HdStatus hd_segment_path(const HdSegments *segments, int index, char out[HD_MAX_PATH],
+                         HdError *error) {
+    const int length = snprintf(out, HD_MAX_PATH, "%s" HD_SEGMENT_INFIX "%04d-%016" PRIx64,
+                                segments->film, index, segments->names[index]);
+    if (length >= HD_MAX_PATH)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the name of the film %s is too long for those of its segments",
+                       segments->film);
+    return HD_OK;
+}
+
+static bool is_segment(const char *name) {
+    int end = 0;
+    return sscanf(name, "%*[0-9]-%*16[0-9a-f]%n", &end) == 0 && end > 0 && name[end] == '\0';
+}
+
+static void remove_segment(void *context, const char *entry) {
+    const char *path = context;
+    const size_t folder = hd_folder_length(path), length = strlen(path + folder);
+    const size_t infix = strlen(HD_SEGMENT_INFIX);
+    char found[HD_MAX_PATH];
+    if (strncmp(entry, path + folder, length) != 0 ||
+        strncmp(entry + length, HD_SEGMENT_INFIX, infix) != 0 ||
+        !is_segment(entry + length + infix))
+        return;
+    if (snprintf(found, sizeof found, "%.*s%s", (int)folder, path, entry) < HD_MAX_PATH)
+        remove(found);
+}
+
+void hd_segments_remove(const HdSegments *segments) {
+    char film[HD_MAX_PATH], folder[HD_MAX_PATH];
+    snprintf(film, sizeof film, "%s", segments->film);
+    snprintf(folder, sizeof folder, "%.*s", (int)hd_folder_length(film), film);
+    hd_path_visit(folder, remove_segment, film);
+}
+
+void hd_segments_free(HdSegments *segments) {
+    free(segments->names);
+    free(segments->is_whole);
+    *segments = (HdSegments){.count = 1};
+}
+
+/* ---- the film ---- */
 
 /* A segment that got its last frame: FFmpeg ends, its frames are counted, it is synced and named.
  */
@@ -18,30 +138,22 @@ typedef struct Ending {
 
 struct HdFilm {
     HdSegments *segments;
-    int width, height;
-    HdOutputStyle style;
+    HdVideoPlan plan;
     HdDurability durability;
     HdVideo *video; /* NULL: none is being made */
     Ending ending;
 };
 
-static const HdFormat *format_of_film(const HdFilm *film) {
-    return hd_format_of(film->segments->film);
-}
-
 /* Starts the segment, or the film where it has none. */
 static HdStatus open_video(HdFilm *film, int index, HdError *error) {
     const HdSegments *segments = film->segments;
-    const HdFormat *format = format_of_film(film);
+    HdVideoPlan plan = film->plan;
     char path[HD_MAX_PATH];
     if (segments->count == 1)
-        return hd_video_open(&film->video, segments->film, format, film->width, film->height,
-                             &film->style, error);
+        return hd_video_open(&film->video, segments->film, &plan, error);
+    plan.format = plan.format->segment_format;
     HdStatus status = hd_segment_path(segments, index, path, error);
-    if (status == HD_OK)
-        status = hd_video_open(&film->video, path, format->segment_format, film->width,
-                               film->height, &film->style, error);
-    return status;
+    return status == HD_OK ? hd_video_open(&film->video, path, &plan, error) : status;
 }
 
 /* The first segment from `index` on that is not whole; negative: there is none. */
@@ -51,18 +163,18 @@ static int next_missing(const HdSegments *segments, int index) {
     return index < segments->count ? index : -1;
 }
 
-HdStatus hd_film_open(HdFilm **out, HdSegments *segments, int width, int height,
-                      const HdOutputStyle *style, HdDurability durability, HdError *error) {
+HdStatus hd_film_open(HdFilm **out, HdSegments *segments, const HdOutputPlan *plan, int width,
+                      int height, HdError *error) {
     HdFilm *film = calloc(1, sizeof *film);
     const int first = next_missing(segments, 0);
     if (film == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to make the film %s",
                        segments->film);
-    *film = (HdFilm){.segments = segments,
-                     .width = width,
-                     .height = height,
-                     .style = *style,
-                     .durability = durability};
+    *film = (HdFilm){
+        .segments = segments,
+        .plan = {hd_format_of(segments->film), width, height, plan->style, false},
+        .durability = plan->durability,
+    };
     const HdStatus status = first >= 0 ? open_video(film, first, error) : HD_OK;
     if (status == HD_OK)
         *out = film;
@@ -123,8 +235,9 @@ HdStatus hd_film_add(HdFilm *film, int item, const HdFrame *frame, HdError *erro
 
 static HdStatus join(HdFilm *film, HdError *error) {
     const HdSegments *segments = film->segments;
-    HdStatus status = hd_video_join(&film->video, segments->film, format_of_film(film), film->width,
-                                    film->height, &film->style, error);
+    HdVideoPlan plan = film->plan;
+    plan.is_joined = true;
+    HdStatus status = hd_video_open(&film->video, segments->film, &plan, error);
     for (int i = 0; i < segments->count && status == HD_OK; i++) {
         char path[HD_MAX_PATH];
         status = hd_segment_path(segments, i, path, error);

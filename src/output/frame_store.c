@@ -4,10 +4,9 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <unistd.h>
+#include <string.h>
 
 #include "image/picture.h"
-#include "output/film.h"
 #include "output/fingerprint.h"
 #include "system/atomic_file.h"
 #include "system/machine.h"
@@ -35,6 +34,14 @@ typedef struct Place {
     HdSpan films[HD_MAX_OUTPUTS]; /* by output */
 } Place;
 
+/* A frame that waits for its names, after its place was given to another one. */
+typedef struct Waiting {
+    HdStoredFrame stored;
+    HdFrame frame;
+    HdAtomicFile files[HD_MAX_OUTPUTS];
+    int file_count;
+} Waiting;
+
 typedef struct Film {
     HdFrameStore *store;
     int index; /* of the output */
@@ -46,8 +53,9 @@ struct HdFrameStore {
     HdStages *stages;
     Place *places; /* a frame's is its place in the list modulo their number */
     int place_count;
+    Waiting *waiting; /* as many at most */
+    int waiting_count;
     int stored;
-    HdPublisher *publisher;
     Film films[HD_MAX_OUTPUTS]; /* by output; without a video: pictures */
     HdStage list[HD_MAX_STAGES];
     int stage_count;
@@ -131,10 +139,7 @@ static HdStatus write_picture(const HdOutputPlan *outputs, int index, Place *pla
     if (status == HD_OK)
         status = hd_picture_prepare(file, &place->frame, outputs->list[index].format,
                                     &outputs->style.picture, &label, path, error);
-    if (status == HD_OK)
-        return hd_atomic_file_close(file, error);
-    file->lock = -1;
-    return status;
+    return status == HD_OK ? hd_atomic_file_close(file, error) : status;
 }
 
 static HdStatus write_pictures(void *context, int item, HdError *error) {
@@ -169,32 +174,133 @@ static HdSpan span_of_films(const HdFrameStore *store, const Place *place) {
     return whole;
 }
 
-/* Pictures get their names in the order of the frames, so that a run that ends early leaves its
-   first frames and no others. */
+/* ---- the last stage: pictures get their names, and then the frame counts as stored. In the order
+   of the frames, so that a run that ends early leaves its first frames and no others; but several
+   together, because a disk is waited for as long for one file as for many ---- */
+
+static bool is_durable(const HdFrameStore *store) {
+    return store->plan.outputs->durability == HD_DURABLE;
+}
+
+typedef HdStatus Step(HdFrameStore *store, Waiting *waiting, HdError *error);
+
+static HdStatus sync_files(HdFrameStore *store, Waiting *waiting, HdError *error) {
+    HdStatus status = HD_OK;
+    for (int i = 0; i < waiting->file_count && status == HD_OK && is_durable(store); i++)
+        status = hd_atomic_file_sync(&waiting->files[i], error);
+    return status;
+}
+
+static HdStatus name_files(HdFrameStore *store, Waiting *waiting, HdError *error) {
+    HdStatus status = HD_OK;
+    (void)store;
+    for (int i = 0; i < waiting->file_count && status == HD_OK; i++)
+        status = hd_atomic_file_publish(&waiting->files[i], error);
+    return status;
+}
+
+static HdStatus tell(HdFrameStore *store, Waiting *waiting, HdError *error) {
+    store->stored = waiting->stored.done;
+    return store->plan.stored(store->plan.context, &waiting->stored, error);
+}
+
+/* Does the step for the first `count` frames, and returns how many it was done for. Fills `error`
+   for the one that failed, and leaves it alone where none does. */
+static int go(HdFrameStore *store, Step *step, int count, HdError *error) {
+    HdError own;
+    for (int i = 0; i < count; i++)
+        if (step(store, &store->waiting[i], &own) != HD_OK) {
+            *error = own;
+            return i;
+        }
+    return count;
+}
+
+/* Frames that follow each other lie mostly in one folder. Finished ones are looked after too, whose
+   names may not have come to the disk before an earlier run was killed. */
+static HdStatus sync_folders(const HdFrameStore *store, const HdOutput *output, int count,
+                             HdError *error) {
+    char path[HD_MAX_PATH], last[HD_MAX_PATH] = "";
+    HdStatus status = HD_OK;
+    for (int i = 0; i < count && status == HD_OK; i++) {
+        status = hd_output_file(output, store->waiting[i].stored.number, path, error);
+        const size_t length = hd_folder_length(path);
+        if (status != HD_OK ||
+            (i > 0 && length == hd_folder_length(last) && memcmp(path, last, length) == 0))
+            continue;
+        status = hd_sync_folder(path, error);
+        memcpy(last, path, sizeof last);
+    }
+    return status;
+}
+
+static HdStatus sync_names(const HdFrameStore *store, int count, HdError *error) {
+    const HdOutputPlan *outputs = store->plan.outputs;
+    HdStatus status = HD_OK;
+    for (int i = 0; i < outputs->count && status == HD_OK; i++)
+        if (!outputs->list[i].is_film && is_durable(store))
+            status = sync_folders(store, &outputs->list[i], count, error);
+    return status;
+}
+
+static void drop_waiting(HdFrameStore *store) {
+    for (int i = 0; i < store->waiting_count; i++)
+        for (int k = 0; k < store->waiting[i].file_count; k++)
+            hd_atomic_file_discard(&store->waiting[i].files[k]);
+    store->waiting_count = 0;
+}
+
+/* All bytes are on the disk before a file gets its name, and all names before frames are told.
+   After a failure, which is that of the first frame that could not be stored, the frames before it
+   are stored and later ones gone, but where telling failed, those that waited with that frame have
+   their names. */
+static HdStatus settle(void *context, HdError *error) {
+    HdFrameStore *store = context;
+    HdError own = {.status = HD_OK}, unsynced;
+    int count = go(store, sync_files, store->waiting_count, &own);
+    count = go(store, name_files, count, &own);
+    if (sync_names(store, count, &unsynced) == HD_OK)
+        go(store, tell, count, &own);
+    else
+        own = unsynced;
+    drop_waiting(store);
+    if (own.status != HD_OK)
+        *error = own;
+    return own.status;
+}
+
+/* Takes over the files that were written for the frame. */
+static void keep_waiting(Waiting *waiting, Place *place) {
+    waiting->frame = place->frame;
+    waiting->frame.rgb = NULL;
+    waiting->frame.rgba = NULL;
+    waiting->file_count = 0;
+    for (int i = 0; i < HD_MAX_OUTPUTS; i++) {
+        if (place->files[i].lock < 0)
+            continue;
+        waiting->files[waiting->file_count++] = place->files[i];
+        place->files[i].lock = -1;
+    }
+}
+
 static HdStatus publish(void *context, int item, HdError *error) {
     HdFrameStore *store = context;
     Place *place = place_of(store, item);
-    place->times.film = span_of_films(store, place);
-    const HdStoredFrame stored = {
+    HdStatus status = store->waiting_count == store->place_count ? settle(store, error) : HD_OK;
+    if (status != HD_OK)
+        return status;
+    Waiting *waiting = &store->waiting[store->waiting_count++];
+    keep_waiting(waiting, place);
+    waiting->stored = (HdStoredFrame){
         .number = number_of(store, item),
         .tracer = place->tracer,
         .done = item + 1,
-        .frame = &place->frame,
+        .frame = &waiting->frame,
         .was_finished = was_finished(store, item),
         .times = place->times,
     };
-    return hd_publisher_add(store->publisher, &stored, place->files, error);
-}
-
-static HdStatus settle(void *context, HdError *error) {
-    HdFrameStore *store = context;
-    return hd_publisher_settle(store->publisher, error);
-}
-
-static HdStatus tell_stored(void *context, const HdStoredFrame *stored, HdError *error) {
-    HdFrameStore *store = context;
-    store->stored = stored->done;
-    return store->plan.stored(store->plan.context, stored, error);
+    waiting->stored.times.film = span_of_films(store, place);
+    return HD_OK;
 }
 
 /* ---- which stages, and how many frames at a time ---- */
@@ -288,16 +394,14 @@ static int choose_place_count(const HdFrameStorePlan *plan) {
 /* ---- the begin ---- */
 
 static HdStatus probe_picture(const HdOutput *output, int number, HdError *error) {
-    char path[HD_MAX_PATH], temporary[HD_MAX_PATH];
-    int descriptor;
+    char path[HD_MAX_PATH];
+    HdAtomicFile file;
     HdStatus status = hd_output_file(output, number, path, error);
     if (status == HD_OK)
-        status = hd_temporary_create(path, HD_MODE_USUAL, temporary, &descriptor, error);
-    if (status != HD_OK)
-        return status;
-    close(descriptor);
-    hd_temporary_remove(temporary);
-    return HD_OK;
+        status = hd_atomic_file_reserve(&file, path, error);
+    if (status == HD_OK)
+        hd_atomic_file_discard(&file);
+    return status;
 }
 
 /* Whether the pictures of the first frame can be written; makes their folders. */
@@ -316,8 +420,8 @@ static HdStatus open_film(HdFrameStore *store, int index, HdError *error) {
     const HdFrameStorePlan *plan = &store->plan;
     Film *film = &store->films[index];
     *film = (Film){.store = store, .index = index};
-    return hd_film_open(&film->film, &plan->resume->films[index], plan->width, plan->height,
-                        &plan->outputs->style, plan->durability, error);
+    return hd_film_open(&film->film, &plan->resume->films[index], plan->outputs, plan->width,
+                        plan->height, error);
 }
 
 static HdStatus open_films(HdFrameStore *store, HdError *error) {
@@ -344,7 +448,8 @@ static HdStatus create_places(HdFrameStore *store, HdError *error) {
     int count = choose_place_count(&store->plan);
     HdStatus status = HD_OK;
     store->places = calloc((size_t)count, sizeof *store->places);
-    if (store->places == NULL)
+    store->waiting = calloc((size_t)count, sizeof *store->waiting);
+    if (store->places == NULL || store->waiting == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for %d frames", count);
     for (; store->place_count < count && status == HD_OK; store->place_count++)
         status = create_place(&store->places[store->place_count], &store->plan, error);
@@ -353,7 +458,7 @@ static HdStatus create_places(HdFrameStore *store, HdError *error) {
 
 /* Drops pictures that were written but not published. */
 static void free_places(HdFrameStore *store) {
-    hd_publisher_free(store->publisher);
+    drop_waiting(store);
     for (int i = 0; i < store->place_count; i++) {
         Place *place = &store->places[i];
         for (int k = 0; k < HD_MAX_OUTPUTS; k++)
@@ -361,6 +466,7 @@ static void free_places(HdFrameStore *store) {
         hd_frame_free(&place->frame);
     }
     free(store->places);
+    free(store->waiting);
 }
 
 static void drop_films(HdFrameStore *store) {
@@ -381,15 +487,6 @@ static HdStatus start_stages(HdFrameStore *store, HdError *error) {
     const HdResume *resume = store->plan.resume;
     list_stages(store);
     HdStatus status = create_places(store, error);
-    const HdPublisherPlan plan = {
-        .outputs = store->plan.outputs,
-        .durability = store->plan.durability,
-        .most = store->place_count,
-        .stored = tell_stored,
-        .context = store,
-    };
-    if (status == HD_OK)
-        status = hd_publisher_create(&store->publisher, &plan, error);
     if (status == HD_OK)
         status =
             hd_stages_start(&store->stages, store->list, store->stage_count, resume->all->count,
@@ -405,6 +502,7 @@ HdStatus hd_frame_store_start(HdFrameStore **out, const HdFrameStorePlan *plan, 
     if (store == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to store frames");
     store->plan = *plan;
+    hd_stale_files_remove(plan->outputs, plan->resume->all);
     HdStatus status = probe_pictures(plan, error);
     if (status == HD_OK)
         status = open_films(store, error);

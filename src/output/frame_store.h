@@ -6,29 +6,56 @@
 
 #include <stdbool.h>
 
+#include "image/frame.h"
 #include "output/outputs.h"
-#include "output/publisher.h"
 #include "output/resume.h"
 #include "output/stages.h"
+
+/* When something was done, in seconds. */
+typedef struct HdSpan {
+    double began;   /* since the start of the run; negative: there was nothing to do */
+    double seconds; /* 0 where there was nothing to do */
+} HdSpan;
+
+/* Where the time of one frame went. */
+typedef struct HdFrameTimes {
+    HdSpan prepare; /* the camera and its tables */
+    HdSpan trace;   /* on the device */
+    HdSpan copy;    /* what the frame was waited for beyond that */
+    HdSpan convert; /* to 8 bits, where a film needs it and the device has not done it */
+    HdSpan store;   /* encoding and writing pictures */
+    HdSpan film;    /* handing it to FFmpeg: from the first film's begin to the last one's end */
+    double longest_launch; /* seconds, of a GPU's kernel; negative: not known, or on no GPU */
+} HdFrameTimes;
+
+/* What is known once a frame is stored. */
+typedef struct HdStoredFrame {
+    int number;
+    int tracer;           /* who traced it, if it was not finished */
+    int done;             /* frames stored so far, this one included */
+    const HdFrame *frame; /* without its pixels */
+    bool was_finished;    /* before the run: of `frame` only the size is worth something */
+    HdFrameTimes times;
+} HdStoredFrame;
 
 typedef struct HdFrameStorePlan {
     const HdOutputPlan *outputs; /* settled */
     HdResume *resume;            /* which frames are finished: the store takes these by itself, and
                                                reads them back for films */
     int width, height;
-    int tracers;             /* how many trace frames, 1 or more */
-    double start;            /* of the run, by hd_monotonic_seconds */
-    HdDurability durability; /* of pictures and films */
-    /* As in HdPublisherPlan, on a thread of the store. */
+    int tracers;  /* how many trace frames, 1 or more */
+    double start; /* of the run, by hd_monotonic_seconds */
+    /* Called on a thread of the store after each frame is stored, in their order. Must return HD_OK
+       to go on. */
     HdStatus (*stored)(void *context, const HdStoredFrame *stored, HdError *error);
     void *context;
 } HdFrameStorePlan;
 
 typedef struct HdFrameStore HdFrameStore;
 
-/* Finds out whether the pictures of the first missing frame can be written, which makes their
-   folders, and starts the films. What the plan points to must live on. On failure no file is left
-   behind. */
+/* Removes what killed runs left (resume.h). Finds out whether the pictures of the first missing
+   frame can be written, which makes their folders, and starts the films. What the plan points to
+   must live on. On failure no file is left behind. */
 HdStatus hd_frame_store_start(HdFrameStore **store, const HdFrameStorePlan *plan, HdError *error);
 
 /* Where tracers take frames that are not finished, by their place in the list, and give them. */

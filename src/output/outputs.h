@@ -10,7 +10,8 @@
 #include "base/error.h"
 #include "base/limits.h"
 #include "image/picture.h"
-#include "system/path.h"
+#include "scene/frame_list.h"
+#include "system/atomic_file.h"
 
 typedef struct HdOutput {
     const char *name; /* of a film or a picture, or a sequence's pattern; as people wrote it */
@@ -32,7 +33,8 @@ typedef struct HdOutputPlan {
     uint64_t fingerprint;    /* of the run (fingerprint.h), where they do, or films are kept */
     const char *scene; /* what pictures say of the run (HdPictureLabel): the caller sets both */
     const char *options;
-    bool resumes; /* frames that are there are finished (resume.h) */
+    bool resumes;            /* frames that are there are finished (resume.h) */
+    HdDurability durability; /* of pictures and films; durable, unless the caller says otherwise */
 } HdOutputPlan;
 
 /* Checks that the name has an ending that tells what to write; `option` is for the message. */
@@ -59,5 +61,28 @@ void hd_outputs_set_fingerprint(HdOutputPlan *plan, uint64_t fingerprint, bool r
  */
 HdStatus hd_output_name(const HdOutput *output, int number, char out[HD_MAX_PATH], HdError *error);
 HdStatus hd_output_file(const HdOutput *output, int number, char out[HD_MAX_PATH], HdError *error);
+
+/* ---- the names of an output's frames, known again in a folder: so that one look at a folder finds
+   what is there of them, however many they are ---- */
+
+typedef struct HdFrameNames {
+    const HdFrameList *frames; /* ascending, each once */
+    char folder[HD_MAX_PATH];  /* of the entries that bear the number; with its last slash; empty:
+                                  the  current one */
+    char prefix[HD_MAX_PATH];  /* of such an entry's name, up to the number */
+    char suffix[HD_MAX_PATH];  /* of its name, after the number */
+    char rest[HD_MAX_PATH]; /* of the path after the entry, from its slash on; empty: the entry is
+                               the file */
+    int digits;             /* of the number at least; 0: there is none, all frames are one file */
+} HdFrameNames;
+
+/* The error is that of hd_output_file. `frames` must live on and have a frame. */
+HdStatus hd_frame_names_find(HdFrameNames *names, const HdOutput *output, const HdFrameList *frames,
+                             HdError *error);
+
+/* The place in the list of the frame whose entry has this name of `length` bytes; negative: none
+   has. Of a name that `is_cut` only the begin is known, and it may be any of the frames with such a
+   begin. */
+int hd_frame_names_place(const HdFrameNames *names, const char *entry, size_t length, bool is_cut);
 
 #endif

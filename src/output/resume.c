@@ -2,15 +2,15 @@
 #define _POSIX_C_SOURCE 200809L
 #include "output/resume.h"
 
-#include <dirent.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "image/png.h"
 #include "output/fingerprint.h"
-#include "output/frame_names.h"
-#include "system/file_bytes.h"
 #include "system/interrupt.h"
+#include "system/path.h"
 
 static const int64_t MAX_PICTURE_BYTES = INT64_C(1) << 36;
 
@@ -55,25 +55,28 @@ static bool is_finished(const HdResume *resume, const HdOutputPlan *plan, int it
     return whole;
 }
 
+typedef struct Presence {
+    HdFrameNames names;
+    bool *is_there; /* by place */
+} Presence;
+
+static void note_presence(void *context, const char *entry) {
+    Presence *presence = context;
+    const int place = hd_frame_names_place(&presence->names, entry, strlen(entry), false);
+    if (place >= 0)
+        presence->is_there[place] = true;
+}
+
 /* Marks the frames that there is anything of in the first output that is no film, all of whose
    frames have numbers: a look at its folder takes no longer for more frames. */
 static void mark_present(HdResume *resume, const HdOutputPlan *plan) {
-    HdFrameNames names;
+    Presence presence = {.is_there = resume->is_finished};
     HdError ignored;
-    const struct dirent *entry;
     const HdOutput *output = plan->list;
     while (output->is_film)
         output++;
-    if (hd_frame_names_find(&names, output, resume->all, &ignored) != HD_OK)
-        return;
-    DIR *folder = opendir(names.folder[0] != '\0' ? names.folder : ".");
-    while (folder != NULL && (entry = readdir(folder)) != NULL) {
-        const int place = hd_frame_names_place(&names, entry->d_name, strlen(entry->d_name), false);
-        if (place >= 0)
-            resume->is_finished[place] = true;
-    }
-    if (folder != NULL)
-        closedir(folder);
+    if (hd_frame_names_find(&presence.names, output, resume->all, &ignored) == HD_OK)
+        hd_path_visit(presence.names.folder, note_presence, &presence);
 }
 
 static HdStatus look_at_frames(HdResume *resume, const HdOutputPlan *plan, HdError *error) {
@@ -135,4 +138,72 @@ void hd_resume_free(HdResume *resume) {
     for (int i = 0; i < HD_MAX_OUTPUTS; i++)
         hd_segments_free(&resume->films[i]);
     *resume = (HdResume){0};
+}
+
+/* ---- what killed runs left ---- */
+
+enum { ORPHAN_GLANCES = 1000 /* of 10 ms each */ };
+
+typedef struct Search {
+    HdFrameNames names; /* whose entries are the output's files, or folders with one each */
+    bool is_film;
+    bool is_done; /* nothing that is to be waited for was found */
+} Search;
+
+static bool is_of_segment(const Search *search, const char *entry) {
+    const size_t film = strlen(search->names.prefix);
+    return search->is_film && strncmp(entry, search->names.prefix, film) == 0 &&
+           strncmp(entry + film, HD_SEGMENT_INFIX, strlen(HD_SEGMENT_INFIX)) == 0;
+}
+
+static void remove_if_stale(void *context, const char *entry) {
+    Search *search = context;
+    const HdFrameNames *names = &search->names;
+    const size_t length = hd_temporary_name_length(entry);
+    char path[HD_MAX_PATH];
+    if (length == 0 ||
+        (hd_frame_names_place(names, entry, length, length == HD_TEMPORARY_MOST_KEPT) < 0 &&
+         !is_of_segment(search, entry)))
+        return;
+    if (snprintf(path, sizeof path, "%s%s", names->folder, entry) < HD_MAX_PATH)
+        search->is_done &= hd_temporary_remove_stale(path);
+}
+
+/* Of one frame, in a folder of its own. */
+static void search_own_folder(void *context, const char *entry) {
+    Search *search = context;
+    const HdFrameNames *names = &search->names;
+    Search own = {.names.frames = names->frames, .is_done = true};
+    char path[HD_MAX_PATH];
+    if (hd_frame_names_place(names, entry, strlen(entry), false) < 0 ||
+        snprintf(path, sizeof path, "%s%s%s", names->folder, entry, names->rest) >= HD_MAX_PATH)
+        return;
+    const size_t folder = hd_folder_length(path);
+    memcpy(own.names.folder, path, folder);
+    memcpy(own.names.prefix, path + folder, strlen(path + folder));
+    hd_path_visit(own.names.folder, remove_if_stale, &own);
+    search->is_done &= own.is_done;
+}
+
+static bool remove_stale(const HdOutputPlan *plan, const HdFrameList *frames) {
+    bool is_done = true;
+    for (int i = 0; i < plan->count; i++) {
+        Search search = {.is_film = plan->list[i].is_film, .is_done = true};
+        HdError ignored;
+        if (hd_frame_names_find(&search.names, &plan->list[i], frames, &ignored) != HD_OK)
+            continue;
+        hd_path_visit(search.names.folder,
+                      search.names.rest[0] == '\0' ? remove_if_stale : search_own_folder, &search);
+        is_done &= search.is_done;
+    }
+    return is_done;
+}
+
+void hd_stale_files_remove(const HdOutputPlan *plan, const HdFrameList *frames) {
+    const struct timespec glance = {.tv_nsec = 10000000};
+    for (int i = 0; i < ORPHAN_GLANCES && hd_interrupt_signal() == 0; i++) {
+        if (remove_stale(plan, frames))
+            return;
+        nanosleep(&glance, NULL);
+    }
 }

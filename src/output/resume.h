@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Which frames of a run are finished already: those whose pictures are all there, whole, and bear
-   the fingerprint that they would get, and which are in a whole segment of each film
-   (segments.h), or can be read back for it. */
+/* What earlier runs left. Which frames of a run are finished already: those whose pictures are all
+   there, whole, and bear the fingerprint that they would get, and which are in a whole
+   segment of each film (film.h), or can be read back for it. */
 #ifndef HD_OUTPUT_RESUME_H
 #define HD_OUTPUT_RESUME_H
 
@@ -9,8 +9,8 @@
 
 #include "base/error.h"
 #include "image/frame.h"
+#include "output/film.h"
 #include "output/outputs.h"
-#include "output/segments.h"
 #include "scene/frame_list.h"
 
 typedef struct HdResume {
@@ -40,5 +40,12 @@ bool hd_resume_keeps(const HdResume *resume, const HdOutputPlan *plan, int item)
 HdStatus hd_resume_load(const HdOutputPlan *plan, int number, HdFrame *frame, HdError *error);
 
 void hd_resume_free(HdResume *resume);
+
+/* Removes the temporary files (atomic_file.h) of these frames' outputs, and of segments of their
+   films, whose writer is gone. Those of a living process stay, for it has them locked: on other
+   machines too where the file system shares its locks. Where something that a writer had started
+   still has one locked, waits for that, up to 10 s in all, or an interrupt. What cannot be looked
+   at or removed stays too. */
+void hd_stale_files_remove(const HdOutputPlan *plan, const HdFrameList *frames);
 
 #endif

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "system/machine.h"
 #include "system/thread_pool.h"
-#include "system/warnings.h"
 
 typedef struct Worker {
     HdStages *stages;

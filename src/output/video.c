@@ -3,48 +3,46 @@
 
 #include "output/video.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/limits.h"
 #include "image/picture.h"
 #include "system/atomic_file.h"
 #include "system/child.h"
-#include "system/durable.h"
 #include "system/interrupt.h"
+
+enum {
+    PATIENCE_S = 600, /* HEDRON_FFMPEG_PATIENCE says otherwise */
+    MAX_PATIENCE_S = 86400,
+    LAST_WORDS_MS = 3000 /* which one has that stopped reading */
+};
 
 struct HdVideo {
     HdChild ffmpeg;
-    const HdFormat *format;
-    HdOutputStyle style;
-    bool is_joined; /* of films, which FFmpeg is told; otherwise it gets frames */
-    int width, height;
+    int patience_ms; /* with FFmpeg and ffprobe */
+    HdVideoPlan plan;
     long frames;
-    char path[HD_MAX_PATH];
-    char temporary[HD_MAX_PATH]; /* empty: there is no file */
-    int lock;                    /* of that file; -1: there is none */
+    HdAtomicFile file; /* which FFmpeg writes */
     char ffprobe[HD_MAX_PATH];
 };
 
-static HdStatus check_settings(const char *path, const HdFormat *format, int width, int height,
-                               const HdOutputStyle *style, HdError *error) {
+static HdStatus check_plan(const char *path, const HdVideoPlan *plan, HdError *error) {
+    const int width = plan->width, height = plan->height;
     if (width < 1 || width > HD_MAX_IMAGE_SIDE || height < 1 || height > HD_MAX_IMAGE_SIDE)
         return hd_fail(error, HD_BAD_INPUT, "the film %s has %d x %d pixels, expected 1..%d each",
                        path, width, height, HD_MAX_IMAGE_SIDE);
-    if (!hd_format_is_film(format))
+    if (!hd_format_is_film(plan->format))
         return hd_fail(error, HD_BAD_INPUT,
                        "the film %s has another ending, expected " HD_FILM_ENDINGS, path);
-    if (style->frames_per_second < 1)
+    if (plan->style.frames_per_second < 1)
         return hd_fail(error, HD_BAD_INPUT,
                        "the film %s has %d frames a second, expected at least 1", path,
-                       style->frames_per_second);
-    return hd_format_check_style(path, &style->picture, error);
+                       plan->style.frames_per_second);
+    return hd_format_check_style(path, &plan->style.picture, error);
 }
 
 enum { MAX_ARGUMENTS = 64, MAX_EXCUSE = 600 };
@@ -59,22 +57,22 @@ static void append(Arguments *arguments, const char *const *words) {
         arguments->words[arguments->count++] = *words++;
 }
 
+static const uint8_t join_head[] = "ffconcat version 1.0\n";
 static const char *const join_input[] = {
     "-f", "concat", "-safe", "0", "-protocol_whitelist", "file,pipe", "-i", "pipe:0", NULL};
 
-static const char *const *output_arguments(const HdVideo *video) {
-    const HdFormat *format = video->format;
-    if (video->is_joined && format->join_arguments != NULL)
-        return format->join_arguments;
-    return format->film_arguments(video->width, video->height, video->style.picture.curve);
+static const char *const *output_arguments(const HdVideoPlan *plan) {
+    if (plan->is_joined && plan->format->join_arguments != NULL)
+        return plan->format->join_arguments;
+    return plan->format->film_arguments(plan->width, plan->height, plan->style.picture.curve);
 }
 
 /* "file:" keeps FFmpeg from reading a protocol or an option into the name. */
 static HdStatus start_ffmpeg(HdVideo *video, const char *ffmpeg, HdError *error) {
     char size[32], rate[16], target[HD_MAX_PATH + 8];
-    snprintf(size, sizeof size, "%dx%d", video->width, video->height);
-    snprintf(rate, sizeof rate, "%d", video->style.frames_per_second);
-    snprintf(target, sizeof target, "file:%s", video->temporary);
+    snprintf(size, sizeof size, "%dx%d", video->plan.width, video->plan.height);
+    snprintf(rate, sizeof rate, "%d", video->plan.style.frames_per_second);
+    snprintf(target, sizeof target, "file:%s", video->file.temporary);
     /* clang-format off */
     const char *const start[] = {
         ffmpeg, "-nostdin", "-hide_banner", "-nostats", "-loglevel", "error", "-y", NULL};
@@ -85,98 +83,71 @@ static HdStatus start_ffmpeg(HdVideo *video, const char *ffmpeg, HdError *error)
     const char *const end[] = {target, NULL};
     Arguments arguments = {0};
     append(&arguments, start);
-    append(&arguments, video->is_joined ? join_input : frames);
-    append(&arguments, output_arguments(video));
+    append(&arguments, video->plan.is_joined ? join_input : frames);
+    append(&arguments, output_arguments(&video->plan));
     append(&arguments, end);
-    return hd_child_start(&video->ffmpeg, arguments.words, true, video->temporary, video->lock,
-                          error);
+    return hd_child_start(&video->ffmpeg, arguments.words, true, video->file.lock, error);
 }
 
-static void remove_file(HdVideo *video) {
-    if (video->temporary[0] != '\0')
-        hd_temporary_remove(video->temporary);
-    video->temporary[0] = '\0';
-    if (video->lock >= 0)
-        close(video->lock);
-    video->lock = -1;
+static HdStatus read_patience(int *milliseconds, HdError *error) {
+    const char *text = getenv("HEDRON_FFMPEG_PATIENCE");
+    char *end;
+    *milliseconds = 1000 * PATIENCE_S;
+    if (text == NULL || text[0] == '\0')
+        return HD_OK;
+    const long wanted = strtol(text, &end, 10);
+    if (*end != '\0' || wanted < 1 || wanted > MAX_PATIENCE_S)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "HEDRON_FFMPEG_PATIENCE is '%.200s', expected whole seconds from 1 to %d",
+                       text, MAX_PATIENCE_S);
+    *milliseconds = 1000 * (int)wanted;
+    return HD_OK;
 }
 
 /* FFmpeg is given a name that exists: so it is taken against other processes. */
-static HdStatus reserve_file(HdVideo *video, HdError *error) {
-    HdStatus status =
-        hd_temporary_create(video->path, HD_MODE_USUAL, video->temporary, &video->lock, error);
-    if (status != HD_OK) {
-        video->temporary[0] = '\0';
-        video->lock = -1;
-    }
-    return status;
-}
-
 static HdStatus open_film(HdVideo *video, const char *path, HdError *error) {
     char ffmpeg[HD_MAX_PATH];
-    HdStatus status = hd_child_find("ffmpeg", ffmpeg, error);
+    HdStatus status = read_patience(&video->patience_ms, error);
+    if (status == HD_OK)
+        status = hd_child_find("ffmpeg", ffmpeg, error);
     if (status == HD_OK)
         status = hd_child_find("ffprobe", video->ffprobe, error);
-    if (status == HD_OK && strlen(path) >= HD_MAX_PATH)
-        status = hd_fail(error, HD_BAD_INPUT,
-                         "the name of the film %s is too long, expected fewer than %d bytes", path,
-                         HD_MAX_PATH);
-    if (status != HD_OK)
-        return status;
-    memcpy(video->path, path, strlen(path) + 1);
-    status = reserve_file(video, error);
+    if (status == HD_OK)
+        status = hd_atomic_file_reserve(&video->file, path, error);
     if (status == HD_OK)
         status = start_ffmpeg(video, ffmpeg, error);
+    /* Where FFmpeg does not take it, it does not take the first part either. */
+    if (status == HD_OK && video->plan.is_joined)
+        hd_child_send(&video->ffmpeg, join_head, sizeof join_head - 1, video->patience_ms);
     return status;
 }
 
-static HdStatus start_film(HdVideo **video, const char *path, const HdVideo *settings,
-                           HdError *error) {
-    *video = NULL;
-    HdStatus status = check_settings(path, settings->format, settings->width, settings->height,
-                                     &settings->style, error);
+HdStatus hd_video_open(HdVideo **out, const char *path, const HdVideoPlan *plan, HdError *error) {
+    *out = NULL;
+    HdStatus status = check_plan(path, plan, error);
     if (status != HD_OK)
         return status;
-    HdVideo *film = malloc(sizeof *film);
-    if (film == NULL)
+    HdVideo *video = malloc(sizeof *video);
+    if (video == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to make the film %s", path);
-    *film = *settings;
-    film->ffmpeg.input = film->ffmpeg.output = film->lock = -1;
-    status = open_film(film, path, error);
+    *video = (HdVideo){.plan = *plan, .ffmpeg = {.input = -1, .output = -1}, .file = {.lock = -1}};
+    status = open_film(video, path, error);
     if (status == HD_OK)
-        *video = film;
+        *out = video;
     else
-        hd_video_abort(film);
-    return status;
-}
-
-HdStatus hd_video_open(HdVideo **video, const char *path, const HdFormat *format, int width,
-                       int height, const HdOutputStyle *style, HdError *error) {
-    const HdVideo settings = {.format = format, .width = width, .height = height, .style = *style};
-    return start_film(video, path, &settings, error);
-}
-
-HdStatus hd_video_join(HdVideo **video, const char *path, const HdFormat *format, int width,
-                       int height, const HdOutputStyle *style, HdError *error) {
-    const HdVideo settings = {
-        .format = format, .width = width, .height = height, .style = *style, .is_joined = true};
-    const HdStatus status = start_film(video, path, &settings, error);
-    static const char head[] = "ffconcat version 1.0\n";
-    /* Where FFmpeg does not take it, it does not take the first part either. */
-    if (status == HD_OK)
-        hd_child_send(&(*video)->ffmpeg, (const uint8_t *)head, sizeof head - 1);
+        hd_video_abort(video);
     return status;
 }
 
 static HdStatus fail_interrupted(const HdVideo *video, const char *program, HdError *error) {
     return hd_fail(error, HD_INTERRUPTED, "interrupted while %s worked on %s", program,
-                   video->path);
+                   video->file.path);
 }
 
 /* FFmpeg's words on a file that is gone mislead. */
 static void blame_folder(const HdVideo *video, HdError *error) {
     HdError gone;
-    if (hd_temporary_check(video->temporary, video->path, &gone) != HD_OK)
+    if (hd_atomic_file_check(&video->file, &gone) != HD_OK)
         *error = gone;
 }
 
@@ -186,44 +157,53 @@ static HdStatus fail_stuck(const HdVideo *video, const char *program, const char
         error, HD_FAILED,
         "%s stood still for %d s %s of %s and was ended (HEDRON_FFMPEG_PATIENCE sets the "
         "seconds); it said: %s",
-        program, child->patience_s, when, video->path, hd_child_said(child));
+        program, video->patience_ms / 1000, when, video->file.path, hd_child_said(child));
 }
 
 static HdStatus fail_early(HdVideo *video, HdError *error) {
     char how[64];
-    if (video->ffmpeg.is_stuck) {
-        hd_child_stop(&video->ffmpeg);
-        snprintf(how, sizeof how, "at frame %ld", video->frames);
-        return fail_stuck(video, "FFmpeg", how, &video->ffmpeg, error);
-    }
-    hd_child_end(&video->ffmpeg, HD_CHILD_SILENCE_MS, how);
+    hd_child_end(&video->ffmpeg, LAST_WORDS_MS, how);
+    if (hd_interrupt_signal() != 0)
+        return fail_interrupted(video, "FFmpeg", error);
     hd_fail(error, HD_FAILED,
             "FFmpeg ended early (%s) while it was given frame %ld of %s; it said: %s", how,
-            video->frames, video->path, hd_child_said(&video->ffmpeg));
+            video->frames, video->file.path, hd_child_said(&video->ffmpeg));
     blame_folder(video, error);
     return HD_FAILED;
 }
 
+/* Blocks while FFmpeg is busy. */
+static HdStatus send(HdVideo *video, const void *bytes, size_t size, HdError *error) {
+    char when[64];
+    if (hd_child_send(&video->ffmpeg, bytes, size, video->patience_ms))
+        return HD_OK;
+    if (hd_interrupt_signal() != 0)
+        return fail_interrupted(video, "FFmpeg", error);
+    if (!video->ffmpeg.is_stuck)
+        return fail_early(video, error);
+    hd_child_stop(&video->ffmpeg);
+    snprintf(when, sizeof when, "at frame %ld", video->frames);
+    return fail_stuck(video, "FFmpeg", when, &video->ffmpeg, error);
+}
+
 HdStatus hd_video_add(HdVideo *video, const HdFrame *frame, HdError *error) {
-    if (frame->width != video->width || frame->height != video->height)
+    if (frame->width != video->plan.width || frame->height != video->plan.height)
         return hd_fail(error, HD_BAD_INPUT,
                        "a frame of %d x %d pixels for the film %s, expected %d x %d", frame->width,
-                       frame->height, video->path, video->width, video->height);
+                       frame->height, video->file.path, video->plan.width, video->plan.height);
     if (video->ffmpeg.pid == 0)
         return hd_fail(error, HD_FAILED, "the film %s failed at frame %ld, it takes no more frames",
-                       video->path, video->frames);
-    if (!hd_child_send(&video->ffmpeg, frame->rgba,
-                       (size_t)frame->width * (size_t)frame->height * 4))
-        return hd_interrupt_signal() != 0 ? fail_interrupted(video, "FFmpeg", error)
-                                          : fail_early(video, error);
-    video->frames++;
-    return HD_OK;
+                       video->file.path, video->frames);
+    const HdStatus status =
+        send(video, frame->rgba, (size_t)frame->width * (size_t)frame->height * 4, error);
+    video->frames += status == HD_OK;
+    return status;
 }
 
 /* In single quotes, which FFmpeg reads as a shell does. The times are told, since each film knows
    its own only to a millisecond. */
 static void describe_part(const HdVideo *video, const char *path, int frames, FILE *out) {
-    const int rate = video->style.frames_per_second;
+    const int rate = video->plan.style.frames_per_second;
     const int64_t microseconds = ((int64_t)frames * 1000000 + rate / 2) / rate;
     fputs("file 'file:", out);
     for (const char *at = path; *at != '\0'; at++)
@@ -239,16 +219,12 @@ HdStatus hd_video_add_part(HdVideo *video, const char *path, int frames, HdError
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
-    if (out == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room to join the film %s", video->path);
-    describe_part(video, path, frames, out);
-    HdStatus status = HD_OK;
-    if (fclose(out) != 0)
-        status =
-            hd_fail(error, HD_FAILED, "out of memory: no room to join the film %s", video->path);
-    else if (!hd_child_send(&video->ffmpeg, (const uint8_t *)text, size))
-        status = hd_interrupt_signal() != 0 ? fail_interrupted(video, "FFmpeg", error)
-                                            : fail_early(video, error);
+    if (out != NULL)
+        describe_part(video, path, frames, out);
+    HdStatus status = out != NULL && fclose(out) == 0
+                          ? send(video, text, size, error)
+                          : hd_fail(error, HD_FAILED, "out of memory: no room to join the film %s",
+                                    video->file.path);
     free(text);
     video->frames += frames;
     return status;
@@ -257,19 +233,19 @@ HdStatus hd_video_add_part(HdVideo *video, const char *path, int frames, HdError
 static HdStatus end_ffmpeg(HdVideo *video, HdError *error) {
     char how[64];
     if (video->ffmpeg.pid == 0)
-        return hd_fail(error, HD_FAILED, "the film %s failed at frame %ld", video->path,
+        return hd_fail(error, HD_FAILED, "the film %s failed at frame %ld", video->file.path,
                        video->frames);
     if (video->frames == 0)
         return hd_fail(error, HD_FAILED, "the film %s has no frames, expected at least 1",
-                       video->path);
-    if (hd_child_end(&video->ffmpeg, HD_CHILD_WHILE_IT_WORKS, how))
+                       video->file.path);
+    if (hd_child_end(&video->ffmpeg, video->patience_ms, how))
         return HD_OK;
     if (hd_interrupt_signal() != 0)
         return fail_interrupted(video, "FFmpeg", error);
     if (video->ffmpeg.is_stuck)
         return fail_stuck(video, "FFmpeg", "after the last frame", &video->ffmpeg, error);
-    return hd_fail(error, HD_FAILED, "FFmpeg could not make %s (%s); it said: %s", video->path, how,
-                   hd_child_said(&video->ffmpeg));
+    return hd_fail(error, HD_FAILED, "FFmpeg could not make %s (%s); it said: %s", video->file.path,
+                   how, hd_child_said(&video->ffmpeg));
 }
 
 /* What FFmpeg said although it ended with code 0, with room for it: a full disk, say. */
@@ -284,16 +260,16 @@ static const char *excuse(HdVideo *video, char words[MAX_EXCUSE]) {
 static HdStatus count_frames(HdVideo *video, HdError *error) {
     char target[HD_MAX_PATH + 8], how[64], words[MAX_EXCUSE], *end;
     HdChild ffprobe;
-    snprintf(target, sizeof target, "file:%s", video->temporary);
+    snprintf(target, sizeof target, "file:%s", video->file.temporary);
     /* clang-format off */
     const char *const arguments[] = {
         video->ffprobe, "-v", "error", "-select_streams", "v:0", "-count_packets",
         "-show_entries", "stream=nb_read_packets", "-of", "csv=p=0", target, NULL};
     /* clang-format on */
-    HdStatus status = hd_child_start(&ffprobe, arguments, false, NULL, -1, error);
+    HdStatus status = hd_child_start(&ffprobe, arguments, false, -1, error);
     if (status != HD_OK)
         return status;
-    bool done = hd_child_end(&ffprobe, HD_CHILD_WHILE_IT_WORKS, how);
+    bool done = hd_child_end(&ffprobe, video->patience_ms, how);
     if (!done && hd_interrupt_signal() != 0)
         return fail_interrupted(video, "ffprobe", error);
     if (ffprobe.is_stuck)
@@ -304,33 +280,11 @@ static HdStatus count_frames(HdVideo *video, HdError *error) {
         return hd_fail(error, HD_FAILED,
                        "ffprobe could not count the frames of %s (%s), expected %ld; it said: "
                        "%.500s%s",
-                       video->path, how, video->frames, answer, excuse(video, words));
+                       video->file.path, how, video->frames, answer, excuse(video, words));
     if (found != video->frames)
         return hd_fail(error, HD_FAILED, "FFmpeg wrote %ld frames to %s, expected %ld%s", found,
-                       video->path, video->frames, excuse(video, words));
+                       video->file.path, video->frames, excuse(video, words));
     return HD_OK;
-}
-
-/* By its name, for FFmpeg may have put another file in the place of ours. */
-static HdStatus sync_file(const HdVideo *video, HdError *error) {
-    int descriptor = open(video->temporary, O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0)
-        return hd_fail(error, HD_FAILED, "cannot open %s: %s", video->temporary, strerror(errno));
-    HdStatus status = hd_sync_file(descriptor, video->path, error);
-    close(descriptor);
-    return status;
-}
-
-static HdStatus publish(HdVideo *video, HdDurability durability, HdError *error) {
-    HdFolderSet synced = {0};
-    HdStatus status = durability == HD_DURABLE ? sync_file(video, error) : HD_OK;
-    if (status != HD_OK)
-        return status;
-    status = hd_temporary_publish(video->temporary, video->path, error);
-    video->temporary[0] = '\0';
-    if (status == HD_OK && durability == HD_DURABLE)
-        status = hd_sync_folder(&synced, video->path, error);
-    return status;
 }
 
 HdStatus hd_video_close(HdVideo *video, HdDurability durability, HdError *error) {
@@ -340,13 +294,13 @@ HdStatus hd_video_close(HdVideo *video, HdDurability durability, HdError *error)
     if (status == HD_FAILED)
         blame_folder(video, error);
     if (status == HD_OK)
-        status = publish(video, durability, error);
+        status = hd_atomic_file_commit(&video->file, durability, error);
     hd_video_abort(video);
     return status;
 }
 
 void hd_video_abort(HdVideo *video) {
     hd_child_stop(&video->ffmpeg);
-    remove_file(video);
+    hd_atomic_file_discard(&video->file);
     free(video);
 }

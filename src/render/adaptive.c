@@ -7,8 +7,8 @@
 
 #include "base/growth.h"
 #include "render/survey.h"
-#include "system/chunks.h"
 #include "system/machine.h"
+#include "system/thread_pool.h"
 
 /* Steps of 255 by which pictures must differ, for each step of the error that is aimed at: of
    neighbours that have one sample; of the parts of a pixel's samples; of neighbours that have

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* The registry: the one place that names every backend. */
+#include "render/backends.h"
+
 #include <string.h>
 
-#include "device/backend.h"
-
-const HdBackend *const hd_backends[HD_BACKEND_COUNT] = {&hd_backend_cuda, &hd_backend_opencl,
-                                                        &hd_backend_c};
+const HdBackend *const hd_backends[HD_BACKEND_COUNT] = {HD_BACKENDS(HD_BACKEND_ADDRESS)};
 
 const HdBackend *hd_backend_find(const char *name) {
     for (int i = 0; i < HD_BACKEND_COUNT; i++)

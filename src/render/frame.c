@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "render/frame.h"
 
-#include "system/machine.h"
 #include "tables/tables.h"
 
 HdStatus hd_frame_maker_open(HdFrameMaker *maker, HdError *error) {
@@ -21,18 +20,21 @@ int hd_frame_most_flights(const HdFrameMaker *maker) {
     return maker->refinement != NULL ? 1 : HD_FRAMES_IN_FLIGHT;
 }
 
-HdStatus hd_frame_begin(const HdFrameMaker *maker, const HdCamera *camera, HdFlight *flight,
-                        HdError *error) {
-    HdStatus status = HD_OK;
+HdStatus hd_frame_prepare(const HdFrameMaker *maker, const HdCamera *camera, HdFlight *flight,
+                          HdError *error) {
     *flight = (HdFlight){.camera = *camera};
-    if (maker->refinement == NULL)
-        status = hd_compile_frame(&flight->tables, maker->scene, camera,
-                                  hd_renderer_options(maker->renderer)->precision, error);
-    flight->prepared = hd_monotonic_seconds();
-    if (maker->refinement != NULL || status != HD_OK)
-        return status;
+    if (maker->refinement != NULL)
+        return HD_OK;
+    HdStatus status = hd_compile_frame(&flight->tables, maker->scene, camera,
+                                       hd_renderer_options(maker->renderer)->precision, error);
     flight->tables.watched = (HdWatched){maker->watch, HD_WATCH_FRAME};
-    status = hd_renderer_submit(maker->renderer, &flight->tables, &maker->wish, error);
+    return status;
+}
+
+HdStatus hd_frame_begin(const HdFrameMaker *maker, HdFlight *flight, HdError *error) {
+    if (maker->refinement != NULL)
+        return HD_OK;
+    HdStatus status = hd_renderer_submit(maker->renderer, &flight->tables, &maker->wish, error);
     if (status != HD_OK)
         hd_flight_drop(flight);
     return status;
@@ -60,7 +62,9 @@ HdStatus hd_frame_render(const HdFrameMaker *maker, const HdCamera *camera, HdFr
     own.wish.radiance = true;
     HdStatus status = hd_frame_maker_open(&own, error);
     if (status == HD_OK)
-        status = hd_frame_begin(&own, camera, &flight, error);
+        status = hd_frame_prepare(&own, camera, &flight, error);
+    if (status == HD_OK)
+        status = hd_frame_begin(&own, &flight, error);
     if (status == HD_OK)
         status = hd_frame_end(&own, &flight, frame, error);
     hd_renderer_drop(own.renderer);

@@ -20,7 +20,6 @@ typedef struct HdFrameMaker {
 typedef struct HdFlight {
     HdCamera camera;
     HdFrameTables tables;
-    double prepared; /* when the tables were there, by hd_monotonic_seconds */
 } HdFlight;
 
 /* Makes what surveyed scenes need; all else of the maker is filled in. */
@@ -33,9 +32,11 @@ void hd_frame_maker_close(HdFrameMaker *maker);
    frames are made of several that are waited for one after the other. */
 int hd_frame_most_flights(const HdFrameMaker *maker);
 
-/* Begins a frame. On failure there is nothing to drop, and the earlier ones are still under way. */
-HdStatus hd_frame_begin(const HdFrameMaker *maker, const HdCamera *camera, HdFlight *flight,
-                        HdError *error);
+/* Compile and begin a frame. On failure there is nothing to drop, and the earlier ones are still
+   under way. */
+HdStatus hd_frame_prepare(const HdFrameMaker *maker, const HdCamera *camera, HdFlight *flight,
+                          HdError *error);
+HdStatus hd_frame_begin(const HdFrameMaker *maker, HdFlight *flight, HdError *error);
 
 /* Waits for the oldest frame under way, which is so no longer; `frame` has room for what is wished
    for (hd_renderer_collect), and gets the layers that it has room for. */

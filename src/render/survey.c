@@ -6,8 +6,8 @@
 
 #include "base/growth.h"
 #include "scene/light_bound.h"
-#include "system/chunks.h"
 #include "system/machine.h"
+#include "system/thread_pool.h"
 
 /* Entries of one submission, at most, in whole items; lists are worked off in parts, as few as can
    be, for a GPU waits for the longest tree of each. */
@@ -55,15 +55,13 @@ void hd_surveyor_free(HdSurveyor *surveyor) {
     surveyor->entry_room = surveyor->open_room = surveyor->frame_rows = 0;
 }
 
-void hd_survey_end_rays(HdScene *scene, bool keeps_depth, bool keeps_cutoff) {
+void hd_survey_end_rays(HdScene *scene) {
     const HdErrorBudget budget = hd_error_budget(HD_CURVE_SRGB); /* the stricter one */
     const double limit = hd_error_budget_radiance(&budget, scene->max_error, 0.0);
     if (!(scene->max_error > 0.0))
         return;
-    if (!keeps_depth)
-        scene->depth = hd_depth_for_bound(scene, limit * LAST_CUTOFF);
-    if (!keeps_cutoff)
-        scene->cutoff = 0.0;
+    scene->depth = hd_depth_for_bound(scene, limit * LAST_CUTOFF);
+    scene->cutoff = 0.0;
 }
 
 static HdStatus reserve_frame(HdSurveyor *surveyor, int rows, HdError *error) {

@@ -70,9 +70,8 @@ typedef struct HdSurveyor {
 void hd_surveyor_free(HdSurveyor *surveyor);
 
 /* Has nothing but the limit of a scene (HdScene.max_error), if there is one, end its rays: no
-   cut-off, and a depth so large that what lies beyond is worth little of the limit. What was given
-   is kept. */
-void hd_survey_end_rays(HdScene *scene, bool keeps_depth, bool keeps_cutoff);
+   cut-off, and a depth so large that what lies beyond is worth little of the limit. */
+void hd_survey_end_rays(HdScene *scene);
 
 /* Fills surveys[i] with the mean of the samples [first, first + samples) of request i. With a limit
    (HdScene.max_error) each bound is within it, unless depth or cut-off of the scene end rays

@@ -11,7 +11,7 @@
 #include "input/load.h"
 #include "render/survey.h"
 #include "scene/contact.h"
-#include "scene/triangulate/scene.h"
+#include "scene/triangulate.h"
 #include "system/interrupt.h"
 
 /* Far above any classic input, and small enough to read into memory without a thought. */
@@ -22,9 +22,13 @@ enum { DISC_SIDES = 16 };
 
 static const char standard_input[] = "standard input";
 
-static HdStatus read_stream(FILE *stream, const char *name, char *text, size_t most, size_t *size,
+/* Whatever there is, up to `most` bytes, and an interrupt; the text is the caller's to free. */
+static HdStatus read_stream(FILE *stream, const char *name, size_t most, char **text, size_t *size,
                             HdError *error) {
-    *size = fread(text, 1, most + 1, stream);
+    *text = malloc(most + 1);
+    if (*text == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the scene");
+    *size = fread(*text, 1, most + 1, stream);
     if (hd_interrupt_signal() != 0)
         return hd_fail(error, HD_INTERRUPTED, "interrupted while reading %s", name);
     if (ferror(stream))
@@ -37,13 +41,11 @@ static HdStatus read_stream(FILE *stream, const char *name, char *text, size_t m
 
 HdStatus hd_read_classic(HdSceneFile *file, const char *path, int variant, HdError *error) {
     const char *name = path != NULL ? path : standard_input;
+    char *text = NULL;
     size_t size = 0;
-    char *text = malloc(MAX_INPUT_BYTES + 1);
-    if (text == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the input");
     FILE *stream = path != NULL ? fopen(path, "rb") : stdin;
     HdStatus status =
-        stream != NULL ? read_stream(stream, name, text, MAX_INPUT_BYTES, &size, error)
+        stream != NULL ? read_stream(stream, name, MAX_INPUT_BYTES, &text, &size, error)
                        : hd_fail(error, HD_BAD_INPUT, "cannot open %s: %s", name, strerror(errno));
     if (status == HD_OK)
         status = hd_classic_parse(file, text, size, name, variant, error);
@@ -53,33 +55,28 @@ HdStatus hd_read_classic(HdSceneFile *file, const char *path, int variant, HdErr
     return status;
 }
 
-static HdStatus read_standard_input(HdSceneFile *file, const HdSceneSource *source,
-                                    HdError *error) {
-    size_t size = 0;
-    char *text = malloc(HD_MAX_SCENE_BYTES + 1);
-    if (text == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the scene");
-    HdStatus status = read_stream(stdin, source->name, text, HD_MAX_SCENE_BYTES, &size, error);
-    if (status == HD_OK)
-        status = hd_scene_file_parse(file, text, size, source, error);
-    free(text);
-    return status;
-}
-
 const char *hd_scene_name(const char *path) {
     return path == NULL ? "the built-in scene" : strcmp(path, "-") == 0 ? standard_input : path;
 }
 
-HdStatus hd_read_scene(HdSceneFile *file, const char *path, HdSceneSource source, HdError *error) {
-    source.name = hd_scene_name(path);
-    source.folder = "";
-    if (path == NULL) {
-        size_t size;
-        const char *text = hd_default_scene_text(&size);
-        return hd_scene_file_parse(file, text, size, &source, error);
+HdStatus hd_read_scene(HdSceneFile *file, const char *path, const HdSceneSource *source,
+                       HdError *error) {
+    HdSceneSource named = *source;
+    char *read = NULL;
+    size_t size = 0;
+    HdStatus status = HD_OK;
+    if (path != NULL && strcmp(path, "-") != 0)
+        return hd_scene_file_read(file, path, source, error);
+    named.name = hd_scene_name(path);
+    const char *text = hd_default_scene_text(&size);
+    if (path != NULL) {
+        status = read_stream(stdin, standard_input, HD_MAX_SCENE_BYTES, &read, &size, error);
+        text = read;
     }
-    return strcmp(path, "-") == 0 ? read_standard_input(file, &source, error)
-                                  : hd_scene_file_read(file, path, &source, error);
+    if (status == HD_OK)
+        status = hd_scene_file_parse(file, text, size, &named, error);
+    free(read);
+    return status;
 }
 
 static void set_numbers(HdScene *scene, const HdScenePlan *plan) {
@@ -89,12 +86,17 @@ static void set_numbers(HdScene *scene, const HdScenePlan *plan) {
     }
     if (plan->samples > 0)
         scene->samples_per_side = plan->samples;
+    if (plan->max_error > 0.0)
+        scene->max_error = plan->max_error;
+}
+
+/* Rays end by the limit of a scene that has one, and by what was given. */
+static void set_ends(HdScene *scene, const HdScenePlan *plan) {
+    hd_survey_end_rays(scene);
     if (plan->depth >= 0)
         scene->depth = plan->depth;
     if (plan->cutoff >= 0.0)
         scene->cutoff = plan->cutoff;
-    if (plan->max_error > 0.0)
-        scene->max_error = plan->max_error;
 }
 
 static HdStatus crop(HdScene *scene, const HdPlannedCrop *part, HdError *error) {
@@ -120,7 +122,7 @@ HdStatus hd_scene_apply_numbers(HdScene *scene, const HdScenePlan *plan, HdError
     }
     if (plan->sampling >= 0)
         scene->sampling = (HdSampling)plan->sampling;
-    hd_survey_end_rays(scene, plan->depth >= 0, plan->cutoff >= 0.0);
+    set_ends(scene, plan);
     return HD_OK;
 }
 
@@ -137,11 +139,12 @@ HdStatus hd_scene_apply_geometry(HdScene *scene, const HdScenePlan *plan, HdErro
 
 HdStatus hd_load_scene(HdSceneFile *file, const HdScenePlan *plan, HdProblems *notes,
                        HdError *error) {
-    const HdSceneSource source = {.changes = plan->changes,
+    const HdSceneSource source = {.folder = "",
+                                  .changes = plan->changes,
                                   .change_count = plan->change_count,
                                   .loads_files = true,
                                   .file_notes = notes};
-    HdStatus status = hd_read_scene(file, plan->path, source, error);
+    HdStatus status = hd_read_scene(file, plan->path, &source, error);
     if (status != HD_OK) {
         if (notes != NULL)
             *notes = (HdProblems){.count = 0};

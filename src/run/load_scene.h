@@ -13,8 +13,10 @@ HdStatus hd_read_classic(HdSceneFile *file, const char *path, int variant, HdErr
 const char *hd_scene_name(const char *path);
 
 /* Reads a scene file, or, `path` being "-", standard input, or, `path` being NULL, the built-in
-   scene; the name and the folder of `source` are those that suit it. */
-HdStatus hd_read_scene(HdSceneFile *file, const char *path, HdSceneSource source, HdError *error);
+   scene; the name and the folder are those that suit it, but for that `source` has the folder "".
+ */
+HdStatus hd_read_scene(HdSceneFile *file, const char *path, const HdSceneSource *source,
+                       HdError *error);
 
 /* Lays the plan's numbers over a valid scene. Where they do not suit it, the message begins with
    what was given, as "--size 60000x60000: ". */

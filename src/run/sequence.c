@@ -5,7 +5,6 @@
 #include <pthread.h>
 #include <string.h>
 
-#include "choice/trial.h"
 #include "run/tracer.h"
 #include "system/atomic_file.h"
 #include "system/machine.h"
@@ -54,8 +53,8 @@ static HdStatus find_tables(Run *run, int lanes, const HdSceneTables **found, Hd
             return HD_OK;
         }
     HdSceneTables *tables = &run->tables[run->table_count];
-    HdStatus status =
-        hd_compile_scene(tables, run->sequence->scene, run->sequence->precision, lanes, error);
+    HdStatus status = hd_compile_scene(tables, run->sequence->scene, run->sequence->team->precision,
+                                       lanes, error);
     run->table_count += status == HD_OK;
     *found = tables;
     return status;
@@ -101,14 +100,15 @@ static HdStatus estimate_pace(Run *run, int number, HdError *error) {
         .first_frame = missing->frames[0],
         .frame_count = missing->count,
     };
-    double seconds;
+    const HdTrialWish wish = hd_trial_estimates(0.0);
+    HdTrial trial;
     if (!run->turns.list[number].is_cpu || !has_gpu(&run->turns) ||
         hd_scene_is_surveyed(sequence->scene))
         return HD_OK;
-    HdStatus status = hd_trial_estimate_on(renderer_of(run, number), &job, 0.0, &seconds, error);
+    HdStatus status = hd_trial(renderer_of(run, number), &job, &wish, &trial, error);
     if (status != HD_OK)
         return status;
-    hd_turns_estimate(&run->turns, number, seconds);
+    hd_turns_estimate(&run->turns, number, trial.frame_seconds);
     hd_stages_ask_again(run->job.stages);
     return HD_OK;
 }
@@ -224,7 +224,6 @@ static HdStatus start_store(Run *run, HdError *error) {
         .height = sequence->scene->height,
         .tracers = sequence->team->count > 0 ? sequence->team->count : 1,
         .start = run->job.start,
-        .durability = sequence->durability,
         .stored = sequence->stored,
         .context = sequence->context,
     };

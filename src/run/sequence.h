@@ -9,10 +9,8 @@
 
 typedef struct HdSequence {
     const HdScene *scene;
-    HdResume *resume; /* which frames there are, and which of them are finished */
-    HdPrecision precision;
+    HdResume *resume;            /* which frames there are, and which of them are finished */
     const HdOutputPlan *outputs; /* settled */
-    HdDurability durability;     /* of what is stored */
     const HdDeviceTeam *team;    /* open; may be empty where nothing is missing */
     /* Called once the scene is on the renderer of that number, before its first frame, for one
        renderer at a time. With several both this and the next function are called on other threads.

@@ -1,10 +1,109 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
 #include "run/tracer.h"
+
+#include <math.h>
 
 #include "render/frame.h"
 #include "scene/camera.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
+
+/* ---- turns ---- */
+
+static bool awaits_gpu(const HdTurn *list, int count) {
+    for (int i = 0; i < count; i++)
+        if (!list[i].is_gone && !list[i].is_cpu && list[i].seconds <= 0.0)
+            return true;
+    return false;
+}
+
+/* When a tracer has finished so many frames more. */
+static double end_of(const HdTurn *turn, int more, double now) {
+    return fmax(turn->busy_until, now) + more * turn->seconds;
+}
+
+/* Who finishes another frame first, if each has taken as many as `taken` says: -1: nobody. */
+static int first_to_finish(const HdTurn *list, const int *taken, int count, double now) {
+    int first = -1;
+    double least = 0.0;
+    for (int i = 0; i < count; i++) {
+        if (list[i].is_gone || list[i].seconds <= 0.0)
+            continue;
+        double end = end_of(&list[i], taken[i] + 1, now);
+        if (first < 0 || end < least) {
+            first = i;
+            least = end;
+        }
+    }
+    return first;
+}
+
+static bool is_turn_of(const HdTurns *turns, int number, int left, double now) {
+    const HdTurn *own = &turns->list[number];
+    int taken[HD_MOST_TRACERS] = {0};
+    if (turns->count == 1)
+        return true;
+    if (own->is_cpu && awaits_gpu(turns->list, turns->count))
+        return false;
+    if (own->seconds <= 0.0)
+        return own->in_flight == 0;
+    for (int i = 0; i < left; i++) {
+        int first = first_to_finish(turns->list, taken, turns->count, now);
+        if (first == number)
+            return true;
+        taken[first]++;
+    }
+    return false;
+}
+
+bool hd_turns_want(HdTurns *turns, int number, int left, double now) {
+    pthread_mutex_lock(&turns->mutex);
+    bool wanted = is_turn_of(turns, number, left, now);
+    pthread_mutex_unlock(&turns->mutex);
+    return wanted;
+}
+
+void hd_turns_estimate(HdTurns *turns, int number, double seconds) {
+    pthread_mutex_lock(&turns->mutex);
+    turns->list[number].seconds = seconds;
+    pthread_mutex_unlock(&turns->mutex);
+}
+
+void hd_turns_leave(HdTurns *turns, int number) {
+    pthread_mutex_lock(&turns->mutex);
+    turns->list[number].is_gone = true;
+    pthread_mutex_unlock(&turns->mutex);
+}
+
+void hd_turns_begun(HdTurns *turns, int number, double now) {
+    HdTurn *turn = &turns->list[number];
+    pthread_mutex_lock(&turns->mutex);
+    turn->busy_until = end_of(turn, 1, now);
+    turn->in_flight++;
+    pthread_mutex_unlock(&turns->mutex);
+}
+
+static void end_frame(HdTurn *turn, double now) {
+    turn->in_flight--;
+    turn->busy_until = now + turn->in_flight * turn->seconds;
+}
+
+void hd_turns_finished(HdTurns *turns, int number, double seconds, double now) {
+    HdTurn *turn = &turns->list[number];
+    pthread_mutex_lock(&turns->mutex);
+    turn->seconds = turn->seconds > 0.0 ? 0.5 * (turn->seconds + seconds) : seconds;
+    end_frame(turn, now);
+    pthread_mutex_unlock(&turns->mutex);
+}
+
+void hd_turns_given_back(HdTurns *turns, int number, double now) {
+    pthread_mutex_lock(&turns->mutex);
+    end_frame(&turns->list[number], now);
+    pthread_mutex_unlock(&turns->mutex);
+}
+
+/* ---- flights ---- */
 
 /* A frame that the renderer works on. */
 typedef struct Flight {
@@ -45,12 +144,13 @@ static HdStatus begin(Tracer *tracer, int place, HdError *error) {
     *flight = (Flight){.place = place, .prepare = {.began = now}, .begun = now};
     HdStatus status = hd_camera_at(&camera, job->scene, job->frames->frames[place], error);
     if (status == HD_OK)
-        status = hd_frame_begin(&tracer->maker, &camera, &flight->frame, error);
-    if (status != HD_OK)
-        return status;
-    flight->prepare.seconds = flight->frame.prepared - job->start - now;
-    tracer->begun++;
-    return HD_OK;
+        status = hd_frame_prepare(&tracer->maker, &camera, &flight->frame, error);
+    flight->prepare.seconds = seconds_since_start(tracer) - now;
+    if (status == HD_OK)
+        status = hd_frame_begin(&tracer->maker, &flight->frame, error);
+    if (status == HD_OK)
+        tracer->begun++;
+    return status;
 }
 
 /* Frames are traced one after the other. One that was waited for as long as its tracing took was
@@ -60,11 +160,11 @@ static void note_times(Tracer *tracer, const Flight *flight, double waited_from,
                        double trace_seconds, HdFrameTimes *times) {
     double now = seconds_since_start(tracer);
     double prepared = flight->prepare.began + flight->prepare.seconds;
-    double began = prepared > tracer->traced ? prepared : tracer->traced;
+    double began = fmax(prepared, tracer->traced);
     if (now - waited_from >= trace_seconds)
         began = waited_from;
-    tracer->traced = began + trace_seconds < now ? began + trace_seconds : now;
-    double rest_from = tracer->traced > waited_from ? tracer->traced : waited_from;
+    tracer->traced = fmin(began + trace_seconds, now);
+    double rest_from = fmax(tracer->traced, waited_from);
     times->prepare = flight->prepare;
     times->trace = (HdSpan){began, trace_seconds};
     times->copy = (HdSpan){rest_from, now - rest_from};
@@ -90,9 +190,9 @@ static HdStatus fill_oldest(Tracer *tracer, HdError *error) {
 static void give_oldest(Tracer *tracer) {
     const Flight *flight = flight_of(tracer, tracer->ended++);
     double now = seconds_since_start(tracer);
-    double from = flight->begun > tracer->finished ? flight->begun : tracer->finished;
+    double taken = now - fmax(flight->begun, tracer->finished);
     tracer->finished = now;
-    hd_turns_finished(tracer->job->turns, tracer->number, now - from, hd_monotonic_seconds());
+    hd_turns_finished(tracer->job->turns, tracer->number, taken, hd_monotonic_seconds());
     hd_stages_give(tracer->job->stages, flight->place);
 }
 

@@ -9,12 +9,8 @@
 /* More than all roundings, those of highlights' powers and of weights over many levels included. */
 #define MARGIN 1.02
 
-static double greater(double a, double b) {
-    return a > b ? a : b;
-}
-
 static HdVec3 greater3(HdVec3 a, HdVec3 b) {
-    return (HdVec3){greater(a.x, b.x), greater(a.y, b.y), greater(a.z, b.z)};
+    return (HdVec3){fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z)};
 }
 
 static HdVec3 times(HdVec3 a, HdVec3 b) {
@@ -99,7 +95,7 @@ static HdVec3 sent_by_either(const HdMaterial *material, HdVec3 seen) {
 /* The most that a surface shows by itself, under `light`. */
 static HdVec3 own_radiance(const HdMaterial *material, HdVec3 emission, HdVec3 light) {
     double sides = material->lit_from_behind
-                       ? 1.0 + greater(material->transmission, material->inner_transmission)
+                       ? 1.0 + fmax(material->transmission, material->inner_transmission)
                        : 1.0;
     HdVec3 scattered = hd_add(hd_scale(material->colour, material->diffuse * sides),
                               (HdVec3){material->specular, material->specular, material->specular});
@@ -139,7 +135,7 @@ static HdVec3 disc_bound(const HdSolid *solid) {
 /* `last`: what ends a ray's way shows. */
 static double bound_of_channel(double last, double own, double without_end) {
     double all_levels = last + own * (HD_MAX_DEPTH + 1.0);
-    double endless_too = greater(last, without_end);
+    double endless_too = fmax(last, without_end);
     return endless_too < all_levels ? endless_too : all_levels;
 }
 
@@ -309,21 +305,21 @@ void hd_seen_bounds(const HdScene *scene, HdSeen *seen) {
 static void find_strongest(void *context, const HdMaterial *material, HdVec3 emission) {
     double *strongest = context;
     (void)emission;
-    double outside = greater(material->reflection, material->transmission);
+    double outside = fmax(material->reflection, material->transmission);
     if (material->index_of_refraction != 1.0) /* total reflection */
         outside = material->reflection + material->transmission;
-    *strongest = greater(*strongest, outside);
+    *strongest = fmax(*strongest, outside);
     if (!material->has_inner_side)
         return;
-    double inside = greater(material->inner_reflection, material->inner_transmission);
+    double inside = fmax(material->inner_reflection, material->inner_transmission);
     if (material->index_of_refraction != 1.0)
         inside = material->inner_reflection + material->inner_transmission;
-    *strongest = greater(*strongest, inside);
+    *strongest = fmax(*strongest, inside);
 }
 
 int hd_depth_for_bound(const HdScene *scene, double bound) {
     HdVec3 most = hd_radiance_bound(scene);
-    double left = greater(most.x, greater(most.y, most.z)) * scene->exposure, strongest = 0.0;
+    double left = fmax(most.x, fmax(most.y, most.z)) * scene->exposure, strongest = 0.0;
     int depth = 0;
     visit_materials(scene, find_strongest, &strongest);
     while (depth < HD_MAX_DEPTH && left > bound) {

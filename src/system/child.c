@@ -17,11 +17,9 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "system/interrupt.h"
-#include "system/leftovers.h"
 
 extern char **environ;
 
@@ -30,9 +28,6 @@ enum { GLANCE_MS = 200, SHORT_GLANCE_MS = 10 };
 
 /* Real-time ones included; where there are fewer, nothing is known of the rest. */
 enum { LAST_SIGNAL = 64 };
-
-/* Of computing: less may be a loop that waits. */
-static const int64_t LEAST_WORK_NS = 100000000;
 
 static bool is_program(const char *path) {
     struct stat found;
@@ -270,42 +265,13 @@ static void take_output(HdChild *child) {
         close_descriptor(&child->output);
 }
 
-/* ---- standing still ---- */
-
-static int64_t nanoseconds(struct timespec time) {
-    return (int64_t)time.tv_sec * 1000000000 + time.tv_nsec;
-}
-
-static HdChildWork look_at_work(const HdChild *child) {
-    HdChildWork work = {0};
-    struct timespec used;
-    struct stat found;
-    clockid_t clock;
-    if (clock_getcpuclockid(child->pid, &clock) == 0 && clock_gettime(clock, &used) == 0)
-        work.cpu_ns = nanoseconds(used);
-    if (child->file != NULL && stat(child->file, &found) == 0) {
-        work.file_bytes = (int64_t)found.st_size;
-        work.file_changed_ns = nanoseconds(found.st_mtim);
-    }
-    return work;
-}
-
-/* Since it was last found to have worked. */
-static bool has_worked(HdChild *child) {
-    HdChildWork now = look_at_work(child);
-    if (now.file_bytes == child->work.file_bytes &&
-        now.file_changed_ns == child->work.file_changed_ns &&
-        now.cpu_ns - child->work.cpu_ns < LEAST_WORK_NS)
-        return false;
-    child->work = now;
-    return true;
-}
+/* ---- waiting ---- */
 
 /* After a glance in vain; `still_ms` counts them, and no clock, for the whole system may have slept
    or this program been stopped. */
-static bool stands_still(HdChild *child, int glance_ms, int *still_ms) {
-    *still_ms = has_worked(child) ? 0 : *still_ms + glance_ms;
-    child->is_stuck = *still_ms >= 1000 * child->patience_s;
+static bool is_too_long(HdChild *child, int glance_ms, int patience_ms, int *still_ms) {
+    *still_ms += glance_ms;
+    child->is_stuck = *still_ms >= patience_ms;
     return child->is_stuck;
 }
 
@@ -316,29 +282,27 @@ static bool has_ended(const HdChild *child) {
 }
 
 /* Takes in output until its end, then waits for the child's. False where it is to be killed. */
-static bool wait_for_end(HdChild *child, int silence_ms) {
+static bool wait_for_end(HdChild *child, int patience_ms) {
     int still_ms = 0;
     while (child->output >= 0 || !has_ended(child)) {
-        bool works = silence_ms == HD_CHILD_WHILE_IT_WORKS;
-        if (works && hd_interrupt_signal() != 0)
-            return false;
         int glance_ms = child->output >= 0 ? GLANCE_MS : SHORT_GLANCE_MS;
         struct pollfd ready = {.fd = child->output, .events = POLLIN};
+        if (hd_interrupt_signal() != 0)
+            return false;
         int count = poll(&ready, 1, glance_ms);
         if (count < 0 && errno != EINTR)
             return false;
-        if (count > 0) {
-            take_output(child);
-            still_ms = 0;
-        } else if (works ? stands_still(child, glance_ms, &still_ms)
-                         : (still_ms += glance_ms) >= silence_ms) {
+        if (count <= 0 && is_too_long(child, glance_ms, patience_ms, &still_ms))
             return false;
-        }
+        if (count <= 0)
+            continue;
+        take_output(child);
+        still_ms = 0;
     }
     return true;
 }
 
-bool hd_child_send(HdChild *child, const uint8_t *bytes, size_t size) {
+bool hd_child_send(HdChild *child, const uint8_t *bytes, size_t size, int patience_ms) {
     int still_ms = 0;
     while (size > 0) {
         struct pollfd ready[2] = {{.fd = child->input, .events = POLLOUT},
@@ -346,7 +310,7 @@ bool hd_child_send(HdChild *child, const uint8_t *bytes, size_t size) {
         int count = poll(ready, 2, GLANCE_MS);
         if (hd_interrupt_signal() != 0 || (count < 0 && errno != EINTR))
             return false;
-        if (count <= 0 && stands_still(child, GLANCE_MS, &still_ms))
+        if (count <= 0 && is_too_long(child, GLANCE_MS, patience_ms, &still_ms))
             return false;
         if (count <= 0)
             continue;
@@ -391,9 +355,9 @@ static bool reap(HdChild *child, char how[64]) {
     return ended > 0 && WIFEXITED(state) && WEXITSTATUS(state) == 0;
 }
 
-bool hd_child_end(HdChild *child, int silence_ms, char how[64]) {
+bool hd_child_end(HdChild *child, int patience_ms, char how[64]) {
     close_descriptor(&child->input);
-    if (!wait_for_end(child, silence_ms))
+    if (!wait_for_end(child, patience_ms))
         kill(-child->pid, SIGKILL);
     return reap(child, how);
 }
@@ -409,28 +373,10 @@ void hd_child_stop(HdChild *child) {
     close_descriptor(&child->output);
 }
 
-static HdStatus read_patience(int *seconds, HdError *error) {
-    const char *text = getenv("HEDRON_FFMPEG_PATIENCE");
-    char *end;
-    *seconds = HD_CHILD_PATIENCE_S;
-    if (text == NULL || text[0] == '\0')
-        return HD_OK;
-    long wanted = strtol(text, &end, 10);
-    if (*end != '\0' || wanted < 1 || wanted > HD_CHILD_MAX_PATIENCE_S)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "HEDRON_FFMPEG_PATIENCE is '%.200s', expected whole seconds from 1 to %d",
-                       text, HD_CHILD_MAX_PATIENCE_S);
-    *seconds = (int)wanted;
-    return HD_OK;
-}
-
-HdStatus hd_child_start(HdChild *child, const char *const arguments[], bool with_input,
-                        const char *file, int lock, HdError *error) {
+HdStatus hd_child_start(HdChild *child, const char *const arguments[], bool with_input, int lock,
+                        HdError *error) {
     int input[2] = {-1, -1}, output[2] = {-1, -1};
-    *child = (HdChild){.input = -1, .output = -1, .file = file};
-    HdStatus status = read_patience(&child->patience_s, error);
-    if (status != HD_OK)
-        return status;
+    *child = (HdChild){.input = -1, .output = -1};
     bool opened = (!with_input || open_channel(input)) && open_channel(output);
     int reason = opened ? 0 : errno;
     child->input = input[0];

@@ -12,34 +12,15 @@
 #include "base/error.h"
 #include "system/path.h"
 
-enum {
-    HD_CHILD_MAX_SAID = 4096,
-    HD_CHILD_WHILE_IT_WORKS = -1,
-    /* How long a program that stopped reading may stay silent before it is killed. */
-    HD_CHILD_SILENCE_MS = 3000,
-    /* How long a program may stand still; HEDRON_FFMPEG_PATIENCE, in whole seconds, says otherwise.
-     */
-    HD_CHILD_PATIENCE_S = 120,
-    HD_CHILD_MAX_PATIENCE_S = 86400
-};
-
-/* What a program has done so far, as others see it. */
-typedef struct HdChildWork {
-    int64_t cpu_ns;
-    int64_t file_bytes, file_changed_ns;
-} HdChildWork;
+enum { HD_CHILD_MAX_SAID = 4096 };
 
 /* A program at work. It leads a process group of its own, so that Ctrl-C in the terminal reaches
    only us and we decide how the film ends. */
 typedef struct HdChild {
-    pid_t pid;        /* 0: none, or waited for */
-    int input;        /* its standard input; -1: closed */
-    int output;       /* its standard output and error; -1: closed */
-    const char *file; /* what it writes, whose growth shows that it works; NULL: nothing */
-    int patience_s; /* how long it may stand still: take nothing in, say nothing, write nothing, and
-                       compute nothing */
-    bool is_stuck;  /* it stood still for longer */
-    HdChildWork work; /* when last looked at */
+    pid_t pid;     /* 0: none, or waited for */
+    int input;     /* its standard input; -1: closed */
+    int output;    /* its standard output and error; -1: closed */
+    bool is_stuck; /* what was waited for did not come in time */
     size_t said_length;
     char said[HD_CHILD_MAX_SAID + 1]; /* the end of its output */
 } HdChild;
@@ -48,22 +29,21 @@ typedef struct HdChild {
 HdStatus hd_child_find(const char *name, char out[HD_MAX_PATH], HdError *error);
 
 /* Starts the program arguments[0] without a shell. It is killed when this program ends, however
-   that comes about, where the system can do so (Linux). `file` is what it writes, NULL: nothing; it
-   must live as long as the child. `lock` is a descriptor that it and what it starts keep open, so
-   that a lock of the file lasts for as long as somebody may write to it; -1: none. HD_UNAVAILABLE
-   where there is no such program, HD_BAD_INPUT where HEDRON_FFMPEG_PATIENCE is no number of
-   seconds. */
-HdStatus hd_child_start(HdChild *child, const char *const arguments[], bool with_input,
-                        const char *file, int lock, HdError *error);
+   that comes about, where the system can do so (Linux). `lock` is a descriptor that it and what it
+   starts keep open, so that a lock of the file lasts for as long as somebody may write to it; -1:
+   none. HD_UNAVAILABLE where there is no such program. */
+HdStatus hd_child_start(HdChild *child, const char *const arguments[], bool with_input, int lock,
+                        HdError *error);
 
-/* Sends everything; false where the child no longer reads, or is stuck. Output is taken in
-   meanwhile, so that neither side waits for the other for ever. */
-bool hd_child_send(HdChild *child, const uint8_t *bytes, size_t size);
+/* Sends everything; false where the child no longer reads, or is stuck: for so long it took nothing
+   and said nothing. Output is taken in meanwhile, so that neither side waits for the other for
+   ever. */
+bool hd_child_send(HdChild *child, const uint8_t *bytes, size_t size, int patience_ms);
 
-/* Ends the input and waits for the child, which is killed when it stays silent for `silence_ms`,
-   or, with HD_CHILD_WHILE_IT_WORKS, when it is stuck or an interrupt comes. Describes in `how` how
-   it ended; true for exit code 0. */
-bool hd_child_end(HdChild *child, int silence_ms, char how[64]);
+/* Ends the input and waits for the child, which is killed when an interrupt comes or it is stuck:
+   for so long it neither said anything nor ended. Describes in `how` how it ended; true for exit
+   code 0. */
+bool hd_child_end(HdChild *child, int patience_ms, char how[64]);
 
 /* Kills it if it runs, and closes its channels. */
 void hd_child_stop(HdChild *child);

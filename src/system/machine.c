@@ -5,7 +5,9 @@
 #include <fcntl.h>
 #include <glob.h>
 #include <limits.h>
+#include <pthread.h>
 #include <sched.h>
+#include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -91,4 +93,45 @@ bool hd_display_may_be_there(const char *folder) {
         globfree(&paths);
     }
     return is_there;
+}
+
+/* ---- what was refused ---- */
+
+enum { MAX_SENTENCES = 8 };
+
+static struct {
+    pthread_mutex_t mutex;
+    int count;
+    char sentences[MAX_SENTENCES][HD_FALLBACK_LENGTH];
+} notes = {.mutex = PTHREAD_MUTEX_INITIALIZER};
+
+static bool is_new(const char *text) {
+    for (int i = 0; i < notes.count; i++)
+        if (strcmp(notes.sentences[i], text) == 0)
+            return false;
+    return true;
+}
+
+void hd_fallback_note(const char *format, ...) {
+    char text[HD_FALLBACK_LENGTH];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    pthread_mutex_lock(&notes.mutex);
+    if (notes.count < MAX_SENTENCES && is_new(text))
+        memcpy(notes.sentences[notes.count++], text, sizeof text);
+    pthread_mutex_unlock(&notes.mutex);
+}
+
+bool hd_fallback_take(char text[HD_FALLBACK_LENGTH]) {
+    pthread_mutex_lock(&notes.mutex);
+    bool found = notes.count > 0;
+    if (found) {
+        memcpy(text, notes.sentences[0], HD_FALLBACK_LENGTH);
+        memmove(notes.sentences[0], notes.sentences[1], sizeof notes.sentences - sizeof notes.sentences[0]);
+        notes.count--;
+    }
+    pthread_mutex_unlock(&notes.mutex);
+    return found;
 }

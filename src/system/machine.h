@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the machine has: time, processors, memory, displays. */
+/* What the machine has: time, processors, memory, displays; and what it refused. */
 #ifndef HD_SYSTEM_MACHINE_H
 #define HD_SYSTEM_MACHINE_H
 
@@ -30,5 +30,20 @@ void *hd_large_allocate(size_t bytes);
    in, as a file "status" of one of the connectors below `folder` tells. Which GPU draws it is not
    asked. */
 bool hd_display_may_be_there(const char *folder);
+
+/* ---- what the library could not have and did without: sentences for people, told by who may
+   print ---- */
+
+enum { HD_FALLBACK_LENGTH = 512 };
+
+/* Keeps a sentence; one that is there already is not kept twice, nor is one that finds no room. Any
+   thread may call it. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 1, 2)))
+#endif
+void hd_fallback_note(const char *format, ...);
+
+/* Takes out the oldest sentence; false where there is none. */
+bool hd_fallback_take(char text[HD_FALLBACK_LENGTH]);
 
 #endif

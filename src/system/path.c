@@ -3,7 +3,9 @@
 
 #include "system/path.h"
 
+#include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <pwd.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -55,8 +57,9 @@ static bool is_folder(const char *path) {
 }
 
 /* Making first and looking second leaves no gap for another process that makes the same folder. */
-static HdStatus make_folder(const char *folder, const char *path, HdError *error) {
-    if (mkdir(folder, 0777) == 0)
+static HdStatus make_folder(const char *folder, unsigned mode, const char *path,
+                            HdError *error) {
+    if (mkdir(folder, mode) == 0)
         return HD_OK;
     int reason = errno;
     if (is_folder(folder))
@@ -68,6 +71,11 @@ static HdStatus make_folder(const char *folder, const char *path, HdError *error
 bool hd_path_has_ending(const char *path, const char *ending) {
     size_t length = strlen(path), tail = strlen(ending);
     return length >= tail && strcasecmp(path + length - tail, ending) == 0;
+}
+
+size_t hd_folder_length(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash == NULL ? 0 : (size_t)(slash - path) + 1;
 }
 
 bool hd_path_of_program(char out[HD_MAX_PATH]) {
@@ -82,14 +90,24 @@ bool hd_path_of_program(char out[HD_MAX_PATH]) {
     return true;
 }
 
-HdStatus hd_path_make_parents(const char *path, HdError *error) {
+void hd_path_visit(const char *folder, void (*visit)(void *context, const char *name),
+                   void *context) {
+    DIR *stream = opendir(folder[0] != '\0' ? folder : ".");
+    const struct dirent *entry;
+    while (stream != NULL && (entry = readdir(stream)) != NULL)
+        visit(context, entry->d_name);
+    if (stream != NULL)
+        closedir(stream);
+}
+
+HdStatus hd_path_make_parents(const char *path, unsigned mode, HdError *error) {
     char folder[HD_MAX_PATH] = "";
     HdStatus status = join("", path, folder, error);
     for (size_t i = 1; status == HD_OK && folder[i] != '\0'; i++) {
         if (folder[i] != '/' || folder[i - 1] == '/')
             continue;
         folder[i] = '\0';
-        status = make_folder(folder, path, error);
+        status = make_folder(folder, mode, path, error);
         folder[i] = '/';
     }
     return status;
@@ -275,4 +293,78 @@ HdStatus hd_pattern_format_single(const char *name, char out[HD_MAX_PATH], HdErr
         return hd_fail(error, HD_BAD_INPUT, "the name \"%s\" has a frame number, expected none",
                        name);
     return status == HD_OK ? expand(name, 0, out, error) : status;
+}
+
+/* ---- bytes ---- */
+
+typedef struct File {
+    const char *path, *what;
+    int descriptor;
+} File;
+
+static HdStatus fail_reading(const File *file, HdError *error) {
+    return hd_fail(error, HD_BAD_INPUT, "cannot read the %s %s: %s", file->what, file->path,
+                   strerror(errno));
+}
+
+static HdStatus check_file(const File *file, int64_t most, size_t *size, HdError *error) {
+    struct stat found;
+    if (fstat(file->descriptor, &found) != 0)
+        return fail_reading(file, error);
+    if (!S_ISREG(found.st_mode))
+        return hd_fail(error, HD_BAD_INPUT, "cannot read the %s %s: it is not a regular file",
+                       file->what, file->path);
+    if (found.st_size > most || (uintmax_t)found.st_size >= SIZE_MAX)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "cannot read the %s %s: it has %lld bytes, expected at most %lld",
+                       file->what, file->path, (long long)found.st_size, (long long)most);
+    *size = (size_t)found.st_size;
+    return HD_OK;
+}
+
+ssize_t hd_read_fully(int descriptor, void *bytes, size_t size) {
+    size_t done = 0;
+    while (done < size) {
+        const ssize_t count = read(descriptor, (char *)bytes + done, size - done);
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count < 0)
+            return -1;
+        if (count == 0)
+            break;
+        done += (size_t)count;
+    }
+    return (ssize_t)done;
+}
+
+static HdStatus read_file(const File *file, unsigned char **bytes, size_t size, HdError *error) {
+    *bytes = malloc(size + 1);
+    if (*bytes == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the %zu bytes of the %s %s",
+                       size, file->what, file->path);
+    const ssize_t done = hd_read_fully(file->descriptor, *bytes, size);
+    if (done == (ssize_t)size)
+        return HD_OK;
+    const HdStatus status =
+        done < 0
+            ? fail_reading(file, error)
+            : hd_fail(error, HD_BAD_INPUT, "cannot read the %s %s: it ended after %zd of %zu bytes",
+                      file->what, file->path, done, size);
+    free(*bytes);
+    *bytes = NULL;
+    return status;
+}
+
+HdStatus hd_file_read(const char *path, const char *what, int64_t most, unsigned char **bytes,
+                      size_t *size, HdError *error) {
+    /* Not blocking, lest a named pipe stops the program before it is refused. */
+    const File file = {path, what, open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+    *bytes = NULL;
+    if (file.descriptor < 0)
+        return fail_reading(&file, error);
+    HdStatus status = check_file(&file, most, size, error);
+    if (status == HD_OK)
+        status = read_file(&file, bytes, *size, error);
+    close(file.descriptor);
+    return status;
 }

@@ -12,7 +12,7 @@
 typedef struct HdThreadPool HdThreadPool;
 
 /* Starts `threads` threads (at least 1), each in the default floating-point environment. Where the
-   system refuses some, those that it did not refuse do the work, and a note tells (warnings.h). */
+   system refuses some, those that it did not refuse do the work, and a note tells (machine.h). */
 HdStatus hd_thread_pool_create(HdThreadPool **pool, int threads, HdError *error);
 
 /* How many threads there are. */
@@ -29,6 +29,27 @@ bool hd_thread_pool_run(HdThreadPool *pool, int count, HdThreadWork *work, void 
 
 /* Ends the threads. NULL is allowed. */
 void hd_thread_pool_destroy(HdThreadPool *pool);
+
+/* ---- items that are too small to be handed to threads one by one ---- */
+
+/* Works on the items first .. end - 1; calls with other items may run at once. */
+typedef void HdChunkWork(void *context, int first, int end);
+
+/* Calls `work` until it was given each of `count` items once, on the pool's threads, or on the
+   caller's where there are few, and waits. */
+void hd_chunks_run(HdThreadPool *pool, int count, HdChunkWork *work, void *context);
+
+/* Writes what it chooses of the items first .. end - 1 to `chosen`, at most one number for each
+   item, in their order; returns how many these are. */
+typedef int HdChunkChoice(void *context, int first, int end, int *chosen);
+
+/* Chooses among `count` items as above, with the same outcome as one call for all of them. `chosen`
+   has room for `count` numbers, and may be what a choice reads of its own items. Returns how many
+   were chosen. */
+int hd_chunks_choose(HdThreadPool *pool, int count, HdChunkChoice *choose, void *context,
+                     int *chosen);
+
+/* ---- */
 
 /* Starts a thread with a stack of 8 MiB, whatever the limit of this process gives others. Returns 0
    or what went wrong, as errno would. */

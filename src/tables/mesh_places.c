@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/minmax.h"
 #include "system/thread_pool.h"
 
 const HdMesh *hd_mesh_of(const HdScene *scene, int instance) {
@@ -79,10 +80,6 @@ bool hd_has_hierarchy(const HdScene *scene, const HdMesh *mesh) {
            (scene->accel == HD_ACCEL_AUTO && mesh->triangle_count > FEW_TRIANGLES);
 }
 
-static int more_of(int a, int b) {
-    return a > b ? a : b;
-}
-
 /* Adds a mesh to the sizes of the tables. */
 static HdStatus add_mesh(HdBuilder *builder, const HdMesh *mesh, HdMeshPlace *place,
                          HdError *error) {
@@ -96,15 +93,14 @@ static HdStatus add_mesh(HdBuilder *builder, const HdMesh *mesh, HdMeshPlace *pl
     sizes->uvs += (size_t)mesh->uv_count;
     if (!hd_has_hierarchy(builder->scene, mesh))
         return HD_OK;
-    builder->node_stack = more_of(mesh->tree.depth, builder->node_stack);
+    builder->node_stack = hd_max(mesh->tree.depth, builder->node_stack);
     if (builder->lanes == 1) {
         sizes->nodes += (size_t)mesh->tree.node_count;
         return HD_OK;
     }
     HdStatus status = hd_hierarchy_widen(&place->wide, &mesh->tree, builder->lanes, error);
     sizes->wide_nodes += (size_t)place->wide.node_count;
-    builder->wide_stack =
-        more_of((builder->lanes - 1) * place->wide.depth + 1, builder->wide_stack);
+    builder->wide_stack = hd_max((builder->lanes - 1) * place->wide.depth + 1, builder->wide_stack);
     return status;
 }
 
@@ -168,7 +164,7 @@ static HdStatus build_top(HdBuilder *builder, HdError *error) {
     free(boxes);
     builder->first_top_node = builder->sizes.nodes;
     builder->sizes.nodes += (size_t)builder->top.node_count;
-    builder->node_stack = more_of(builder->top.depth + 1, builder->node_stack);
+    builder->node_stack = hd_max(builder->top.depth + 1, builder->node_stack);
     return status;
 }
 

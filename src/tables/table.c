@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/minmax.h"
 #include "kernels/host/shared.h"
 
 const char *hd_scene_table_content(int table) {
@@ -44,14 +45,10 @@ static void free_tables(HdTable *table, int count) {
         free(table[i].data);
 }
 
-static int greater(int a, int b) {
-    return a > b ? a : b;
-}
-
 void hd_scene_tables_raise(HdSceneTables *tables, const HdSceneTables *like) {
-    tables->plane_count = greater(tables->plane_count, like->plane_count);
-    tables->depth = greater(tables->depth, like->depth);
-    tables->node_stack = greater(tables->node_stack, like->node_stack);
+    tables->plane_count = hd_max(tables->plane_count, like->plane_count);
+    tables->depth = hd_max(tables->depth, like->depth);
+    tables->node_stack = hd_max(tables->node_stack, like->node_stack);
     tables->refracts = tables->refracts || like->refracts;
     tables->lit_from_behind = tables->lit_from_behind || like->lit_from_behind;
     tables->many_lights = tables->many_lights || like->many_lights;

@@ -3,7 +3,6 @@
 #ifndef HD_VERIFY_CERTIFICATE_H
 #define HD_VERIFY_CERTIFICATE_H
 
-#include "device/probe.h"
 #include "device/renderer.h"
 
 typedef enum HdVerdict {
@@ -18,7 +17,7 @@ extern const char *const hd_verdict_names[];
 typedef struct HdCertificateTest {
     char name[96]; /* "arithmetic in float" */
     int tuples;    /* of operands; 0: it renders frames */
-    int frames;    /* golden ones; 0: it tests something else */
+    int frames;    /* 0: it tests something else */
     bool by_fma;   /* division and roots are made of fma */
     uint64_t hash; /* of the results */
     HdVerdict verdict;
@@ -26,7 +25,7 @@ typedef struct HdCertificateTest {
     double seconds;
 } HdCertificateTest;
 
-enum { HD_CERTIFICATE_TESTS = 24 };
+enum { HD_CERTIFICATE_TESTS = 16 };
 
 typedef struct HdCertificate {
     HdDevice device;
@@ -35,20 +34,19 @@ typedef struct HdCertificate {
     int test_count;
     HdVerdict verdict; /* of all: wrong where one is, untested where one is or there is none */
     double seconds;
-    int64_t time;  /* of its end, in seconds since 1970 */
-    uint64_t hash; /* of all but the times: the same for the same device, driver and program */
+    int64_t time; /* of its end, in seconds since 1970 */
 } HdCertificate;
 
 typedef enum HdTestEffort {
-    HD_TEST_WHOLE, /* HD_PROBE_WHOLE tuples, kernels of every kind, all golden frames */
-    HD_TEST_QUICK, /* HD_PROBE_QUICK tuples, one kind, small golden frames */
-    HD_TEST_DEEP   /* the whole, and random scenes beside plain C (random_test.h) */
+    HD_TEST_WHOLE, /* HD_PROBE_WHOLE tuples, all golden frames by both pipelines */
+    HD_TEST_QUICK, /* HD_PROBE_QUICK tuples, small golden frames by the megakernel */
+    HD_TEST_DEEP   /* the whole, and random scenes beside plain C (random_scenes.h) */
 } HdTestEffort;
 
 /* Tests a device, whatever is remembered of it, in float and, where it has it, in double: the
-   arithmetic probe of kernels that are compiled, then the frames of the self-test and the golden
-   frames. What is found of the arithmetic is remembered. Fails with HD_INTERRUPTED only; other
-   failures are a part of the certificate. */
+   arithmetic probe of kernels that are compiled, then the golden frames. What is found of the
+   arithmetic is remembered. Fails with HD_INTERRUPTED only; other failures are a part of the
+   certificate. */
 HdStatus hd_certify(HdCertificate *certificate, const HdDevice *device, HdTestEffort effort,
                     HdError *error);
 

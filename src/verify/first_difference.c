@@ -5,38 +5,31 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "render/backends.h"
 #include "verify/trust.h"
 
 enum { DEVICE, PLAIN_C, SIDES };
-enum { NOWHERE = -1, MOST_PARTS = 64 };
-
-/* What is taken from the scene as it was built. Of each kind of part a bit for those left out. */
-typedef struct Cuts {
-    uint64_t solids, edge_lights, lights, instances;
-    bool floor;
-    int depth;                    /* NOWHERE: as it was */
-    int left, top, right, bottom; /* what is left of the picture, in its pixels */
-    bool samples_are_pixels;      /* each sample of a grid is a pixel of its own */
-} Cuts;
+enum { AS_IT_IS = -1, NOWHERE = -1 };
 
 typedef struct Search {
     const HdDispute *dispute;
     HdRenderer *renderers[SIDES];
     HdFrame frames[SIDES]; /* of the last comparison, free where there was none */
-    HdScene scene;         /* of the last comparison */
-    HdCamera camera;
-    Cuts cuts;
+    int depth, side;       /* of the scene as it is: levels of rays, samples per side */
+    bool is_surveyed;
 } Search;
 
 /* ---- both sides ---- */
 
+/* Nobody but the search looks at what comes of these kernels. */
 static HdStatus open_side(Search *search, int side, const HdDevice *device,
                           const HdRenderOptions *options, HdError *error) {
-    HdRenderOptions chosen = *options;
     HdDevice wrong = *device;
-    chosen.test.is_for_one_scene = true;
     wrong.not_strict[0] = '\0'; /* as it is known to be */
-    return hd_renderer_open(&search->renderers[side], &wrong, &chosen, error);
+    HdStatus status = hd_renderer_open(&search->renderers[side], &wrong, options, error);
+    if (status == HD_OK)
+        hd_put_on_trial(search->renderers[side]);
+    return status;
 }
 
 static HdStatus open_sides(Search *search, HdError *error) {
@@ -57,188 +50,55 @@ static void forget_frames(Search *search) {
         hd_frame_free(&search->frames[side]);
 }
 
-static void close_search(Search *search) {
-    forget_frames(search);
-    hd_scene_free(&search->scene);
-    for (int side = 0; side < SIDES; side++)
-        hd_renderer_close(search->renderers[side]);
-}
-
-/* ---- what is left of the scene ---- */
-
-static bool is_cut(uint64_t cuts, int part) {
-    return part < MOST_PARTS && (cuts >> part & 1) != 0;
-}
-
-/* A macro, for the parts are of many types; those that stay move up. */
-#define CUT_PARTS(parts, count, cuts)                                                              \
-    do {                                                                                           \
-        int kept = 0;                                                                              \
-        for (int part = 0; part < (count); part++)                                                 \
-            if (!is_cut(cuts, part))                                                               \
-                (parts)[kept++] = (parts)[part];                                                   \
-        (count) = kept;                                                                            \
-    } while (0)
-
-static void cut_picture(HdScene *scene, const Cuts *cuts) {
-    int side = cuts->samples_are_pixels ? scene->samples_per_side : 1;
-    bool is_part = scene->crop.whole_width > 0;
-    scene->crop =
-        (HdCrop){.whole_width = side * (is_part ? scene->crop.whole_width : scene->width),
-                 .whole_height = side * (is_part ? scene->crop.whole_height : scene->height),
-                 .left = side * scene->crop.left + cuts->left,
-                 .top = side * scene->crop.top + cuts->top};
-    scene->width = cuts->right - cuts->left;
-    scene->height = cuts->bottom - cuts->top;
-    if (cuts->samples_are_pixels)
-        scene->samples_per_side = 1;
-}
-
-static HdStatus build(Search *search, const Cuts *cuts, HdError *error) {
-    HdScene *scene = &search->scene;
-    hd_scene_free(scene);
-    HdStatus status = search->dispute->build(search->dispute->what, scene, &search->camera, error);
-    if (status != HD_OK)
-        return status;
-    for (int i = 0; i < scene->solid_count; i++)
-        if (is_cut(cuts->edge_lights, i))
-            scene->solids[i].lights = (HdEdgeLights){.colour_count = 1};
-    CUT_PARTS(scene->solids, scene->solid_count, cuts->solids);
-    CUT_PARTS(scene->lights, scene->light_count, cuts->lights);
-    CUT_PARTS(scene->instances, scene->instance_count, cuts->instances);
-    if (cuts->floor)
-        scene->floor.present = false;
-    if (cuts->depth != NOWHERE)
-        scene->depth = cuts->depth;
-    cut_picture(scene, cuts);
-    return HD_OK;
-}
-
 /* ---- the comparison ---- */
 
-/* Bit by bit: a NaN is the same as itself. */
-static bool is_same_value(float a, float b) {
-    uint32_t bits[2];
-    memcpy(&bits[0], &a, sizeof a);
-    memcpy(&bits[1], &b, sizeof b);
-    return bits[0] == bits[1];
+/* Each sample of a grid becomes a pixel of its own. */
+static void split_samples(HdScene *scene) {
+    int side = scene->samples_per_side;
+    HdCrop *crop = &scene->crop;
+    scene->width *= side;
+    scene->height *= side;
+    crop->whole_width *= side;
+    crop->whole_height *= side;
+    crop->left *= side;
+    crop->top *= side;
+    scene->samples_per_side = 1;
 }
 
-/* The number of the first value that differs in the last comparison, row by row, or NOWHERE. */
-static int first_value(const Search *search) {
-    const HdFrame *found = &search->frames[DEVICE], *expected = &search->frames[PLAIN_C];
-    for (int i = 0; i < found->width * found->height * found->floats; i++)
-        if (!is_same_value(found->rgb[i], expected->rgb[i]))
-            return i;
-    return NOWHERE;
-}
-
-static HdStatus compare(Search *search, const Cuts *cuts, bool *differs, HdError *error) {
-    HdStatus status = build(search, cuts, error);
+static HdStatus compare(Search *search, int depth, bool splits, bool *differs, HdError *error) {
+    HdScene scene;
+    HdCamera camera;
+    HdStatus status = search->dispute->build(search->dispute->what, &scene, &camera, error);
+    if (status != HD_OK)
+        return status;
+    search->depth = scene.depth;
+    search->side = scene.samples_per_side;
+    search->is_surveyed = hd_scene_is_surveyed(&scene);
+    if (depth != AS_IT_IS)
+        scene.depth = depth;
+    if (splits)
+        split_samples(&scene);
     forget_frames(search);
     for (int side = 0; status == HD_OK && side < SIDES; side++)
-        status = hd_put_and_render(search->renderers[side], &search->scene, &search->camera,
-                                   search->dispute->like, 0, &search->frames[side], error);
+        status = hd_put_and_render(search->renderers[side], &scene, &camera, search->dispute->like,
+                                   0, &search->frames[side], error);
+    hd_scene_free(&scene);
     *differs = status == HD_OK &&
                hd_frame_hash(&search->frames[DEVICE]) != hd_frame_hash(&search->frames[PLAIN_C]);
     return status;
 }
 
-/* ---- the search ---- */
-
-/* Keeps these cuts if the frame still differs. */
-static HdStatus attempt(Search *search, const Cuts *cuts, bool *differs, HdError *error) {
-    HdStatus status = compare(search, cuts, differs, error);
-    if (status == HD_OK && *differs)
-        search->cuts = *cuts;
-    return status;
-}
-
-static HdStatus cut_each(Search *search, uint64_t *cuts_of, int count, HdError *error) {
-    HdStatus status = HD_OK;
-    for (int part = 0; status == HD_OK && part < count && part < MOST_PARTS; part++) {
-        bool differs;
-        const uint64_t before = *cuts_of; /* lies in search->cuts */
-        *cuts_of = before | UINT64_C(1) << part;
-        const Cuts tried = search->cuts;
-        *cuts_of = before;
-        status = attempt(search, &tried, &differs, error);
-    }
-    return status;
-}
-
-static HdStatus cut_scene(Search *search, const HdScene *whole, HdError *error) {
-    Cuts *cuts = &search->cuts;
-    HdStatus status = cut_each(search, &cuts->solids, whole->solid_count, error);
-    if (status == HD_OK)
-        status = cut_each(search, &cuts->edge_lights, whole->solid_count, error);
-    if (status == HD_OK)
-        status = cut_each(search, &cuts->lights, whole->light_count, error);
-    if (status == HD_OK)
-        status = cut_each(search, &cuts->instances, whole->instance_count, error);
-    if (status == HD_OK && whole->floor.present) {
-        bool differs;
-        Cuts tried = *cuts;
-        tried.floor = true;
-        status = attempt(search, &tried, &differs, error);
-    }
-    return status;
-}
-
-/* The least depth at which it differs. */
-static HdStatus cut_depth(Search *search, int depth, HdError *error) {
-    bool differs = false;
-    HdStatus status = HD_OK;
-    for (int tried_depth = 0; status == HD_OK && !differs && tried_depth <= depth; tried_depth++) {
-        Cuts tried = search->cuts;
-        tried.depth = tried_depth;
-        status = attempt(search, &tried, &differs, error);
-    }
-    return status;
-}
-
-static HdStatus cut_samples(Search *search, const HdScene *whole, HdError *error) {
-    bool differs;
-    int side = whole->samples_per_side;
-    Cuts tried = search->cuts;
-    if (side == 1 || hd_scene_is_surveyed(whole))
-        return HD_OK;
-    tried.samples_are_pixels = true;
-    tried.left *= side;
-    tried.top *= side;
-    tried.right *= side;
-    tried.bottom *= side;
-    return attempt(search, &tried, &differs, error);
-}
-
-/* Halves of the picture, as long as one of them differs. */
-static HdStatus cut_pixels(Search *search, HdError *error) {
-    bool differs = true;
-    HdStatus status = HD_OK;
-    while (status == HD_OK && differs) {
-        const Cuts now = search->cuts;
-        Cuts halves[4] = {now, now, now, now};
-        int column = (now.left + now.right) / 2, row = (now.top + now.bottom) / 2;
-        halves[0].right = halves[1].left = column;
-        halves[2].bottom = halves[3].top = row;
-        differs = false;
-        for (int i = 0; status == HD_OK && !differs && i < 4; i++)
-            if (halves[i].left < halves[i].right && halves[i].top < halves[i].bottom &&
-                (halves[i].right - halves[i].left < now.right - now.left ||
-                 halves[i].bottom - halves[i].top < now.bottom - now.top))
-                status = attempt(search, &halves[i], &differs, error);
-    }
-    return status;
+/* The number of the first value that differs in the last comparison, row by row, bit by bit: a NaN
+   is the same as itself. */
+static int first_value(const Search *search) {
+    const HdFrame *found = &search->frames[DEVICE], *expected = &search->frames[PLAIN_C];
+    for (int i = 0; i < found->width * found->height * found->floats; i++)
+        if (memcmp(&found->rgb[i], &expected->rgb[i], sizeof *found->rgb) != 0)
+            return i;
+    return NOWHERE;
 }
 
 /* ---- in words ---- */
-
-static void tell_value(const Search *search, int value, char *text, size_t capacity) {
-    static const char *const channels[] = {"red", "green", "blue", "the bound"};
-    snprintf(text, capacity, "%s is %a, expected %a",
-             channels[value % search->frames[DEVICE].floats],
-             (double)search->frames[DEVICE].rgb[value], (double)search->frames[PLAIN_C].rgb[value]);
-}
 
 static void tell_counts(const Search *search, char *text, size_t capacity) {
     const HdFrame *found = &search->frames[DEVICE], *expected = &search->frames[PLAIN_C];
@@ -249,73 +109,54 @@ static void tell_counts(const Search *search, char *text, size_t capacity) {
                   {"transmitted rays", found->transmitted_rays, expected->transmitted_rays},
                   {"tests for shadows", found->shadow_tests, expected->shadow_tests},
                   {"contributions that are cut", found->clamps, expected->clamps}};
-    text[0] = '\0';
-    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
-        if (text[0] == '\0' && counts[i].found != counts[i].expected)
-            snprintf(text, capacity,
-                     "no pixel, but the number of %s is %" PRIu64 ", expected %" PRIu64,
-                     counts[i].what, counts[i].found, counts[i].expected);
+    int i = 0;
+    while (i < 3 && counts[i].found == counts[i].expected)
+        i++;
+    snprintf(text, capacity, "no pixel, but the number of %s is %" PRIu64 ", expected %" PRIu64,
+             counts[i].what, counts[i].found, counts[i].expected);
 }
 
-/* Where the first value that differs is, in the frame that was given. */
-static void tell_place(const Search *search, const HdScene *whole, int value, char *text,
-                       size_t capacity) {
-    const HdFrame *frame = &search->frames[DEVICE];
-    const Cuts *cuts = &search->cuts;
-    int pixel = value / frame->floats;
-    int x = cuts->left + pixel % frame->width, y = cuts->top + pixel / frame->width;
-    int side = whole->samples_per_side;
-    if (cuts->samples_are_pixels)
-        snprintf(text, capacity, "pixel %d, %d, sample %d, %d of %d x %d", x / side, y / side,
-                 x % side, y % side, side, side);
-    else if (side > 1 && !hd_scene_is_surveyed(whole))
-        snprintf(text, capacity, "pixel %d, %d, though no sample of its %d x %d differs alone", x,
-                 y, side, side);
-    else
-        snprintf(text, capacity, "pixel %d, %d", x, y);
-}
-
-static void tell(const Search *search, const HdScene *whole, char *text, size_t capacity) {
-    char place[128], value[128];
-    const HdScene *left = &search->scene;
-    int number = first_value(search);
-    if (number == NOWHERE) {
+static void tell(const Search *search, int depth, bool is_split, char *text, size_t capacity) {
+    static const char *const channels[] = {"red", "green", "blue", "the bound"};
+    const HdFrame *found = &search->frames[DEVICE], *expected = &search->frames[PLAIN_C];
+    char sample[80] = "";
+    int value = first_value(search), side = search->side;
+    if (value == NOWHERE) {
         tell_counts(search, text, capacity);
         return;
     }
-    tell_place(search, whole, number, place, sizeof place);
-    tell_value(search, number, value, sizeof value);
-    snprintf(text, capacity,
-             "%s, depth %d of the ray: %s; it differs with %d of %d solids, %d of %d lights, %d of "
-             "%d instances of meshes%s, in a part of %d x %d pixels",
-             place, left->depth, value, left->solid_count, whole->solid_count,
-             hd_scene_light_count(left), hd_scene_light_count(whole), left->instance_count,
-             whole->instance_count,
-             whole->floor.present ? left->floor.present ? " and the floor" : " without the floor"
-                                  : "",
-             left->width, left->height);
+    int pixel = value / found->floats, x = pixel % found->width, y = pixel / found->width;
+    if (is_split)
+        snprintf(sample, sizeof sample, ", sample %d, %d of %d x %d", x % side, y % side, side,
+                 side);
+    else if (side > 1 && !search->is_surveyed)
+        snprintf(sample, sizeof sample, ", though no sample of its %d x %d differs alone", side,
+                 side);
+    snprintf(text, capacity, "pixel %d, %d%s, depth %d of the ray: %s is %a, expected %a",
+             is_split ? x / side : x, is_split ? y / side : y, sample, depth,
+             channels[value % found->floats], (double)found->rgb[value],
+             (double)expected->rgb[value]);
 }
 
 /* ---- all of it ---- */
 
-static HdStatus simplify(Search *search, const HdScene *whole, char *text, size_t capacity,
-                         HdError *error) {
-    bool differs;
-    HdStatus status = compare(search, &search->cuts, &differs, error);
+static HdStatus search_frame(Search *search, char *text, size_t capacity, HdError *error) {
+    bool differs, is_split = false;
+    int depth = 0;
+    HdStatus status = compare(search, AS_IT_IS, false, &differs, error);
     if (status != HD_OK || !differs)
         return status;
-    status = cut_depth(search, whole->depth, error);
-    if (status == HD_OK)
-        status = cut_scene(search, whole, error);
-    if (status == HD_OK)
-        status = cut_samples(search, whole, error);
-    if (status == HD_OK)
-        status = cut_pixels(search, error);
-    /* Once more, for the words: a device whose faults come and go has them from now on. */
-    if (status == HD_OK)
-        status = compare(search, &search->cuts, &differs, error);
+    differs = false;
+    for (; status == HD_OK && !differs && depth <= search->depth; depth++)
+        status = compare(search, depth, false, &differs, error);
+    depth--;
+    if (status == HD_OK && differs && search->side > 1 && !search->is_surveyed) {
+        status = compare(search, depth, true, &is_split, error);
+        if (status == HD_OK && !is_split)
+            status = compare(search, depth, false, &differs, error);
+    }
     if (status == HD_OK && differs)
-        tell(search, whole, text, capacity);
+        tell(search, depth, is_split, text, capacity);
     else if (status == HD_OK)
         snprintf(text, capacity, "the same frame differs one time and not another");
     return status;
@@ -323,18 +164,13 @@ static HdStatus simplify(Search *search, const HdScene *whole, char *text, size_
 
 HdStatus hd_first_difference(const HdDispute *dispute, char *text, size_t capacity,
                              HdError *error) {
-    Search search = {.dispute = dispute, .cuts = {.depth = NOWHERE}};
-    HdScene whole;
+    Search search = {.dispute = dispute};
     text[0] = '\0';
-    HdStatus status = dispute->build(dispute->what, &whole, &search.camera, error);
-    if (status != HD_OK)
-        return status;
-    search.cuts.right = whole.width;
-    search.cuts.bottom = whole.height;
-    status = open_sides(&search, error);
+    HdStatus status = open_sides(&search, error);
     if (status == HD_OK)
-        status = simplify(&search, &whole, text, capacity, error);
-    close_search(&search);
-    hd_scene_free(&whole);
+        status = search_frame(&search, text, capacity, error);
+    forget_frames(&search);
+    for (int side = 0; side < SIDES; side++)
+        hd_renderer_close(search.renderers[side]);
     return status;
 }

@@ -1,13 +1,32 @@
 /* SPDX-License-Identifier: MIT */
-/* The golden frames: their scenes, and the hashes of their bytes. */
+/* The golden frames: a fixed list of small frames that every device must render to the same bytes,
+   and the hashes of these. */
 #ifndef HD_VERIFY_GOLDEN_H
 #define HD_VERIFY_GOLDEN_H
 
-#include "device/options.h"
-#include "verify/golden_scenes.h"
+#include "scene/camera.h"
+#include "scene/scene.h"
+#include "tables/table.h"
+
+typedef struct HdGoldenFrame {
+    const char *name;
+    bool (*base)(HdScene *scene, HdCamera *camera);   /* false: there is too little memory */
+    void (*change)(HdScene *scene, HdCamera *camera); /* of the base; NULL: it stays as it is */
+    bool proves; /* kernels prove themselves by it if they can render it (trust.h) */
+} HdGoldenFrame;
+
+extern const HdGoldenFrame hd_golden_frames[];
+extern const int hd_golden_frame_count;
 
 /* What all golden frames need of the kernels, so that devices which compile them do so once. */
 extern const HdSceneTables hd_golden_needs;
+
+/* NULL: none has that name. */
+const HdGoldenFrame *hd_golden_find(const char *name);
+
+/* Builds a frame's scene, which the caller frees. */
+HdStatus hd_golden_build(const HdGoldenFrame *frame, HdScene *scene, HdCamera *camera,
+                         HdError *error);
 
 /* Of a frame in one precision. */
 typedef struct HdGoldenHashes {
@@ -15,16 +34,8 @@ typedef struct HdGoldenHashes {
     uint64_t first_hits; /* of HdFrame.first, with all that is known of the first hit */
 } HdGoldenHashes;
 
-/* What is committed: a line "NAME FRAME-IN-FLOAT FRAME-IN-DOUBLE FIRST-HITS-IN-FLOAT
-   FIRST-HITS-IN-DOUBLE" for each frame. */
-const char *hd_golden_text(void);
-
-/* Reads a frame's hashes; false where none are committed. */
+/* Reads a frame's hashes from what is committed, a line "NAME FRAME-IN-FLOAT FRAME-IN-DOUBLE
+   FIRST-HITS-IN-FLOAT FIRST-HITS-IN-DOUBLE" for each; false where it is not among them. */
 bool hd_golden_find_hashes(const char *name, HdPrecision precision, HdGoldenHashes *hashes);
-
-/* Builds a frame's scene, which the caller frees. The builders end the program where there is no
-   memory; so HD_FAILED where there is less than they need. */
-HdStatus hd_golden_build(const HdGoldenFrame *frame, HdScene *scene, HdCamera *camera,
-                         HdError *error);
 
 #endif

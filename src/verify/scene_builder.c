@@ -6,11 +6,8 @@
 
 #include "base/trigonometry.h"
 
-static void *allocate(size_t count, size_t size) {
-    void *memory = calloc(count > 0 ? count : 1, size);
-    if (memory == NULL)
-        abort();
-    return memory;
+static void *allocate(int count, size_t size) {
+    return calloc(count > 0 ? (size_t)count : 1, size);
 }
 
 static HdVec3 same(double a) {
@@ -37,7 +34,7 @@ static HdMaterial rim_material(void) {
                         .index_of_refraction = 1.0};
 }
 
-void build_scene(HdScene *scene, int width, int height, int samples, int depth, int solids,
+bool build_scene(HdScene *scene, int width, int height, int samples, int depth, int solids,
                  int lights) {
     memset(scene, 0, sizeof *scene);
     scene->frame_count = 1;
@@ -49,10 +46,13 @@ void build_scene(HdScene *scene, int width, int height, int samples, int depth, 
     scene->field_of_view_degrees = 60.0;
     scene->exposure = 1.0;
     scene->background = hd_vec3(0.01, 0.02, 0.04);
+    scene->solids = allocate(solids, sizeof *scene->solids);
+    scene->lights = allocate(lights, sizeof *scene->lights);
+    if (scene->solids == NULL || scene->lights == NULL)
+        return false;
     scene->solid_count = solids;
-    scene->solids = allocate((size_t)solids, sizeof *scene->solids);
     scene->light_count = lights;
-    scene->lights = allocate((size_t)lights, sizeof *scene->lights);
+    return true;
 }
 
 void build_solid(HdScene *scene, int index, HdSolidKind kind, HdVec3 centre, double radius,
@@ -86,10 +86,12 @@ void build_light(HdScene *scene, int index, HdVec3 position, HdVec3 intensity) {
 }
 
 /* A texture of hard squares and smooth ramps, so that a wrong texel or weight shows. */
-void build_texture(HdTexture *texture, int width, int height) {
+bool build_texture(HdTexture *texture, int width, int height) {
+    texture->texels = allocate(3 * width * height, sizeof *texture->texels);
+    if (texture->texels == NULL)
+        return false;
     texture->width = width;
     texture->height = height;
-    texture->texels = allocate((size_t)width * (size_t)height * 3, sizeof *texture->texels);
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
             uint16_t *rgb = texture->texels + 3 * (y * width + x);
@@ -97,6 +99,7 @@ void build_texture(HdTexture *texture, int width, int height) {
             rgb[1] = (uint16_t)(65535 * x / width);
             rgb[2] = (uint16_t)(65535 * y / height);
         }
+    return true;
 }
 
 void build_floor(HdScene *scene, HdVec3 a, HdVec3 b, HdVec3 c, HdVec3 d) {
@@ -122,4 +125,162 @@ void build_camera(HdCamera *camera, HdVec3 eye, HdVec3 target, double field_of_v
     camera->up = hd_cross(camera->right, camera->forward);
     hd_sine_cosine(field_of_view_degrees * HD_PI / 360.0, &sine, &cosine);
     camera->tangent_of_half_fov = sine / cosine;
+}
+
+/* ---- meshes ---- */
+
+bool build_meshes(HdScene *scene, int meshes, int instances, int pictures) {
+    scene->meshes = allocate(meshes, sizeof *scene->meshes);
+    scene->instances = allocate(instances, sizeof *scene->instances);
+    scene->pictures = allocate(pictures, sizeof *scene->pictures);
+    if (scene->meshes == NULL || scene->instances == NULL || scene->pictures == NULL)
+        return false;
+    scene->mesh_count = meshes;
+    scene->instance_count = instances;
+    scene->picture_count = pictures;
+    return true;
+}
+
+/* With room for all of it; the triangles are filled in later. */
+static bool build_mesh(HdMesh *mesh, int vertices, int triangles, int materials) {
+    mesh->vertices = allocate(vertices, sizeof *mesh->vertices);
+    mesh->corners = allocate(triangles, sizeof *mesh->corners);
+    mesh->material_of = materials > 1 ? allocate(triangles, sizeof *mesh->material_of) : NULL;
+    mesh->materials = allocate(materials, sizeof *mesh->materials);
+    mesh->vertex_count = vertices;
+    mesh->material_count = materials;
+    return mesh->vertices != NULL && mesh->corners != NULL && mesh->materials != NULL &&
+           (materials == 1 || mesh->material_of != NULL);
+}
+
+static void set_material(HdMesh *mesh, int index, const HdMaterial *material) {
+    mesh->materials[index] =
+        (HdMeshMaterial){.material = *material, .picture = -1, .passes_as = -1};
+}
+
+/* A grid of (rows + 1) x (columns + 1) points whose first and last column, and whose first and last
+   row, are one each; only its texture coordinates keep them apart. */
+typedef struct Globe {
+    int rows, columns;
+} Globe;
+
+static int32_t vertex_at(const Globe *globe, int row, int column) {
+    if (row == 0)
+        return 0;
+    if (row == globe->rows)
+        return 1;
+    return 2 + (row - 1) * globe->columns + column % globe->columns;
+}
+
+static HdVec3 point_at(const Globe *globe, int row, int column, double bump) {
+    double polar_sine, polar_cosine, sine, cosine, wave, other_wave, unused;
+    hd_sine_cosine(HD_PI * row / globe->rows, &polar_sine, &polar_cosine);
+    hd_sine_cosine(2.0 * HD_PI * column / globe->columns, &sine, &cosine);
+    hd_sine_cosine(10.0 * HD_PI * column / globe->columns, &wave, &unused);
+    hd_sine_cosine(4.0 * HD_PI * row / globe->rows, &other_wave, &unused);
+    double radius = 1.0 + bump * wave * other_wave * polar_sine * polar_sine;
+    return hd_scale(hd_vec3(polar_sine * cosine, polar_sine * sine, polar_cosine), radius);
+}
+
+static void add_globe_triangle(HdMesh *mesh, const Globe *globe, const int row[3],
+                               const int column[3]) {
+    int number = mesh->triangle_count++;
+    for (int i = 0; i < 3; i++) {
+        int32_t vertex = vertex_at(globe, row[i], column[i]);
+        mesh->corners[number][i] = vertex;
+        if (mesh->corner_normals != NULL)
+            mesh->corner_normals[number][i] = vertex;
+        if (mesh->corner_uvs != NULL)
+            mesh->corner_uvs[number][i] = row[i] * (globe->columns + 1) + column[i];
+    }
+}
+
+static bool add_globe_normals(HdMesh *mesh, int triangles) {
+    mesh->normals = allocate(mesh->vertex_count, sizeof *mesh->normals);
+    mesh->corner_normals = allocate(triangles, sizeof *mesh->corner_normals);
+    if (mesh->normals == NULL || mesh->corner_normals == NULL)
+        return false;
+    mesh->normal_count = mesh->vertex_count;
+    memcpy(mesh->normals, mesh->vertices, (size_t)mesh->normal_count * sizeof *mesh->normals);
+    return true;
+}
+
+static bool add_globe_uvs(HdMesh *mesh, const Globe *globe, int triangles) {
+    const int count = (globe->rows + 1) * (globe->columns + 1);
+    mesh->uvs = allocate(count, sizeof *mesh->uvs);
+    mesh->corner_uvs = allocate(triangles, sizeof *mesh->corner_uvs);
+    if (mesh->uvs == NULL || mesh->corner_uvs == NULL)
+        return false;
+    mesh->uv_count = count;
+    for (int i = 0; i < mesh->uv_count; i++) {
+        int row = i / (globe->columns + 1);
+        mesh->uvs[i][0] = 3.0 * (i % (globe->columns + 1)) / globe->columns - 1.0;
+        mesh->uvs[i][1] = 1.5 * row / globe->rows;
+    }
+    return true;
+}
+
+bool build_sphere_mesh(HdMesh *mesh, int rows, double bump, bool smooth, bool mapped,
+                       const HdMaterial *material) {
+    const Globe globe = {rows, 2 * rows};
+    const int triangles = 2 * globe.columns * (rows - 1);
+    if (!build_mesh(mesh, 2 + (rows - 1) * globe.columns, triangles, 1))
+        return false;
+    for (int row = 0; row <= rows; row++)
+        for (int column = 0; column < globe.columns; column++)
+            mesh->vertices[vertex_at(&globe, row, column)] = point_at(&globe, row, column, bump);
+    if ((smooth && !add_globe_normals(mesh, triangles)) ||
+        (mapped && !add_globe_uvs(mesh, &globe, triangles)))
+        return false;
+    for (int row = 0; row < rows; row++)
+        for (int column = 0; column < globe.columns; column++) {
+            int down[3] = {row, row + 1, row + 1}, right[3] = {column, column, column + 1};
+            int back[3] = {row, row + 1, row}, left[3] = {column, column + 1, column + 1};
+            if (row < rows - 1)
+                add_globe_triangle(mesh, &globe, down, right);
+            if (row > 0)
+                add_globe_triangle(mesh, &globe, back, left);
+        }
+    set_material(mesh, 0, material);
+    return true;
+}
+
+bool build_cube_mesh(HdMesh *mesh, const HdMaterial *first, const HdMaterial *second) {
+    static const int32_t faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                        {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    if (!build_mesh(mesh, 8, 12, 2))
+        return false;
+    for (int i = 0; i < 8; i++)
+        mesh->vertices[i] = hd_vec3(i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0);
+    mesh->triangle_count = 12;
+    for (int i = 0; i < 12; i++) {
+        const int32_t *face = faces[i / 2];
+        mesh->corners[i][0] = face[0];
+        mesh->corners[i][1] = face[1 + i % 2];
+        mesh->corners[i][2] = face[2 + i % 2];
+        mesh->material_of[i] = i < 4;
+    }
+    set_material(mesh, 0, first);
+    set_material(mesh, 1, second);
+    return true;
+}
+
+void build_instance(HdScene *scene, int index, int mesh, HdVec3 position, HdVec3 rotation,
+                    double scale) {
+    scene->instances[index] = (HdInstance){.mesh = mesh,
+                                           .position = position,
+                                           .rotation_degrees = rotation,
+                                           .scale = hd_vec3(scale, scale, scale)};
+}
+
+bool finish_meshes(HdScene *scene) {
+    HdError ignored;
+    HdThreadPool *pool;
+    HdStatus status = hd_thread_pool_create(&pool, 1, &ignored);
+    if (status != HD_OK)
+        return false;
+    for (int i = 0; status == HD_OK && i < scene->mesh_count; i++)
+        status = hd_mesh_build(&scene->meshes[i], pool, &ignored);
+    hd_thread_pool_destroy(pool);
+    return status == HD_OK;
 }

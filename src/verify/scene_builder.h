@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Short ways to make the scenes of the golden frames and of the conformance suite. For want of
-   memory they end the program: see hd_golden_build. */
+/* Short ways to make the scenes of the golden frames and of the conformance suite. What takes
+   memory is false where there is none. */
 #ifndef HD_VERIFY_SCENE_BUILDER_H
 #define HD_VERIFY_SCENE_BUILDER_H
 
@@ -8,7 +8,7 @@
 #include "scene/scene.h"
 
 /* An empty scene with room for solids and lights; the caller frees it. */
-void build_scene(HdScene *scene, int width, int height, int samples, int depth, int solids,
+bool build_scene(HdScene *scene, int width, int height, int samples, int depth, int solids,
                  int lights);
 
 /* Somewhat diffuse and specular, reflecting and transmitting as told. */
@@ -24,9 +24,29 @@ void build_glass(HdScene *scene, int index, HdSolidKind kind, HdVec3 centre, dou
 void build_light(HdScene *scene, int index, HdVec3 position, HdVec3 intensity);
 void build_floor(HdScene *scene, HdVec3 a, HdVec3 b, HdVec3 c, HdVec3 d);
 void build_square_floor(HdScene *scene, double half_side, double z);
-void build_texture(HdTexture *texture, int width, int height);
+bool build_texture(HdTexture *texture, int width, int height);
 
 /* Looks from `eye` at `target`, z up. */
 void build_camera(HdCamera *camera, HdVec3 eye, HdVec3 target, double field_of_view_degrees);
+
+/* ---- meshes ---- */
+
+/* Makes room in a scene; the caller frees it with the scene. */
+bool build_meshes(HdScene *scene, int meshes, int instances, int pictures);
+
+/* A closed sphere of radius 1 in `rows` rings of 2 rows triangles each, pushed in and out by up to
+   `bump`; `smooth` gives it normals, `mapped` texture coordinates. One material. */
+bool build_sphere_mesh(HdMesh *mesh, int rows, double bump, bool smooth, bool mapped,
+                       const HdMaterial *material);
+
+/* A cube from -1 to 1, of 12 triangles; faces 0 and 1 have the second material. */
+bool build_cube_mesh(HdMesh *mesh, const HdMaterial *first, const HdMaterial *second);
+
+/* Places a mesh; the same scale for every axis. */
+void build_instance(HdScene *scene, int index, int mesh, HdVec3 position, HdVec3 rotation,
+                    double scale);
+
+/* Builds the hierarchies of all meshes. */
+bool finish_meshes(HdScene *scene);
 
 #endif

@@ -1,22 +1,180 @@
 /* SPDX-License-Identifier: MIT */
 #include "verify/trust.h"
 
+#include <inttypes.h>
+#include <string.h>
+
+#include "device/kernel_cache.h"
 #include "render/frame.h"
+#include "system/machine.h"
 #include "tables/tables.h"
+#include "verify/golden.h"
+#include "verify/probe.h"
+
+/* ---- proof ---- */
+
+/* The tables of a scene as if it needed what `like` does, so that the same kernels render it. */
+static HdStatus compile_like(HdSceneTables *tables, const HdScene *scene, HdRenderer *renderer,
+                             const HdSceneTables *like, HdError *error) {
+    HdStatus status = hd_compile_scene(tables, scene, hd_renderer_options(renderer)->precision,
+                                       hd_renderer_lanes(renderer), error);
+    if (status == HD_OK && like != NULL)
+        hd_scene_tables_raise(tables, like);
+    return status;
+}
+
+/* Kernels cannot render it that would be others if they could. */
+static bool can_render(const HdSceneTables *tables, const HdSceneTables *like) {
+    const HdKernelNeeds needs = hd_kernel_needs(tables), there = hd_kernel_needs(like);
+    return hd_kernel_needs_equal(&needs, &there);
+}
+
+/* Without what else surveyed pixels come with. */
+static void keep_radiance(HdFrame *image) {
+    size_t pixels = (size_t)image->width * (size_t)image->height;
+    for (size_t pixel = 0; pixel < pixels; pixel++)
+        memmove(image->rgb + 3 * pixel, image->rgb + (size_t)image->floats * pixel,
+                3 * sizeof *image->rgb);
+    image->floats = 3;
+}
+
+/* Kernels for surveys render grids as well. */
+static HdStatus render_hash(HdRenderer *renderer, const HdSceneTables *tables, const HdScene *scene,
+                            const HdCamera *camera, uint64_t *hash, HdError *error) {
+    HdFrameTables view;
+    HdFrame image;
+    HdStatus status = hd_compile_frame(&view, scene, camera, tables->precision, error);
+    if (status != HD_OK)
+        return status;
+    view.floats = tables->surveyed ? HD_SURVEY_FLOATS : HD_RADIANCE_FLOATS;
+    status = hd_frame_create_with(&image, scene->width, scene->height, view.floats, error);
+    if (status == HD_OK) {
+        status = hd_renderer_upload(renderer, tables, error);
+        if (status == HD_OK)
+            status = hd_renderer_render(renderer, &view, &image, error);
+        keep_radiance(&image);
+        *hash = hd_frame_hash(&image);
+        hd_frame_free(&image);
+    }
+    hd_frame_tables_free(&view);
+    return status;
+}
+
+typedef struct Proof {
+    HdRenderer *renderer;
+    const HdSceneTables *like; /* what the kernels were compiled for */
+    int frames;                /* that they rendered rightly */
+    bool is_wrong;             /* they rendered one wrongly */
+} Proof;
+
+static HdStatus judge(Proof *proof, const HdGoldenFrame *frame, uint64_t hash, HdError *error) {
+    const HdDevice *device = hd_renderer_device(proof->renderer);
+    HdGoldenHashes expected = {0};
+    const bool is_known = hd_golden_find_hashes(frame->name, proof->like->precision, &expected);
+    proof->is_wrong = !is_known || hash != expected.frame;
+    proof->frames += !proof->is_wrong;
+    return proof->is_wrong
+               ? hd_fail(error, HD_UNAVAILABLE,
+                         "%s (%s) computes wrongly: the kernels that were compiled for it render "
+                         "the golden frame '%s' with the hash %016" PRIx64 ", expected %016" PRIx64
+                         "; another version of its driver or compiler may do better",
+                         device->name, device->driver, frame->name, hash, expected.frame)
+               : HD_OK;
+}
+
+static HdStatus prove_by(Proof *proof, const HdGoldenFrame *frame, HdError *error) {
+    HdScene scene;
+    HdCamera camera;
+    HdSceneTables tables;
+    uint64_t hash;
+    HdStatus status = hd_golden_build(frame, &scene, &camera, error);
+    if (status != HD_OK)
+        return status;
+    status = compile_like(&tables, &scene, proof->renderer, proof->like, error);
+    if (status == HD_OK) {
+        tables.many_lights = proof->like->many_lights; /* kernels without look at each light */
+        if (can_render(&tables, proof->like)) {
+            status = render_hash(proof->renderer, &tables, &scene, &camera, &hash, error);
+            if (status == HD_OK)
+                status = judge(proof, frame, hash, error);
+        }
+        hd_scene_tables_free(&tables);
+    }
+    hd_scene_free(&scene);
+    return status;
+}
+
+/* The renderer's scene is then another one. */
+static HdStatus prove(Proof *proof, HdError *error) {
+    HdKernelCache *kernels = hd_renderer_kernels(proof->renderer);
+    HdStatus status = HD_OK;
+    kernels->is_on_trial = true;
+    for (int i = 0; status == HD_OK && i < hd_golden_frame_count; i++)
+        if (hd_golden_frames[i].proves)
+            status = prove_by(proof, &hd_golden_frames[i], error);
+    kernels->is_on_trial = false;
+    if (status == HD_OK && proof->frames == 0)
+        status = hd_fail(error, HD_FAILED, "no golden frame fits the kernels");
+    return status;
+}
+
+/* ---- putting ---- */
+
+void hd_put_on_trial(HdRenderer *renderer) {
+    HdKernelCache *kernels = hd_renderer_kernels(renderer);
+    if (kernels != NULL)
+        kernels->is_on_trial = true;
+}
+
+static HdStatus put_and_prove(HdRenderer *renderer, const HdSceneTables *tables, bool *is_wrong,
+                              HdError *error) {
+    Proof proof = {.renderer = renderer, .like = tables};
+    HdStatus status = hd_probe_settle(renderer, error);
+    if (status == HD_OK)
+        status = hd_renderer_upload(renderer, tables, error);
+    HdKernelCache *kernels = hd_renderer_kernels(renderer);
+    if (status != HD_OK || kernels == NULL || !kernels->is_untested || kernels->is_on_trial)
+        return status;
+    if (kernels->shape.math == HD_MATH_STRICT) {
+        status = prove(&proof, error);
+        *is_wrong = proof.is_wrong;
+        if (status == HD_OK)
+            status = hd_renderer_upload(renderer, tables, error);
+    }
+    if (status == HD_OK)
+        hd_kernel_cache_accept(kernels);
+    return status;
+}
+
+/* After kernels of the megakernel computed wrongly, which `error` tells: it stays so where those of
+   the wavefront, with fewer branches within each other, do so too, or there are none. */
+static HdStatus try_wavefront(HdRenderer *renderer, const HdSceneTables *tables, HdError *error) {
+    HdError later;
+    bool is_wrong = false;
+    HdStatus status = hd_renderer_change_to_wavefront(renderer)
+                          ? put_and_prove(renderer, tables, &is_wrong, &later)
+                          : HD_UNAVAILABLE;
+    if (status == HD_OK)
+        hd_fallback_note("the wavefront takes over: %s", error->message);
+    else if (status == HD_INTERRUPTED)
+        *error = later;
+    else
+        status = hd_renderer_fail(renderer, HD_UNAVAILABLE, error);
+    return status;
+}
 
 HdStatus hd_put_tables(HdRenderer *renderer, const HdSceneTables *tables, HdError *error) {
-    return hd_renderer_upload(renderer, tables, error);
+    bool is_wrong = false;
+    HdStatus status = put_and_prove(renderer, tables, &is_wrong, error);
+    return is_wrong ? try_wavefront(renderer, tables, error) : status;
 }
 
 HdStatus hd_put_scene(HdRenderer *renderer, const HdScene *scene, const HdSceneTables *like,
                       HdError *error) {
     HdSceneTables tables;
-    HdStatus status = hd_compile_scene(&tables, scene, hd_renderer_options(renderer)->precision,
-                                       hd_renderer_lanes(renderer), error);
+    HdStatus status = compile_like(&tables, scene, renderer, like, error);
     if (status != HD_OK)
         return status;
-    if (like != NULL)
-        hd_scene_tables_raise(&tables, like);
     status = hd_put_tables(renderer, &tables, error);
     hd_scene_tables_free(&tables);
     return status;

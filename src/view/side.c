@@ -7,6 +7,8 @@
 #include <sys/stat.h>
 
 #include "base/hash.h"
+#include "base/minmax.h"
+#include "render/backends.h"
 #include "render/frame.h"
 #include "run/load_scene.h"
 #include "system/interrupt.h"
@@ -471,17 +473,13 @@ static void next_device(HdViewSide *side) {
     side->plan.devices.device = side->device;
 }
 
-static int within(int number, int least, int most) {
-    return number < least ? least : number > most ? most : number;
-}
-
 static void change_scene(HdViewSide *side, HdViewSetting setting, int by) {
     const HdScene *scene = &side->file.scene;
     HdScenePlan *plan = &side->plan.scene;
     if (setting == HD_VIEW_DEPTH)
-        plan->depth = within(scene->depth + by, 0, HD_MAX_DEPTH);
+        plan->depth = hd_min(hd_max(scene->depth + by, 0), HD_MAX_DEPTH);
     else if (setting == HD_VIEW_SAMPLES)
-        plan->samples = within(scene->samples_per_side + by, 1, HD_MAX_SAMPLES_PER_SIDE);
+        plan->samples = hd_min(hd_max(scene->samples_per_side + by, 1), HD_MAX_SAMPLES_PER_SIDE);
     else
         plan->sampling =
             scene->sampling == HD_SAMPLING_ADAPTIVE ? HD_SAMPLING_GRID : HD_SAMPLING_ADAPTIVE;

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/minmax.h"
 #include "base/trigonometry.h"
 #include "view/side.h"
 
@@ -290,8 +291,7 @@ static void other_side(HdViewer *viewer, int by) {
 }
 
 static void change_gain(HdViewer *viewer, int by) {
-    const int gain = by > 0 ? 2 * viewer->gain : viewer->gain / 2;
-    viewer->gain = gain < 1 ? 1 : gain > MOST_GAIN ? MOST_GAIN : gain;
+    viewer->gain = by > 0 ? hd_min(2 * viewer->gain, MOST_GAIN) : hd_max(viewer->gain / 2, 1);
     viewer->version++;
 }
 

@@ -68,6 +68,6 @@ expect_refused 'FP_CONTRACT OFF' 'FP_CONTRACT ON' ': a * b + c, rounded twice, o
 take "$build" '1.5259021896696422e-5' $'\n#if HD_WAVEFRONT\n1.5259021896696422e-5\n#else\n1.6e-5\n#endif\n'
 expect_exit 0 "${driver[@]}" "${render[@]}" --pipeline mega --verbose
 expect_stderr_contains 'the wavefront takes over: '
-expect_stderr_contains 'passed the self-test ('
+expect_stderr_contains 'passed the self-test; '
 expect_same picture.data expected.data
 finish

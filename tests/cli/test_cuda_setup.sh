@@ -65,11 +65,11 @@ if [[ -e $with_ptx ]]; then
     expect_same picture.data expected.data
     for card in '61 64' '90 96'; do
         expect_exit 0 "${off[@]}" FAKE_CUDA_CAPABILITY="${card% *}" "${ptx[@]}" picture.data --verbose
-        expect_stderr_contains ' by the driver from PTX of NVRTC 12.8; passed the self-test ('
+        expect_stderr_contains ' by the driver from PTX of NVRTC 12.8; passed the self-test; '
         expect_stderr_contains ", ${card#* } registers and "
     done
     expect_exit 0 "${ptx[@]}" picture.data --verbose # NVRTC comes first where it is there
-    expect_stderr_contains ' ms by NVRTC 12.8; passed the self-test ('
+    expect_stderr_contains ' ms by NVRTC 12.8; passed the self-test; '
     rm ./*.*
     ptx+=(picture.data --quiet)
     expect_refusal 3 "${off[@]}" "${ptx[@]}" --math fast

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # What was told as stored outlives a power cut: files are synced, with all their bytes, before they get their names,
-# folders afterwards, watched call by call. That only then a frame is told is a matter of output/test_publisher.
+# folders afterwards, watched call by call. That only then a frame is told is a matter of output/test_store_order.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "verify/golden_scenes.h"
 #include "image/picture.h"
+#include "verify/golden.h"
 
 enum { ROUNDS = 5, VIEWS = 2 };
 
@@ -22,17 +22,12 @@ typedef struct Views {
     HdFrame alone[VIEWS];
 } Views;
 
-static void build(HdScene *scene, HdCamera *camera) {
-    for (int i = 0; i < hd_golden_frame_count; i++)
-        if (strcmp(hd_golden_frames[i].name, frame_name) == 0)
-            hd_golden_frames[i].build(scene, camera);
-}
-
 static void open_views(Views *views, const Target *target) {
     HdScene scene;
     HdCamera camera;
     HdError error;
-    build(&scene, &camera);
+    if (hd_golden_build(hd_golden_find(frame_name), &scene, &camera, &error) != HD_OK)
+        fail(frame_name, &error);
     for (int i = 0; i < VIEWS; i++) {
         views->alone[i] = render_scene(target, &scene, &camera, frame_name);
         if (hd_compile_frame(&views->tables[i], &scene, &camera, target->precision, &error) !=

@@ -27,13 +27,14 @@
 
 #include "../options.h"
 #include "base/hash.h"
-#include "verify/golden.h"
 #include "device/renderer.h"
 #include "flights.h"
 #include "image/picture.h"
+#include "render/backends.h"
 #include "render_scene.h"
 #include "truths.h"
 #include "variants.h"
+#include "verify/golden.h"
 
 enum { MAX_FRAMES = 64, MAX_NAME = 64 };
 /* With this many lanes each scene has the kernels that it needs, where a CPU's are compiled for it.
@@ -125,8 +126,10 @@ static void save_picture(const Options *options, const char *name, const HdFrame
 static HdGoldenHashes render_hashes(const Target *target, int number, const Options *options) {
     HdScene scene;
     HdCamera camera;
+    HdError error;
     const char *name = hd_golden_frames[number].name;
-    hd_golden_frames[number].build(&scene, &camera);
+    if (hd_golden_build(&hd_golden_frames[number], &scene, &camera, &error) != HD_OK)
+        fail(name, &error);
     HdFrame frame = render_scene(target, &scene, &camera, name);
     const size_t firsts = (size_t)frame.width * (size_t)frame.height * (size_t)frame.first_floats;
     HdGoldenHashes hashes = {.frame = hd_frame_hash(&frame)};
@@ -169,7 +172,9 @@ static void compare_frame(const Target *target, int number, const Options *optio
 static bool is_surveyed(int frame) {
     HdScene scene;
     HdCamera camera;
-    hd_golden_frames[frame].build(&scene, &camera);
+    HdError error;
+    if (hd_golden_build(&hd_golden_frames[frame], &scene, &camera, &error) != HD_OK)
+        fail(hd_golden_frames[frame].name, &error);
     bool surveyed = hd_scene_is_surveyed(&scene);
     hd_scene_free(&scene);
     return surveyed;

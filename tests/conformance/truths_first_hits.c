@@ -2,8 +2,8 @@
 /* What the eye's rays meet first: depth, normal, number and coverage. */
 #include <math.h>
 
-#include "verify/scene_builder.h"
 #include "truths.h"
+#include "verify/scene_builder.h"
 
 enum { WIDTH = 37, HEIGHT = 29, SIDE = 3 };
 static const double FLOOR_Z = -1.0, HALF_SIDE = 3.0, CUBE_HALF = 0.5;

@@ -3,8 +3,8 @@
    never hide what is before them. Rays that are aimed at random tell none of it. */
 #include <math.h>
 
-#include "verify/scene_builder.h"
 #include "truths.h"
+#include "verify/scene_builder.h"
 
 /* Between mirrors that glow alike, the radiance is a geometric series, whatever the ray does. */
 static void check_mirror_series(Check *check) {

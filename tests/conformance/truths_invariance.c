@@ -6,10 +6,10 @@
 #include <stdlib.h>
 
 #include "base/trigonometry.h"
-#include "verify/scene_builder.h"
 #include "scene/camera.h"
-#include "scene/triangulate/scene.h"
+#include "scene/triangulate.h"
 #include "truths.h"
+#include "verify/scene_builder.h"
 
 enum { WIDTH = 48, HEIGHT = 36, SIDE = 32 };
 

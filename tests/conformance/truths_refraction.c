@@ -2,9 +2,9 @@
 /* Total reflection. */
 #include <math.h>
 
-#include "verify/scene_builder.h"
 #include "scene/camera.h"
 #include "truths.h"
+#include "verify/scene_builder.h"
 
 /* A cube that shows nothing of its own. */
 static void build_clear_cube(HdScene *scene, int width, int height, int depth, HdVec3 rotation,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "variants.h"
+#include "render/backends.h"
 
 #include <string.h>
 

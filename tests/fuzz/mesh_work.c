@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "base/problems.h"
+#include "base/error.h"
 #include "mesh/obj/read.h"
 #include "system/thread_pool.h"
 

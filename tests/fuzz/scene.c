@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/problems.h"
+#include "base/error.h"
 #include "fuzz.h"
 #include "input/write.h"
 

@@ -2,6 +2,7 @@
 #include "fuzz.h"
 
 #include "device/renderer.h"
+#include "render/backends.h"
 #include "scene/camera.h"
 #include "verify/trust.h"
 

@@ -3,7 +3,7 @@
    removed, and nothing else is. Input: names of files, one a line. */
 #define _XOPEN_SOURCE 700
 
-#include "output/segments.h"
+#include "output/resume.h"
 
 #include <fcntl.h>
 #include <regex.h>
@@ -20,8 +20,9 @@ enum { MOST_NAMES = 8, MOST_LENGTH = 200 };
 typedef enum Kind { SEGMENT, UNFINISHED, KIND_COUNT } Kind;
 
 static bool matches(Kind kind, const char *name) {
-    static const char *const patterns[KIND_COUNT] = {"^film[.]mkv[.]part-[0-9]+-[0-9a-f]{1,16}$",
-                                                     "^film[.]mkv[.]part-.*[.]tmp-[0-9]+-[0-9]+$"};
+    static const char *const patterns[KIND_COUNT] = {
+        "^film[.]mkv[.]part-[0-9]+-[0-9a-f]{1,16}$",
+        "^film[.]mkv([.]part-.*)?[.]tmp-[0-9]+-[0-9]+$"};
     static regex_t compiled[KIND_COUNT];
     static bool are_compiled;
     for (int i = 0; i < KIND_COUNT && !are_compiled; i++)
@@ -75,11 +76,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const HdFrameList frames = {.frames = numbers, .count = 2 * HD_LEAST_SEGMENT};
     const char *film = fuzz_file("film.mkv", "", 0), *names[MOST_NAMES];
     HdOutputPlan plan = {.style = {.frames_per_second = 1}, .keeps_films = true, .resumes = true};
-    const HdOutput output = {.name = film, .format = hd_format_of(film), .is_film = true};
+    plan.list[plan.count++] =
+        (HdOutput){.name = film, .format = hd_format_of(film), .is_film = true};
     HdSegments segments;
     char *text = fuzz_text(data, size);
     const int count = make_files(text, film, names);
-    const HdStatus status = hd_segments_find(&segments, &plan, &output, &frames, &error);
+    hd_stale_files_remove(&plan, &frames);
+    const HdStatus status = hd_segments_find(&segments, &plan, &plan.list[0], &frames, &error);
     fuzz_expect(status == HD_OK, error.message);
     check_files(film, names, count, UNFINISHED, false);
     hd_segments_remove(&segments);

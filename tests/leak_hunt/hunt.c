@@ -5,10 +5,9 @@
 #include <stdlib.h>
 
 #include "../../scenes/models/random.h"
-#include "verify/mesh_builder.h"
-#include "verify/scene_builder.h"
 #include "hunt_skins.h"
 #include "scene/platonic.h"
+#include "verify/scene_builder.h"
 
 /* Where things are along y, and what they show. The floor and the background have one radiance of
    their own in red and green; the light adds to the floor's green. */

@@ -17,6 +17,7 @@
 #include "../options.h"
 #include "hunt.h"
 #include "input/check.h"
+#include "render/backends.h"
 #include "render/frame.h"
 #include "verify/golden.h"
 #include "verify/trust.h"

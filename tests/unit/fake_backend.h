@@ -8,9 +8,10 @@
 #include <stdlib.h>
 
 #include "device/kernel_cache.h"
-#include "device/probe_operands.h"
 #include "device/renderer.h"
+#include "render/backends.h"
 #include "unit_test.h"
+#include "verify/probe_operands.h"
 
 typedef enum FakePoint { FAKE_OPEN, FAKE_UPLOAD, FAKE_SUBMIT, FAKE_COLLECT } FakePoint;
 
@@ -170,6 +171,10 @@ static void fake_probe_key(void *state, char *text, size_t capacity) {
                         "1", text, capacity);
 }
 
+static int fake_lanes(const void *state) {
+    return ((const FakeRenderer *)state)->kernels.shape.lanes;
+}
+
 static void fake_describe(const void *renderer, char *text, int capacity) {
     (void)renderer, (void)capacity;
     text[0] = '\0';
@@ -190,6 +195,7 @@ static const HdRendererFunctions fake_functions = {
     .kernels = fake_kernels,
     .probe = fake_probe,
     .probe_key = fake_probe_key,
+    .lanes = fake_lanes,
     .describe = fake_describe,
     .close = fake_close,
 };

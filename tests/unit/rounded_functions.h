@@ -10,8 +10,8 @@
 
 #include "kernels/common/dialect.h"
 
-#include "device/probe_operands.h"
 #include "unit_test.h"
+#include "verify/probe_operands.h"
 
 /* Sanitizers are slow, and look at a part of the numbers. */
 #ifndef __has_feature

@@ -13,5 +13,4 @@
     }
 HD_WRAPPED(HD_DEFINE_WRAPPED)
 
-const HdBackend *replaced_hd_backends[HD_BACKEND_COUNT] = {&hd_backend_cuda, &hd_backend_opencl,
-                                                           &hd_backend_c};
+const HdBackend *replaced_hd_backends[HD_BACKEND_COUNT] = {HD_BACKENDS(HD_BACKEND_ADDRESS)};

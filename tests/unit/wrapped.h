@@ -10,6 +10,7 @@
 
 #include "device/backend.h"
 #include "device/opencl/devices.h"
+#include "render/backends.h"
 
 /* X(type, name, parameters, arguments), from which CMakeLists.txt takes the names. */
 #define HD_WRAPPED(X)                                                                              \

@@ -2,14 +2,294 @@
 #define _POSIX_C_SOURCE 200809L
 #include "device/cuda/compile.h"
 
+#include <glob.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+
+#include "base/text.h"
+#include "system/cache_folder.h"
+#include "system/dynamic_library.h"
+#include "system/path.h"
+
+/* ---- the library ---- */
+
+enum { MAX_ARCHS = 256 };
+
+/* The virtual environment, below the home folder, that messages advise to make: the system's own
+   Python often lets nobody install into it. */
+#define HD_NVRTC_VENV ".local/share/hedron"
+
+typedef struct Search {
+    int arch, driver_major;
+    bool has_best;
+    HdNvrtc best;
+    char found[512]; /* what was found and does not fit, for people */
+} Search;
+
+/* NVRTC opens its helper by name and relies on the loader to look in NVRTC's own folder, which it
+   does not do when a sanitizer stands between. A library that is loaded already is found by its
+   name. */
+static void load_builtins(const HdNvrtc *nvrtc) {
+    char name[64];
+    snprintf(name, sizeof name, "libnvrtc-builtins.so.%d.%d", nvrtc->major, nvrtc->minor);
+    hd_library_close(hd_library_open_beside(nvrtc->library, "nvrtcVersion", name));
+}
+
+static bool load_functions(HdNvrtcFunctions *functions, void *library) {
+    static const HdLibrarySymbol symbols[] = {
+#define SYMBOL(type, member, symbol, parameters) {#symbol, offsetof(HdNvrtcFunctions, member)},
+        HD_NVRTC_FUNCTIONS(SYMBOL)
+#undef SYMBOL
+    };
+    return hd_library_load(library, symbols, sizeof symbols / sizeof *symbols, functions) == NULL;
+}
+
+static bool load(HdNvrtc *nvrtc, const char *path) {
+    *nvrtc = (HdNvrtc){.library = hd_library_open(path)};
+    if (!nvrtc->library)
+        return false;
+    const HdNvrtcFunctions *functions = &nvrtc->functions;
+    if (load_functions(&nvrtc->functions, nvrtc->library) &&
+        functions->version(&nvrtc->major, &nvrtc->minor) == 0)
+        return true;
+    hd_nvrtc_close(nvrtc);
+    return false;
+}
+
+/* Fills the architectures, in ascending order, and returns their number. */
+static int list_archs(const HdNvrtc *nvrtc, int archs[MAX_ARCHS]) {
+    int count = 0;
+    if (nvrtc->functions.arch_count(&count) != 0 || count < 1 || count > MAX_ARCHS)
+        return 0;
+    return nvrtc->functions.list_archs(archs) == 0 ? count : 0;
+}
+
+static bool contains(const int *archs, int count, int arch) {
+    for (int i = 0; i < count; i++)
+        if (archs[i] == arch)
+            return true;
+    return false;
+}
+
+static void note(Search *search, const HdNvrtc *nvrtc, const int *archs, int count) {
+    char text[64];
+    snprintf(text, sizeof text, "NVRTC %d.%d for sm_%d to sm_%d", nvrtc->major, nvrtc->minor,
+             count ? archs[0] : 0, count ? archs[count - 1] : 0);
+    if (!strstr(search->found, text))
+        hd_add_text(search->found, sizeof search->found, ", ", "%s", text);
+}
+
+static bool is_better(const Search *search, const HdNvrtc *nvrtc) {
+    const HdNvrtc *best = &search->best;
+    int limit = search->driver_major;
+    bool fits = limit == 0 || nvrtc->major <= limit;
+    bool best_fits = limit == 0 || best->major <= limit;
+    if (!search->has_best || fits != best_fits)
+        return !search->has_best || fits;
+    return nvrtc->major != best->major ? nvrtc->major > best->major : nvrtc->minor > best->minor;
+}
+
+static void consider(Search *search, const char *path) {
+    HdNvrtc nvrtc;
+    if (!load(&nvrtc, path))
+        return;
+    int archs[MAX_ARCHS];
+    int count = list_archs(&nvrtc, archs);
+    if (!contains(archs, count, search->arch)) {
+        note(search, &nvrtc, archs, count);
+    } else if (is_better(search, &nvrtc)) {
+        HdNvrtc worse = search->best;
+        search->best = nvrtc;
+        nvrtc = worse;
+        search->has_best = true;
+    }
+    hd_nvrtc_close(&nvrtc);
+}
+
+static void consider_pattern(Search *search, const char *pattern) {
+    glob_t paths;
+    if (glob(pattern, 0, NULL, &paths) == 0)
+        for (size_t i = 0; i < paths.gl_pathc; i++)
+            consider(search, paths.gl_pathv[i]);
+    globfree(&paths);
+}
+
+static void consider_below(Search *search, const char *folder, const char *pattern) {
+    char path[HD_MAX_PATH];
+    if (!folder || !folder[0])
+        return;
+    int length = snprintf(path, sizeof path, "%s/%s", folder, pattern);
+    if (length > 0 && length < HD_MAX_PATH)
+        consider_pattern(search, path);
+}
+
+#define PYTHON_PACKAGES "lib/python3*/*-packages/nvidia/*/lib/libnvrtc.so*"
+
+static void search_system(Search *search) {
+    static const char *const names[] = {"libnvrtc.so.13", "libnvrtc.so.12", "libnvrtc.so.11.2",
+                                        "libnvrtc.so"};
+    static const char *const patterns[] = {
+        "/usr/local/cuda*/lib64/libnvrtc.so*",
+        "/usr/local/" PYTHON_PACKAGES,
+        "/usr/" PYTHON_PACKAGES,
+    };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        consider(search, names[i]);
+    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++)
+        consider_pattern(search, patterns[i]);
+}
+
+static void search_user(Search *search) {
+    static const char *const below[][2] = {
+        {"CUDA_HOME", "lib64/libnvrtc.so*"},
+        {"CUDA_PATH", "lib64/libnvrtc.so*"},
+        {"HOME", HD_NVRTC_VENV "/" PYTHON_PACKAGES},
+        {"HOME", ".local/" PYTHON_PACKAGES},
+        {"VIRTUAL_ENV", PYTHON_PACKAGES},
+        {"CONDA_PREFIX", "lib/libnvrtc.so*"},
+        {"CONDA_PREFIX", PYTHON_PACKAGES},
+    };
+    for (size_t i = 0; i < sizeof below / sizeof *below; i++)
+        consider_below(search, getenv(below[i][0]), below[i][1]);
+}
+
+/* Where ./dev puts one, seen from a program in the build's folder or in one below it. */
+static void search_build(Search *search) {
+    static const char *const patterns[] = {"../nvrtc12/nvidia/*/lib/libnvrtc.so*",
+                                           "../../nvrtc12/nvidia/*/lib/libnvrtc.so*"};
+    char folder[HD_MAX_PATH];
+    if (!hd_path_of_program(folder))
+        return;
+    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++)
+        consider_below(search, folder, patterns[i]);
+}
+
+static void search_everywhere(Search *search) {
+    search_system(search);
+    search_user(search);
+    search_build(search);
+}
+
+/* NVRTC 11 is the last for cards before sm_50, NVRTC 12 for those before sm_75. */
+const char *hd_nvrtc_package(int arch, int driver_major) {
+    if (arch < 50 || driver_major == 11)
+        return "nvidia-cuda-nvrtc-cu11";
+    if (arch < 75 || driver_major == 12)
+        return "nvidia-cuda-nvrtc-cu12";
+    return "nvidia-cuda-nvrtc";
+}
+
+/* Which branch of the driver not to go beyond. */
+static const char *advise_driver(int arch) {
+    if (arch < 50)
+        return "; the driver's branch 470 is the last for this card";
+    return arch < 75 ? "; the driver's branch 580 is the last for this card" : "";
+}
+
+static HdStatus fail_to_find(const Search *search, const char *device, const char *path,
+                             HdError *error) {
+    if (path && !search->found[0])
+        return hd_fail(error, HD_UNAVAILABLE,
+                       "%s cannot be loaded as an NVRTC library, version 11.2 or newer", path);
+    return hd_fail(error, HD_UNAVAILABLE,
+                   "no NVRTC library here compiles for %s (sm_%d); to install one that does: "
+                   "python3 -m venv ~/" HD_NVRTC_VENV " && ~/" HD_NVRTC_VENV
+                   "/bin/pip install %s, or name a libnvrtc.so in HEDRON_NVRTC%s; found: %s",
+                   device, search->arch, hd_nvrtc_package(search->arch, search->driver_major),
+                   advise_driver(search->arch), search->found[0] ? search->found : "none");
+}
+
+static bool is_off(const char *named) {
+    return named != NULL && strcmp(named, "off") == 0;
+}
+
+bool hd_nvrtc_is_named(void) {
+    const char *named = getenv("HEDRON_NVRTC");
+    return named != NULL && named[0] != '\0' && !is_off(named);
+}
+
+HdStatus hd_nvrtc_open(HdNvrtc *nvrtc, const char *device, int arch, int driver_major,
+                       const char *path, HdError *error) {
+    Search search = {.arch = arch, .driver_major = driver_major};
+    const char *named = path ? path : hd_nvrtc_is_named() ? getenv("HEDRON_NVRTC") : NULL;
+    if (named)
+        consider(&search, named);
+    else if (!is_off(getenv("HEDRON_NVRTC")))
+        search_everywhere(&search);
+    if (!search.has_best)
+        return fail_to_find(&search, device, named, error);
+    *nvrtc = search.best;
+    load_builtins(nvrtc);
+    return HD_OK;
+}
+
+void hd_nvrtc_close(HdNvrtc *nvrtc) {
+    hd_library_close(nvrtc->library);
+    *nvrtc = (HdNvrtc){0};
+}
+
+/* ---- what is remembered ---- */
+
+enum { RECORD_KEY_LENGTH = HD_MAX_PATH + 128, RECORD_LENGTH = HD_MAX_PATH + 64 };
+
+static const char record_kind[] = "nvrtc";
+
+static void write_key(char key[RECORD_KEY_LENGTH], int arch, int driver_major) {
+    const char *named = getenv("HEDRON_NVRTC");
+    snprintf(key, RECORD_KEY_LENGTH, "hedron %s\nsm_%d, driver for CUDA %d\nHEDRON_NVRTC %.*s\n",
+             HD_VERSION, arch, driver_major, HD_MAX_PATH, named != NULL ? named : "");
+}
+
+/* Size and time tell a library from one that was installed over it. */
+static bool write_record(char record[RECORD_LENGTH], const char *library) {
+    struct stat found;
+    if (library[0] != '/' || stat(library, &found) != 0 || !S_ISREG(found.st_mode))
+        return false;
+    int length = snprintf(record, RECORD_LENGTH, "%lld %lld %s", (long long)found.st_size,
+                          (long long)found.st_mtime, library);
+    return length < RECORD_LENGTH;
+}
+
+static bool is_remembered(int arch, int driver_major) {
+    char key[RECORD_KEY_LENGTH], stored[RECORD_LENGTH], present[RECORD_LENGTH];
+    HdError ignored;
+    write_key(key, arch, driver_major);
+    if (hd_cache_get_text(record_kind, key, stored, sizeof stored, &ignored) != HD_OK)
+        return false;
+    const char *library = strchr(stored, '/');
+    return library != NULL && write_record(present, library) && strcmp(stored, present) == 0;
+}
+
+void hd_nvrtc_remember(const char *library, int arch, int driver_major) {
+    char key[RECORD_KEY_LENGTH], record[RECORD_LENGTH];
+    HdError ignored; /* next time it is loaded again */
+    write_key(key, arch, driver_major);
+    if (write_record(record, library))
+        hd_cache_put_text(record_kind, key, record, &ignored);
+}
+
+HdStatus hd_nvrtc_check(const char *device, int arch, int driver_major, HdError *error) {
+    HdNvrtc nvrtc = {0};
+    char library[HD_MAX_PATH];
+    if (is_remembered(arch, driver_major))
+        return HD_OK;
+    HdStatus status = hd_nvrtc_open(&nvrtc, device, arch, driver_major, NULL, error);
+    if (status != HD_OK)
+        return status;
+    if (hd_library_path(nvrtc.library, "nvrtcVersion", library, sizeof library))
+        hd_nvrtc_remember(library, arch, driver_major);
+    hd_nvrtc_close(&nvrtc);
+    return HD_OK;
+}
+
+/* ---- what it compiles ---- */
 
 enum { MOST_PARTS = 48, MOST_TEXT = 1024 };
 
-static HdStatus fail(const HdNvrtc *nvrtc, const char *function, HdNvrtcResult code,
-                     HdError *error) {
+static HdStatus fail_by_code(const HdNvrtc *nvrtc, const char *function, HdNvrtcResult code,
+                             HdError *error) {
     return hd_fail(error, HD_FAILED, "%s failed with %s", function,
                    nvrtc->functions.error_string(code));
 }
@@ -34,16 +314,17 @@ static HdStatus copy_image(HdCudaCode *code, const HdNvrtc *nvrtc, HdNvrtcProgra
     HdNvrtcResult result = target.is_ptx ? functions->ptx_size(program, &code->size)
                                          : functions->cubin_size(program, &code->size);
     if (result != 0 || code->size == 0)
-        return fail(nvrtc, target.is_ptx ? "nvrtcGetPTXSize" : "nvrtcGetCUBINSize", result, error);
+        return fail_by_code(nvrtc, target.is_ptx ? "nvrtcGetPTXSize" : "nvrtcGetCUBINSize", result,
+                            error);
     code->image = malloc(code->size);
     code->log = copy_log(nvrtc, program);
     if (!code->image || !code->log)
         return hd_fail(error, HD_FAILED, "out of memory: no room for compiled kernels");
     result = target.is_ptx ? functions->ptx(program, code->image)
                            : functions->cubin(program, code->image);
-    return result == 0
-               ? HD_OK
-               : fail(nvrtc, target.is_ptx ? "nvrtcGetPTX" : "nvrtcGetCUBIN", result, error);
+    return result == 0 ? HD_OK
+                       : fail_by_code(nvrtc, target.is_ptx ? "nvrtcGetPTX" : "nvrtcGetCUBIN",
+                                      result, error);
 }
 
 static const char *prefix_of(HdCudaTarget target) {
@@ -103,7 +384,7 @@ HdStatus hd_cuda_compile(HdCudaCode *code, const HdNvrtc *nvrtc, HdCudaTarget ta
     HdNvrtcResult result = nvrtc->functions.create_program(&program, (const char *)hd_cuda_source,
                                                            "kernels/cuda/hedron.cu", 0, NULL, NULL);
     if (result != 0)
-        return fail(nvrtc, "nvrtcCreateProgram", result, error);
+        return fail_by_code(nvrtc, "nvrtcCreateProgram", result, error);
     HdStatus status = compile(code, nvrtc, program, target, options, error);
     nvrtc->functions.destroy_program(&program);
     if (status != HD_OK)

@@ -1,13 +1,48 @@
 /* SPDX-License-Identifier: MIT */
-/* The kernels, compiled for one NVIDIA architecture. Needs no device. */
+/* The kernels, compiled for one NVIDIA architecture, which needs no device: by an NVRTC library
+   of this machine, or earlier, while the program was built. */
 #ifndef HD_DEVICE_CUDA_COMPILE_H
 #define HD_DEVICE_CUDA_COMPILE_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "device/cuda/nvrtc.h"
+#include "device/cuda/api.h"
 #include "device/kernel_source.h"
+
+/* ---- the library ---- */
+
+typedef struct HdNvrtc {
+    HdNvrtcFunctions functions;
+    int major, minor;
+    void *library; /* owned */
+} HdNvrtc;
+
+/* Takes the newest library that compiles for sm_`arch`, one that is not newer than the driver
+   (`driver_major`, 0: unknown) before one that is. Looked at: the file `path`; if that is NULL, the
+   file that HEDRON_NVRTC names, or nothing where it is "off"; otherwise the folders that
+   docs/backends.md lists. Where
+   there is none, the message says what was found and what to install for that device and driver.
+   `device` is its name. */
+HdStatus hd_nvrtc_open(HdNvrtc *nvrtc, const char *device, int arch, int driver_major,
+                       const char *path, HdError *error);
+void hd_nvrtc_close(HdNvrtc *nvrtc);
+
+/* Whether HEDRON_NVRTC names a file, so that nothing else will do. */
+bool hd_nvrtc_is_named(void);
+
+/* The package for Python whose NVRTC compiles for sm_`arch` what a driver for that CUDA takes. */
+const char *hd_nvrtc_package(int arch, int driver_major);
+
+/* Fails as hd_nvrtc_open does where nothing compiles for sm_`arch`. A library that did once is
+   remembered in the cache folder (cache_folder.h); as long as the same file lies there and
+   HEDRON_NVRTC names what it named, it is not loaded. */
+HdStatus hd_nvrtc_check(const char *device, int arch, int driver_major, HdError *error);
+
+/* Remembers that the library compiles for sm_`arch`. What cannot be remembered is not. */
+void hd_nvrtc_remember(const char *library, int arch, int driver_major);
+
+/* ---- what it compiles ---- */
 
 typedef struct HdCudaCode {
     char *image; /* owned; machine code, or PTX with its NUL */
@@ -34,5 +69,35 @@ HdStatus hd_cuda_compile(HdCudaCode *code, const HdNvrtc *nvrtc, HdCudaTarget ta
                          const char *options, HdError *error);
 
 void hd_cuda_code_free(HdCudaCode *code);
+
+/* ---- PTX that was compiled while the program was built, where an NVRTC was there to do it: for
+   users who have none. It is general, for one text is to serve most scenes. ---- */
+
+typedef struct HdCudaPtx {
+    HdKernelShape shape;
+    const char *maker; /* "NVRTC 12.6" */
+    const unsigned char *text;
+    size_t size; /* with the NUL */
+} HdCudaPtx;
+
+/* Made by cmake/embed_ptx.c: the kernels of the probe (verify/probe.h) and others, with strict
+   arithmetic and all that a scene may need up to the bounds below; none where there was no NVRTC.
+ */
+extern const HdCudaPtx hd_cuda_ptx[];
+extern const int hd_cuda_ptx_count;
+
+enum {
+    HD_CUDA_PTX_ARCH = 61,
+    HD_CUDA_PTX_BLOCK = 128,
+    HD_CUDA_PTX_PLANES = 128,
+    HD_CUDA_PTX_DEPTH = 64,
+    HD_CUDA_PTX_NODE_STACK = 32
+};
+
+/* True where some of it can run on a device of sm_`arch`. */
+bool hd_cuda_ptx_suits(int arch);
+
+/* What does all that kernels of that shape would; NULL: there is none. */
+const HdCudaPtx *hd_cuda_ptx_find(const HdKernelShape *shape, int arch);
 
 #endif

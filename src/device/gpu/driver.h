@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What a driver of GPUs must be able to do: CUDA and OpenCL fill this table in, and one renderer
-   (device/gpu/renderer.h) does the rest. */
+   does the rest. */
 #ifndef HD_DEVICE_GPU_DRIVER_H
 #define HD_DEVICE_GPU_DRIVER_H
 
@@ -135,5 +135,8 @@ typedef struct HdGpuDriver {
     int (*describe)(const void *gpu, const HdKernelShape *shape, int group_size,
                     const char *pipeline, const char *maker, char *text, int capacity);
 } HdGpuDriver;
+
+/* Renders on one device by the driver of its backend. */
+extern const HdRendererFunctions hd_gpu_functions;
 
 #endif

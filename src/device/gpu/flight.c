@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-#include "device/gpu/flight.h"
+#include "device/gpu/gpu.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "kernels/host/shared.h"
@@ -23,9 +24,9 @@ static void close_flight(HdGpuFlight *flight, const HdGpu *gpu) {
         gpu->driver->forget(gpu->handle, marks[i]);
 }
 
-void hd_gpu_flights_close(HdGpuFlights *flights, const HdGpu *gpu) {
+void hd_gpu_flights_close(HdGpuRenderer *renderer) {
     for (int i = 0; i < HD_FRAMES_IN_FLIGHT; i++)
-        close_flight(&flights->flights[i], gpu);
+        close_flight(&renderer->flights.flights[i], &renderer->gpu);
 }
 
 static size_t pixel_count(const HdGpuFlight *flight) {
@@ -68,8 +69,9 @@ static HdStatus reserve(HdGpuFlight *flight, const HdGpu *gpu, HdError *error) {
     return status;
 }
 
-HdStatus hd_gpu_flight_begin(HdGpuFlights *flights, const HdGpu *gpu, const HdFrameTables *tables,
-                             int items, bool encodes, HdGpuFlight **out, HdError *error) {
+HdStatus hd_gpu_flight_begin(HdGpuRenderer *renderer, const HdFrameTables *tables, int items,
+                             bool encodes, HdGpuFlight **out, HdError *error) {
+    HdGpuFlights *flights = &renderer->flights;
     HdGpuFlight *flight =
         &flights->flights[(flights->oldest + flights->count) % HD_FRAMES_IN_FLIGHT];
     flight->encodes = encodes;
@@ -82,11 +84,12 @@ HdStatus hd_gpu_flight_begin(HdGpuFlights *flights, const HdGpu *gpu, const HdFr
     flight->longest_launch = -1.0;
     flight->is_alone = flights->count == 0;
     *out = flight;
-    return reserve(flight, gpu, error);
+    return reserve(flight, &renderer->gpu, error);
 }
 
-HdStatus hd_gpu_flight_launch(HdGpuFlight *flight, const HdGpu *gpu, const HdGpuLaunch *launch,
-                              double work, HdError *error) {
+HdStatus hd_gpu_flight_launch(const HdGpuRenderer *renderer, HdGpuFlight *flight,
+                              const HdGpuLaunch *launch, double work, HdError *error) {
+    const HdGpu *gpu = &renderer->gpu;
     flight->untimed = flight->launches++ == 0 ? &flight->first : &flight->later;
     flight->work = work;
     flight->launched = hd_monotonic_seconds();
@@ -104,8 +107,10 @@ static double launch_by_host(const HdGpuFlights *flights, const HdGpuFlight *fli
     return least > flights->size.longest ? least : -1.0;
 }
 
-HdStatus hd_gpu_flight_time_launch(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gpu,
-                                   double waited, HdError *error) {
+HdStatus hd_gpu_flight_time_launch(HdGpuRenderer *renderer, HdGpuFlight *flight, double waited,
+                                   HdError *error) {
+    const HdGpu *gpu = &renderer->gpu;
+    HdGpuFlights *flights = &renderer->flights;
     double seconds;
     HdStatus status =
         gpu->driver->seconds(gpu->handle, flight->untimed, flight->untimed, &seconds, error);
@@ -116,8 +121,7 @@ HdStatus hd_gpu_flight_time_launch(HdGpuFlights *flights, HdGpuFlight *flight, c
     if (status != HD_OK || seconds < 0.0)
         return status;
     hd_launch_size_note(&flights->size, flight->work, seconds);
-    if (seconds > flight->longest_launch)
-        flight->longest_launch = seconds;
+    flight->longest_launch = fmax(seconds, flight->longest_launch);
     return HD_OK;
 }
 
@@ -126,8 +130,8 @@ void hd_gpu_flight_tell(HdGpuFlight *flight, int end) {
     flight->told = end;
 }
 
-HdStatus hd_gpu_flight_send(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gpu,
-                            HdError *error) {
+HdStatus hd_gpu_flight_send(HdGpuRenderer *renderer, HdGpuFlight *flight, HdError *error) {
+    const HdGpu *gpu = &renderer->gpu;
     char *to = flight->copy.data;
     const HdGpuCopy copies[] = {
         {&flight->sums, to, SUM_BYTES},
@@ -136,18 +140,17 @@ HdStatus hd_gpu_flight_send(HdGpuFlights *flights, HdGpuFlight *flight, const Hd
     const HdGpuMark *ready = flight->encodes ? &flight->encoded : &flight->summed;
     HdStatus status = gpu->driver->copy_back(gpu->handle, ready, copies, 2, &flight->copied, error);
     if (status == HD_OK)
-        flights->count++;
+        renderer->flights.count++;
     return status;
 }
 
 /* Where the device does not tell, what the host sees: frames are traced one after the other. */
 static double host_seconds(const HdGpuFlights *flights, const HdGpuFlight *flight) {
-    double from = flight->submitted > flights->collected ? flight->submitted : flights->collected;
-    return hd_monotonic_seconds() - from;
+    return hd_monotonic_seconds() - fmax(flight->submitted, flights->collected);
 }
 
-static HdStatus fill(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gpu, HdFrame *frame,
-                     HdError *error) {
+static HdStatus fill(HdGpuRenderer *renderer, HdGpuFlight *flight, HdFrame *frame, HdError *error) {
+    const HdGpu *gpu = &renderer->gpu;
     double seconds, waited = hd_monotonic_seconds();
     flight->is_alone = true;
     HdStatus status = gpu->driver->wait_for_copies(gpu->handle, &flight->copied, error);
@@ -155,12 +158,12 @@ static HdStatus fill(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gp
         status =
             gpu->driver->seconds(gpu->handle, &flight->first, &flight->summed, &seconds, error);
     if (status == HD_OK && flight->untimed != NULL)
-        status = hd_gpu_flight_time_launch(flights, flight, gpu, waited, error);
+        status = hd_gpu_flight_time_launch(renderer, flight, waited, error);
     if (status != HD_OK)
         return status;
     hd_gpu_flight_tell(flight, flight->items);
-    flights->longest_launch = flight->longest_launch;
-    frame->trace_seconds = seconds < 0.0 ? host_seconds(flights, flight) : seconds;
+    frame->longest_launch = flight->longest_launch;
+    frame->trace_seconds = seconds < 0.0 ? host_seconds(&renderer->flights, flight) : seconds;
     frame->is_encoded = flight->encodes;
     memcpy(flight->encodes ? (void *)frame->rgba : (void *)frame->rgb,
            (const char *)flight->copy.data + SUM_BYTES, picture_bytes(flight));
@@ -168,9 +171,9 @@ static HdStatus fill(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gp
     return HD_OK;
 }
 
-HdStatus hd_gpu_flight_collect(HdGpuFlights *flights, const HdGpu *gpu, HdFrame *frame,
-                               HdError *error) {
-    HdStatus status = fill(flights, &flights->flights[flights->oldest], gpu, frame, error);
+HdStatus hd_gpu_flight_collect(HdGpuRenderer *renderer, HdFrame *frame, HdError *error) {
+    HdGpuFlights *flights = &renderer->flights;
+    HdStatus status = fill(renderer, &flights->flights[flights->oldest], frame, error);
     flights->collected = hd_monotonic_seconds();
     flights->oldest = (flights->oldest + 1) % HD_FRAMES_IN_FLIGHT;
     flights->count--;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-#include "device/gpu/program.h"
+#include "device/gpu/gpu.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "system/machine.h"
 
@@ -122,4 +123,87 @@ void hd_gpu_probe_key(const HdGpuProgram *program, const HdGpu *gpu, char *text,
     driver->write_version(gpu->handle, version, sizeof version);
     hd_kernel_cache_key(&program->cache, driver->source, *driver->source_size, options, version,
                         text, capacity);
+}
+
+/* ---- the arithmetic probe ---- */
+
+HD_GPU_ARGUMENTS(Probe, add_probe, HD_PROBE_ARGUMENTS)
+
+enum { OPERANDS = 3 };
+
+/* What the kernel reads, then what it writes. */
+typedef struct Room {
+    HdGpuMemory operands[OPERANDS], bits, numbers, integers, sums, counters;
+} Room;
+
+typedef struct Part {
+    HdGpuMemory *memory;
+    const void *from; /* NULL: nothing is written */
+    void *to;         /* NULL: nothing is read */
+    size_t bytes;
+} Part;
+
+enum { PARTS = OPERANDS + 5 };
+
+static void list_parts(Room *room, const HdProbeBatch *batch, HdProbeResults *results,
+                       Part parts[PARTS]) {
+    const size_t count = (size_t)batch->count, integers = sizeof(int64_t) * count;
+    const size_t numbers =
+        count * (batch->precision == HD_PRECISION_DOUBLE ? sizeof(double) : sizeof(float));
+    const Part others[PARTS - OPERANDS] = {
+        {&room->bits, batch->bits, NULL, integers},
+        {&room->numbers, NULL, results->numbers, HD_PROBE_NUMBER_COUNT * numbers},
+        {&room->integers, NULL, results->integers, HD_PROBE_INTEGER_COUNT * integers},
+        {&room->sums, results->sums, results->sums, sizeof results->sums},
+        {&room->counters, results->counters, results->counters, sizeof results->counters},
+    };
+    for (int i = 0; i < OPERANDS; i++)
+        parts[i] = (Part){&room->operands[i], batch->operands[i], NULL, numbers};
+    memcpy(parts + OPERANDS, others, sizeof others);
+}
+
+/* Few groups for each unit: the tuples are few. */
+static HdStatus launch_probe(const HdGpuProgram *program, const HdGpu *gpu, const Room *room,
+                             const HdProbeBatch *batch, HdError *error) {
+    enum { TUPLES_PER_THREAD = 4 };
+    const HdKernelShape *shape = &program->cache.shape;
+    const Probe own = {.first = &room->operands[0],
+                       .second = &room->operands[1],
+                       .third = &room->operands[2],
+                       .bits = &room->bits,
+                       .count = batch->count,
+                       .numbers = &room->numbers,
+                       .integers = &room->integers,
+                       .sums = &room->sums,
+                       .counters = &room->counters};
+    HdGpuLaunch launch = {.kernel = HD_KERNEL_TRACE, .group_size = program->group_size};
+    int per_group = TUPLES_PER_THREAD * shape->lanes * program->group_size;
+    launch.groups = (batch->count + per_group - 1) / per_group;
+    add_probe(&launch, &own);
+    return gpu->driver->launch(gpu->handle, &launch, NULL, error);
+}
+
+HdStatus hd_gpu_run_probe(const HdGpuProgram *program, const HdGpu *gpu, const HdProbeBatch *batch,
+                          HdProbeResults *results, HdError *error) {
+    static const char what[] = "numbers of the probe";
+    const HdGpuDriver *driver = gpu->driver;
+    Room room = {0};
+    Part parts[PARTS];
+    HdError later;
+    HdStatus status = HD_OK;
+    list_parts(&room, batch, results, parts);
+    for (const Part *part = parts; status == HD_OK && part < parts + PARTS; part++)
+        status = part->from != NULL
+                     ? hd_gpu_write_table(gpu, part->memory, part->from, part->bytes, what, error)
+                     : hd_gpu_reserve(gpu, part->memory, HD_GPU_DEVICE, part->bytes, what, error);
+    if (status == HD_OK)
+        status = launch_probe(program, gpu, &room, batch, error);
+    if (status != HD_OK)
+        driver->finish(gpu->handle, &later); /* copies may still read the operands */
+    for (const Part *part = parts; status == HD_OK && part < parts + PARTS; part++)
+        if (part->to != NULL)
+            status = driver->read(gpu->handle, part->memory, part->to, part->bytes, error);
+    for (int i = 0; i < PARTS; i++)
+        hd_gpu_release(gpu, parts[i].memory);
+    return status;
 }

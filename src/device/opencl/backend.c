@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "device/gpu/renderer.h"
+#include "device/gpu/driver.h"
 #include "device/opencl/devices.h"
 
 enum { GPU_GROUP_SIZE = 64, OPTIONS_LENGTH = 1024 };
@@ -144,7 +144,7 @@ static HdStatus read_memory(void *state, const HdGpuMemory *memory, void *to, si
 
 /* ---- kernels ---- */
 
-/* Not every driver knows it; how one divides is measured (device/probe.h). */
+/* Not every driver knows it; how one divides is measured (verify/probe.h). */
 static const char rounding[] = " -cl-fp32-correctly-rounded-divide-sqrt";
 
 static void write_options(void *state, const HdKernelShape *shape, char *text, size_t capacity) {

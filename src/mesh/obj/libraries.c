@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "mesh/obj/mtl_text.h"
-#include "system/file_bytes.h"
+#include "system/path.h"
 
 enum { MOST_LIBRARIES = 64 };
 

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "system/file_bytes.h"
+#include "system/path.h"
 
 enum { RAW_SIZE = 1 << 17, TEXT_SIZE = 2 * HD_OBJ_MOST_LINE + 1 };
 

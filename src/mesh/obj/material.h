@@ -3,7 +3,7 @@
 #ifndef HD_MESH_OBJ_MATERIAL_H
 #define HD_MESH_OBJ_MATERIAL_H
 
-#include "base/problems.h"
+#include "base/error.h"
 #include "mesh/mesh.h"
 
 /* The value of `illum` for a material that has none. */

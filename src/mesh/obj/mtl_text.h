@@ -3,7 +3,7 @@
 #ifndef HD_MESH_OBJ_MTL_TEXT_H
 #define HD_MESH_OBJ_MTL_TEXT_H
 
-#include "base/problems.h"
+#include "base/error.h"
 #include "mesh/obj/material.h"
 #include "mesh/obj/names.h"
 

@@ -3,7 +3,7 @@
 #ifndef HD_MESH_OBJ_READ_H
 #define HD_MESH_OBJ_READ_H
 
-#include "base/problems.h"
+#include "base/error.h"
 #include "mesh/mesh.h"
 
 /* Reads the file at `path`, with the MTL files it names, which lie beside it or below. Polygons

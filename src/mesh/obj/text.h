@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-#include "base/problems.h"
+#include "base/error.h"
 #include "mesh/obj/lines.h"
 #include "mesh/obj/names.h"
 

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 
 #include "base/error.h"
-#include "base/problems.h"
 #include "unit_test.h"
 
 TEST(test_controls_and_what_is_not_utf8_are_escaped) {

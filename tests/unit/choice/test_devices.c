@@ -4,7 +4,7 @@
 #define _XOPEN_SOURCE 700
 #include "choice/devices.h"
 
-#include "device/self_test_scenes.h"
+#include "small_scene.h"
 #include "system/machine.h"
 #include "test_folder.h"
 #include "wrapped.h"
@@ -110,7 +110,7 @@ static int begin(void **state) {
     memset(there, 0, sizeof there);
     is_missing = false;
     options = (HdRenderOptions){.threads = 1};
-    if (hd_self_test_scene(&scene, HD_SELF_TEST_SOLID, false, false, &error) != HD_OK)
+    if (small_scene(&scene, "hexahedron", &error) != HD_OK)
         return 1;
     job = (HdJob){.scene = &scene, .frame_count = 1};
     add(C, "Processor", 2);

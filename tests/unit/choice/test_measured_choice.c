@@ -3,12 +3,11 @@
    up: each look at it takes `clock_step`, and each frame of the fake device with a number
    `frame_seconds` of that number. */
 #define _XOPEN_SOURCE 700
-#include "choice/fastest_device.h"
-#include "choice/record.h"
-#include "choice/trial.h"
-#include "choice/tuning.h"
-#include "device/self_test_scenes.h"
+#include "choice/candidates.h"
+#include "choice/tune.h"
 #include "fake_backend.h"
+#include "render/backends.h"
+#include "small_scene.h"
 #include "test_folder.h"
 #include "wrapped.h"
 
@@ -46,7 +45,7 @@ static int begin(void **state) {
     frame_seconds[1] = 0.0;
     setenv("HEDRON_CACHE", "cache", 1);
     options = (HdRenderOptions){.threads = 1, .math = HD_MATH_FAST};
-    assert_int_equal(hd_self_test_scene(&scene, HD_SELF_TEST_SOLID, false, false, &error), HD_OK);
+    assert_int_equal(small_scene(&scene, "hexahedron", &error), HD_OK);
     scene.width = scene.height = 4;
     scene.samples_per_side = 1;
     job = (HdJob){.scene = &scene, .frame_count = 100};
@@ -78,12 +77,12 @@ static HdStatus open_it(void) {
     HdTeamDevice opened;
     clock_step = 1e-3;
     candidates.why[0] = candidates.note[0] = '\0';
-    HdStatus status = hd_fastest_open(&candidates, &opened, &error);
+    HdStatus status = hd_candidates_open(&candidates, &opened, &error);
     if (status != HD_OK)
         return status;
     assert_non_null(opened.renderer);
     chosen = opened.device;
-    hd_launch_close(&opened);
+    hd_team_device_close(&opened);
     for (int i = 0; i < candidates.count; i++)
         candidates.list[i].renderer = NULL;
     return status;
@@ -170,16 +169,20 @@ TEST(the_estimate_scales_with_the_picture) {
         double step, enough, expected;
     } cases[] = {
         {0.025, 0.0, 4 * 0.075}, {0.005, 0.0, 0.015}, {0.005, 6.1, 4 * 0.015}, {0.005, 5.9, 0.015}};
-    double seconds;
+    HdRenderer *renderer;
+    HdTrial trial;
     scene.solid_count = 0;
     scene.width = scene.height = 128;
     scene.samples_per_side = 1;
+    assert_int_equal(hd_trial_open(&renderer, &candidates.list[C].device, &options, &job, &error),
+                     HD_OK);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const HdTrialWish wish = hd_trial_estimates(cases[i].enough);
         clock_step = cases[i].step;
-        assert_int_equal(hd_trial_estimate(&options, &job, cases[i].enough, &seconds, &error),
-                         HD_OK);
-        expect_near(seconds, cases[i].expected, 1e-6);
+        assert_int_equal(hd_trial(renderer, &job, &wish, &trial, &error), HD_OK);
+        expect_near(trial.frame_seconds, cases[i].expected, 1e-6);
     }
+    hd_renderer_close(renderer);
 }
 
 /* ---- tuning ---- */
@@ -191,8 +194,8 @@ static void tune(double (*seconds)(const HdRenderOptions *asked)) {
     assert_true(tuning.count > 0 && tuning.best >= 0 && tuning.best < tuning.count);
 }
 
-static HdLaunch best(void) {
-    return tuning.candidates[tuning.best].launch;
+static HdRenderOptions best(void) {
+    return tuning.candidates[tuning.best].options;
 }
 
 /* The GPU that likes the wavefront, 96 registers, groups of 256, 320 of them. */
@@ -223,7 +226,7 @@ TEST(a_gpu_has_its_candidates_and_a_cpu_pipelines_and_lanes) {
         tune(picky);
         for (; expected[is_cpu][count] != NULL; count++) {
             char described[128];
-            hd_launch_describe(&tuning.candidates[count].launch, described, sizeof described);
+            hd_launch_describe(&tuning.candidates[count].options, described, sizeof described);
             assert_string_equal(described, expected[is_cpu][count]);
         }
         assert_int_equal(tuning.count, count);
@@ -241,7 +244,7 @@ TEST(what_the_options_fix_stays) {
     tune(picky);
     assert_int_equal(tuning.count, 5);
     for (int i = 0; i < tuning.count; i++) {
-        const HdLaunch *launch = &tuning.candidates[i].launch;
+        const HdRenderOptions *launch = &tuning.candidates[i].options;
         assert_true(launch->pipeline == HD_PIPELINE_MEGA && launch->block == 128 &&
                     launch->grid == 7);
     }
@@ -302,7 +305,7 @@ TEST(a_display_is_not_kept_by_deep_trees) {
     options.has_deep_trees = true;
     tune(likes_mega);
     for (int i = 0; i < tuning.count; i++)
-        assert_int_equal(tuning.candidates[i].launch.pipeline, HD_PIPELINE_WAVEFRONT);
+        assert_int_equal(tuning.candidates[i].options.pipeline, HD_PIPELINE_WAVEFRONT);
     device.has_timeout = false;
     tune(likes_mega);
     assert_int_equal(best().pipeline, HD_PIPELINE_MEGA);
@@ -333,34 +336,37 @@ TEST(pictures_are_as_large_as_time_allows) {
 
 /* ---- remembering ---- */
 
-static const HdLaunch choice = {
-    .pipeline = HD_PIPELINE_WAVEFRONT, .block = 64, .grid = 80, .registers = 96};
-
 static void remember(void) {
-    assert_int_equal(hd_launch_remember(&device, &options, &scene, &choice, &error), HD_OK);
+    HdTeamDevice measured = {.device = device, .options = options, .seconds = 1.0};
+    measured.options.pipeline = HD_PIPELINE_WAVEFRONT;
+    measured.options.block = 64;
+    measured.options.grid = 80;
+    measured.options.registers = 96;
+    assert_int_equal(hd_measured_put(&measured, 1, &options, &scene, &error), HD_OK);
 }
 
+static HdTeamDevice opened;
+
+/* The device is opened, or refuses to be. */
 static bool is_recalled(void) {
-    HdLaunch launch;
-    return hd_launch_recall(&launch, &device, &options, &scene);
+    opened = (HdTeamDevice){.device = device};
+    HdStatus status = hd_team_device_open(&opened, &options, &job, false, &error);
+    assert_true(status == HD_OK || status == HD_UNAVAILABLE);
+    hd_team_device_close(&opened);
+    return opened.is_tuned;
 }
 
 /* It is meant for a device of the same name and driver, and for a like job. */
 TEST(a_choice_is_remembered) {
-    HdLaunch launch;
-    HdTeamDevice opened = {.device = device};
     fake.refuses = refuses_wavefronts_and_256;
     assert_false(is_recalled());
-    assert_int_equal(hd_launch_open(&opened, &options, &job, false, &error), HD_OK);
-    assert_false(opened.is_tuned);
-    hd_launch_close(&opened);
     remember();
-    assert_int_equal(hd_launch_open(&opened, &options, &job, false, &error), HD_UNAVAILABLE);
-    assert_true(opened.is_tuned);
-    assert_memory_equal(&opened.launch, &choice, sizeof choice);
+    assert_true(is_recalled());
+    expect_contains(error.message, "fake: it refuses");
+    assert_true(opened.options.pipeline == HD_PIPELINE_WAVEFRONT && opened.options.block == 64 &&
+                opened.options.grid == 80 && opened.options.registers == 96);
     device.index = 3;
-    assert_true(hd_launch_recall(&launch, &device, &options, &scene));
-    assert_memory_equal(&launch, &choice, sizeof launch);
+    assert_true(is_recalled());
     scene.width *= 4;
     assert_false(is_recalled());
     scene.width /= 4;
@@ -371,39 +377,47 @@ TEST(a_choice_is_remembered) {
     assert_false(is_recalled());
 }
 
+TEST(the_best_of_a_tuning_is_remembered) {
+    device.nvidia_arch = 90;
+    tune(picky);
+    assert_int_equal(hd_tuning_remember(&tuning, &device, &options, &scene, &error), HD_OK);
+    assert_true(is_recalled());
+    assert_true(opened.options.pipeline == HD_PIPELINE_WAVEFRONT && opened.options.block == 256 &&
+                opened.options.grid == 320 && opened.options.registers == 96);
+}
+
 /* Nor does a record that says otherwise change what they say. */
 TEST(options_of_a_run_win) {
     static const HdRenderOptions fixed[] = {
         {.pipeline = HD_PIPELINE_MEGA}, {.block = 128}, {.grid = 2}, {.registers = 64}};
     remember();
     for (size_t i = 0; i < sizeof fixed / sizeof *fixed; i++) {
-        HdLaunch launch;
         options = fixed[i];
         options.threads = 1;
         options.math = HD_MATH_FAST;
-        const HdLaunch own = hd_launch_of(&options);
-        assert_false(hd_launch_recall(&launch, &device, &options, &scene));
-        assert_memory_equal(&launch, &own, sizeof own);
+        assert_false(is_recalled());
+        assert_memory_equal(&opened.options, &options, sizeof options);
         remember();
         assert_false(is_recalled());
+        assert_memory_equal(&opened.options, &options, sizeof options);
     }
 }
 
 TEST(nonsense_is_ignored) {
-    static const char *const texts[] = {
-        "pipeline 2, lanes 0, block 64, grid 80, registers 96\n", /* the only good one */
-        "pipeline 4, lanes 0, block 0, grid 0, registers 0\n",
-        "pipeline 0, lanes 3, block 0, grid 0, registers 0\n",
-        "pipeline 0, lanes 8, block 0, grid 0, registers 0\n",
-        "pipeline 0, lanes 0, block 0, grid 1048577, registers 0\n",
-        "pipeline 2, lanes 0, block 64, grid 80, registers 96",
-        "pipeline 2, lanes 0, block 64, grid 80, registers 96\nmore",
-        "pipeline 2, lanes 0, block 64, grid 80",
-        ""};
-    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
-        assert_int_equal(hd_record_put("launch", &scene, &options, "fake Fake 1000 (driver 7)\n",
-                                       texts[i], &error),
-                         HD_OK);
+    static const struct {
+        double seconds;
+        HdRenderOptions options;
+    } cases[] = {{1.0, {.block = 64, .grid = 80}}, /* the only good one */
+                 {-1.0, {.block = 64, .grid = 80}},
+                 {(double)NAN, {.block = 64, .grid = 80}},
+                 {1.0, {.pipeline = HD_PIPELINE_COUNT}},
+                 {1.0, {.lanes = 3}},
+                 {1.0, {.lanes = 8}},
+                 {1.0, {.grid = HD_MAX_GRID + 1}}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const HdTeamDevice measured = {
+            .device = device, .options = cases[i].options, .seconds = cases[i].seconds};
+        assert_int_equal(hd_measured_put(&measured, 1, &options, &scene, &error), HD_OK);
         assert_int_equal(is_recalled(), i == 0);
     }
     remember();
@@ -420,30 +434,31 @@ static double fall(const HdRenderOptions *asked) {
     return 5.0 - (double)measured++;
 }
 
-static HdStatus measure(HdRenderer *renderer, double share, int times, HdTrialTime *time) {
-    return hd_trial_measure(renderer, &job, share, times, time, &error);
+static HdStatus measure(HdRenderer *renderer, double share, int times, HdTrial *trial) {
+    const HdTrialWish wish = {.share = share, .times = times};
+    return hd_trial(renderer, &job, &wish, trial, &error);
 }
 
 TEST(the_least_of_several_counts) {
     HdRenderer *renderer;
-    HdTrialTime time;
+    HdTrial trial;
     measured = 0;
     fake.trace_seconds = fall;
     scene.width = 64;
     scene.height = 32;
     assert_int_equal(hd_trial_open(&renderer, &device, &options, &job, &error), HD_OK);
-    assert_int_equal(measure(renderer, 0.25, 3, &time), HD_OK);
+    assert_int_equal(measure(renderer, 0.25, 3, &trial), HD_OK);
     assert_int_equal(fake.rendered, 3);
-    assert_true(time.trace_seconds == 3.0 && time.share == 0.25);
-    assert_true(time.width == 32 && time.height == 16);
-    expect_near(time.seconds, frame_seconds[0], 1e-9);
+    assert_true(trial.trace_seconds == 3.0 && trial.share == 0.25);
+    assert_true(trial.width == 32 && trial.height == 16);
+    expect_near(trial.seconds, frame_seconds[0], 1e-9);
     measured = -100; /* rising */
-    assert_int_equal(measure(renderer, 1e-9, 1, &time), HD_OK);
-    assert_true(time.trace_seconds == 105.0);
-    assert_true(time.width == 1 && time.height == 1);
+    assert_int_equal(measure(renderer, 1e-9, 1, &trial), HD_OK);
+    assert_true(trial.trace_seconds == 105.0);
+    assert_true(trial.width == 1 && trial.height == 1);
     fake.fails = true;
-    assert_int_equal(measure(renderer, 0.25, 3, &time), HD_FAILED);
+    assert_int_equal(measure(renderer, 0.25, 3, &trial), HD_FAILED);
     scene.eye = scene.target; /* which is no view */
-    assert_int_equal(measure(renderer, 0.25, 1, &time), HD_BAD_INPUT);
+    assert_int_equal(measure(renderer, 0.25, 1, &trial), HD_BAD_INPUT);
     hd_renderer_close(renderer);
 }

@@ -6,6 +6,7 @@
 
 #include "cli/statistics.h"
 #include "input/json/json_device_text.h"
+#include "render/backends.h"
 #include "test_folder.h"
 
 static const HdScene scene = {.samples_per_side = 3, .depth = 8};

@@ -2,18 +2,18 @@
 #define _XOPEN_SOURCE 700
 #include "device/kernel_cache.h"
 
-#include "device/self_test_scenes.h"
-#include "device/verdict.h"
+#include "device/arithmetic.h"
 #include "fake_backend.h"
+#include "small_scene.h"
 #include "system/cache_folder.h"
-#include "system/warnings.h"
+#include "system/machine.h"
 #include "test_folder.h"
 #include "verify/trust.h"
 
 static HdError error;
 static HdRenderOptions options;
 static HdDevice device;
-static HdSelfTestFrame kind;
+static const char *kind; /* the golden frame whose scene it is */
 static char note[1024];
 static uint64_t hash;
 
@@ -23,7 +23,7 @@ static int begin(void **state) {
     options = (HdRenderOptions){.threads = 1};
     device = fake_device();
     device.has_wide_atomics = true; /* for the wavefront */
-    kind = HD_SELF_TEST_SOLID;
+    kind = "hexahedron";
     setenv("HEDRON_CACHE", "cache", 1);
     return 0;
 }
@@ -41,7 +41,7 @@ static HdStatus render_frame(void) {
     HdScene scene;
     HdCamera camera;
     HdFrame frame;
-    assert_int_equal(hd_self_test_scene(&scene, kind, false, false, &error), HD_OK);
+    assert_int_equal(small_scene(&scene, kind, &error), HD_OK);
     assert_int_equal(hd_camera_at(&camera, &scene, 0, &error), HD_OK);
     assert_int_equal(hd_renderer_open(&renderer, &device, &options, &error), HD_OK);
     HdStatus status = hd_put_and_render(renderer, &scene, &camera, NULL, 0, &frame, &error);
@@ -63,19 +63,24 @@ static void expect_rendered(HdStatus status, int compiled, int loaded) {
     assert_int_equal(fake.loaded, loaded);
 }
 
-/* Kernels with meshes pass one more frame. */
+/* Each kind of kernels renders the golden frames that it can and that are for proof. */
 TEST(a_warm_start_compiles_and_tests_nothing) {
-    for (int frames = HD_SELF_TEST_FRAMES_WITHOUT_MESHES; frames <= HD_SELF_TEST_FRAMES; frames++) {
-        options.lanes = 1;
-        kind = frames == HD_SELF_TEST_FRAMES ? HD_SELF_TEST_MESH : HD_SELF_TEST_SOLID;
+    static const struct {
+        const char *kind;
+        int frames;
+    } cases[] = {{"hexahedron", 1},      {"glass-cube", 2}, {"paper-cube", 2},
+                 {"plain-instances", 2}, {"everything", 3}, {"paper-instances", 4},
+                 {"many-instances", 4}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        kind = cases[i].kind;
         fake.rendered = 0;
         expect_rendered(HD_OK, 1, 0);
         const uint64_t cold = hash;
-        assert_int_equal(fake.rendered, frames + 1);
-        assert_ptr_equal(strstr(note, "compiled in 1 ms by nobody; passed the self-test ("), note);
+        assert_int_equal(fake.rendered, cases[i].frames + 1);
+        assert_ptr_equal(strstr(note, "compiled in 1 ms by nobody; passed the self-test; "), note);
         expect_contains(note, "; cached");
         expect_rendered(HD_OK, 0, 1);
-        assert_int_equal(fake.rendered, frames + 2);
+        assert_int_equal(fake.rendered, cases[i].frames + 2);
         expect_contains(note, "taken from cache, made by nobody");
         assert_true(hash == cold);
         remove_folder("cache");
@@ -103,7 +108,7 @@ TEST(damaged_kernels_are_compiled_anew) {
     for (int i = 0; i < 4; i++) {
         assert_int_equal(hd_cache_put_text("fake", fake.key, entries[i], &error), HD_OK);
         expect_rendered(HD_OK, 1, 0);
-        expect_contains(note, "passed no test of this program's; compiled in");
+        expect_contains(note, "passed no test; compiled in");
         expect_rendered(HD_OK, 0, 1);
     }
 }
@@ -121,7 +126,7 @@ TEST(the_wavefront_takes_over_unless_it_is_wrong_too) {
     fake.renders_wrongly = true;
     expect_rendered(HD_UNAVAILABLE, 2, 0);
     expect_contains(error.message, "fake: Fake 1000 (driver 7) computes wrongly: ");
-    expect_contains(error.message, "the test frame 'solid' with the hash ");
+    expect_contains(error.message, "the golden frame 'hexahedron' with the hash ");
     assert_int_equal(fake.rendered, 2);
     fake.is_right_in_waves = true;
     expect_rendered(HD_OK, 2, 0); /* they were not kept */
@@ -142,7 +147,7 @@ TEST(what_is_wrong_is_refused_and_frames_under_way_are_dropped) {
     assert_int_equal(hd_renderer_open(&renderer, &device, &wrong, &error), HD_BAD_INPUT);
     assert_null(renderer);
     assert_int_equal(hd_renderer_open(&renderer, &device, &options, &error), HD_OK);
-    assert_int_equal(hd_self_test_scene(&scene, kind, false, false, &error), HD_OK);
+    assert_int_equal(small_scene(&scene, kind, &error), HD_OK);
     assert_int_equal(hd_compile_scene(&tables, &scene, HD_PRECISION_FLOAT, 1, &error), HD_OK);
     HdSceneTables others[] = {tables, tables, tables};
     others[0].table[0].data = NULL;
@@ -155,6 +160,9 @@ TEST(what_is_wrong_is_refused_and_frames_under_way_are_dropped) {
     assert_int_equal(hd_compile_frame(&view, &scene, &camera, HD_PRECISION_FLOAT, &error), HD_OK);
     hd_renderer_drop(renderer);
     assert_int_equal(fake.dropped, 0);
+    assert_int_equal(hd_renderer_submit(renderer, &view, &radiance, &error), HD_BAD_INPUT);
+    expect_contains(error.message, "by kernels that are not tested");
+    assert_int_equal(hd_put_tables(renderer, &tables, &error), HD_OK);
     assert_int_equal(hd_renderer_submit(renderer, &view, &radiance, &error), HD_OK);
     hd_renderer_drop(renderer);
     hd_renderer_drop(renderer);
@@ -171,7 +179,7 @@ TEST(wrong_kernels_render_nothing) {
     HdFrame frame = {0};
     const HdFrameTables view = {0};
     fake.renders_wrongly = true;
-    assert_int_equal(hd_self_test_scene(&scene, HD_SELF_TEST_FLOOR, false, false, &error), HD_OK);
+    assert_int_equal(small_scene(&scene, "hexahedron", &error), HD_OK);
     assert_int_equal(hd_renderer_open(&renderer, &device, &options, &error), HD_OK);
     for (int i = 0; i < 2; i++) {
         assert_int_equal(hd_put_scene(renderer, &scene, NULL, &error), HD_UNAVAILABLE);
@@ -208,11 +216,13 @@ TEST(arithmetic_is_probed_once) {
         expect_contains(error.message, " is 0x1p-3, expected ");
         assert_int_equal(fake.probed, 2);
     }
-    assert_true(hd_verdict_get(device.name, "driver 8", note, sizeof note));
-    expect_contains(note, " is 0x1p-3, expected ");
-    assert_true(hd_verdict_get(device.name, "driver 7", note, sizeof note));
-    assert_string_equal(note, "");
-    assert_false(hd_verdict_get("Fake 2000", "driver 7", note, sizeof note));
+    HdArithmetic known;
+    assert_true(hd_arithmetic_recall(device.name, "driver 8", HD_PRECISION_FLOAT, &known));
+    expect_contains(known.difference, " is 0x1p-3, expected ");
+    assert_false(hd_arithmetic_recall(device.name, "driver 8", HD_PRECISION_DOUBLE, &known));
+    assert_true(hd_arithmetic_recall(device.name, "driver 7", HD_PRECISION_FLOAT, &known));
+    assert_string_equal(known.difference, "");
+    assert_false(hd_arithmetic_recall("Fake 2000", "driver 7", HD_PRECISION_FLOAT, &known));
 }
 
 TEST(division_that_was_healed_stays_so) {

@@ -2,7 +2,7 @@
 /* A name tells its frame exactly where the frame has that name. */
 #include <string.h>
 
-#include "output/frame_names.h"
+#include "output/outputs.h"
 #include "unit_test.h"
 
 static HdError error;

@@ -49,6 +49,7 @@ static HdStatus start(const char *first, const char *second, int fails_at, bool 
     told.is_as_expected = true;
     assert_int_equal(
         hd_outputs_settle(&outputs, names, second != NULL ? 2 : 1, &style, FRAMES, &error), HD_OK);
+    outputs.durability = HD_FLEETING;
     hd_outputs_set_fingerprint(&outputs, 1, resumes);
     assert_int_equal(hd_resume_find(&resume, &outputs, &frames, &error), HD_OK);
     plan = (HdFrameStorePlan){.outputs = &outputs,
@@ -57,7 +58,6 @@ static HdStatus start(const char *first, const char *second, int fails_at, bool 
                               .height = HEIGHT,
                               .tracers = 1,
                               .start = hd_monotonic_seconds(),
-                              .durability = HD_FLEETING,
                               .stored = note_stored};
     return hd_frame_store_start(&store, &plan, &error);
 }

@@ -1,8 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* Temporary files of killed runs go, and all others stay. */
-#define _XOPEN_SOURCE 700
+#define _XOPEN_SOURCE   700
+#define _DEFAULT_SOURCE /* flock */
 
-#include "output/stale_files.h"
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/wait.h>
+#include <time.h>
+
+#include "output/resume.h"
 #include "system/atomic_file.h"
 #include "test_folder.h"
 
@@ -27,17 +33,19 @@ TEST(those_of_the_run_go) {
     static const char *const names[] = {
         /* these go */
         "a/0001.png.tmp-4000000-0", "a/0012.png.tmp-1-17", "film.mp4.tmp-99-3",
+        "film.mp4.part-0-a.tmp-999999999-1",
         /* another frame's, and what is none */
         "a/0002.png.tmp-4000000-0", "a/0001.png", "a/0001.png.tmp-1", "a/0001.png.tmp-1-",
         "a/0001.png.tmp-x-0", "a/0001.png.tmp-1-0x", "a/0001.png.tmp- 1-0", "a/0001.png.tmp-1--1",
-        "a/00001.png.tmp-1-0", "a/0001.pngs.tmp-1-0", "film.mp4", "other.mp4.tmp-1-0"};
+        "a/00001.png.tmp-1-0", "a/0001.pngs.tmp-1-0", "film.mp4", "other.mp4.tmp-1-0",
+        "film.mp4.part-0-a", "other.mp4.part-0-a.tmp-1-0"};
     const int count = sizeof names / sizeof *names;
     assert_int_equal(mkdir("a", 0777), 0);
     for (int i = 0; i < count; i++)
         write_bytes(names[i], "", 0);
     remove_stale("a/%04d.png", "film.mp4");
     for (int i = 0; i < count; i++)
-        expect_there(names[i], i >= 3);
+        expect_there(names[i], i >= 4);
 }
 
 /* Left by a process of this number that was killed, or of another machine. */
@@ -69,4 +77,27 @@ TEST(numbered_folders_are_looked_through_and_folders_stay) {
     expect_there("take 1/x.png.tmp-5-0", false);
     expect_there("take 2/x.png.tmp-5-0", true);
     expect_there("none", false);
+}
+
+/* What a run that was killed had started still has the lock for a while. */
+TEST(orphans_are_waited_for) {
+    const struct timespec while_it_ends = {.tv_nsec = 100000000};
+    char path[64];
+    const pid_t gone = fork();
+    if (gone == 0)
+        _exit(0);
+    assert_int_equal(waitpid(gone, NULL, 0), gone);
+    snprintf(path, sizeof path, "film.mp4.tmp-%ld-0", (long)gone);
+    write_bytes(path, "", 0);
+    const int lock = open(path, O_RDONLY);
+    assert_int_equal(flock(lock, LOCK_EX), 0);
+    const pid_t orphan = fork();
+    if (orphan == 0) {
+        nanosleep(&while_it_ends, NULL);
+        _exit(0);
+    }
+    close(lock);
+    remove_stale("film.mp4", "a/%d.png");
+    expect_there(path, false);
+    assert_int_equal(waitpid(orphan, NULL, 0), orphan);
 }

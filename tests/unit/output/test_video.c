@@ -54,8 +54,8 @@ static const uint8_t RED[4] = {255, 0, 0, 255};
 
 static HdStatus open_film(HdVideo **video, const char *path, int width, int height,
                           const HdOutputStyle *style) {
-    const HdStatus status =
-        hd_video_open(video, path, hd_format_of(path), width, height, style, &error);
+    const HdVideoPlan plan = {hd_format_of(path), width, height, *style, false};
+    const HdStatus status = hd_video_open(video, path, &plan, &error);
     assert_true((status == HD_OK) == (*video != NULL));
     return status;
 }
@@ -265,7 +265,7 @@ TEST(wrong_settings_are_refused) {
         {"out/a.mp4", 16, 65536, &STYLE, "16 x 65536 pixels, expected 1..65535"},
         {"out/a.mp4", 16, 16, &none, "0 frames a second"},
         {"out/a.png", 16, 16, &STYLE, "out/a.png has another ending, expected .mp4, .mkv or .gif"},
-        {longest, 16, 16, &STYLE, "is too long, expected fewer than 4096 bytes"}};
+        {longest, 16, 16, &STYLE, "has 4096 bytes, expected fewer than 4096"}};
     HdVideo *video;
     memset(longest, '/', HD_MAX_PATH);
     memcpy(longest, "out", 3);
@@ -277,6 +277,21 @@ TEST(wrong_settings_are_refused) {
             HD_BAD_INPUT);
         expect_contains(error.message, cases[i].why);
     }
+}
+
+TEST(the_patience_is_whole_seconds) {
+    static const char *const wrong[] = {"0", "86401", "1.5", "1s"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        setenv("HEDRON_FFMPEG_PATIENCE", wrong[i], 1);
+        check_failure(16, 1, HD_BAD_INPUT, wrong[i]);
+    }
+    fake("ffprobe", "exit 0");
+    fake("ffmpeg", "exec sleep 1000");
+    setenv("HEDRON_FFMPEG_PATIENCE", "1", 1);
+    check_failure(16, 1, HD_FAILED,
+                  "FFmpeg stood still for 1 s after the last frame of out/film.mp4 and was ended");
+    check_failure(600, 2, HD_FAILED, "FFmpeg stood still for 1 s at frame 0 of out/film.mp4");
+    unsetenv("HEDRON_FFMPEG_PATIENCE");
 }
 
 TEST(failures_of_the_programs_are_told) {

@@ -3,9 +3,10 @@
    wants it any more. */
 #include "base/watch.h"
 
-#include "device/self_test_scenes.h"
+#include "render/backends.h"
 #include "render/frame.h"
 #include "scene/camera.h"
+#include "small_scene.h"
 #include "unit_test.h"
 #include "verify/trust.h"
 
@@ -24,7 +25,7 @@ static void begin(Setup *setup, HdSampling sampling, double max_error) {
     const HdRenderOptions options = {.threads = 2};
     HdDevice device;
     int count;
-    assert_int_equal(hd_self_test_scene(scene, HD_SELF_TEST_SOLID, false, false, &error), HD_OK);
+    assert_int_equal(small_scene(scene, "hexahedron", &error), HD_OK);
     scene->sampling = sampling;
     scene->max_error = max_error;
     assert_int_equal(hd_camera_at(&setup->camera, scene, 0, &error), HD_OK);

@@ -4,10 +4,10 @@
 #include <pthread.h>
 #include <signal.h>
 
-#include "device/self_test_scenes.h"
 #include "fake_backend.h"
 #include "run/sequence.h"
 #include "scene/camera.h"
+#include "small_scene.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "test_folder.h"
@@ -102,7 +102,7 @@ static int begin(void **state) {
         makers[i] = -1;
     }
     frames = (HdFrameList){.frames = frame_numbers, .count = FRAMES};
-    if (hd_self_test_scene(&scene, HD_SELF_TEST_SOLID, false, false, &error) != HD_OK)
+    if (small_scene(&scene, "hexahedron", &error) != HD_OK)
         return 1;
     scene.frame_count = FRAMES;
     scene.eye = (HdPath){.cylinder = {.r0 = 3.0, .z0 = 1.0, .phi_frequency = 1.0}};

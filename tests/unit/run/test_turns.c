@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "run/turns.h"
+#include "run/tracer.h"
 #include "unit_test.h"
 
 /* A tracer that takes so many seconds a frame; 0: nobody knows yet. */

@@ -14,11 +14,8 @@
 static HdError error;
 static const char *comes_between; /* is moved to `to`, or where that is NULL removed */
 static const char *to;
-static int glances, holder = -1; /* the lock's, closed after so many */
 
 static int lock_late(int descriptor, int operation) {
-    if (glances > 0 && --glances == 0)
-        close(holder);
     if (comes_between != NULL)
         assert_int_equal(to != NULL ? rename(comes_between, to) : unlink(comes_between), 0);
     comes_between = NULL;
@@ -52,29 +49,41 @@ TEST(one_that_took_the_name_of_a_stale_one_stays) {
     assert_int_equal(access("1.png.tmp-1-0", F_OK), -1);
 }
 
-/* Looks, with a lock that is held for as long, at that of the process. */
-static void remove_after(int most_glances, pid_t owner, int glances_left, bool is_left) {
+/* One whose lock is held, of the process. */
+static void remove_locked(pid_t owner, bool is_done) {
     char path[64];
     snprintf(path, sizeof path, "2.mkv.tmp-%ld-0", (long)owner);
     write_bytes(path, "stale", 5);
-    holder = open(path, O_RDONLY);
+    const int holder = open(path, O_RDONLY);
     assert_int_equal(flock(holder, LOCK_EX), 0);
-    glances = most_glances;
-    hd_temporary_remove_stale(path);
-    assert_int_equal(glances, glances_left);
-    assert_int_equal(access(path, F_OK), is_left ? 0 : -1);
+    assert_true(hd_temporary_remove_stale(path) == is_done);
+    assert_int_equal(access(path, F_OK), 0);
+    close(holder);
+    assert_true(hd_temporary_remove_stale(path));
+    assert_int_equal(access(path, F_OK), -1);
 }
 
 /* What it had started still writes. */
-TEST(that_of_a_process_that_is_gone_is_waited_for_alone) {
+TEST(that_of_a_process_that_is_gone_is_to_be_tried_again) {
     const pid_t gone = fork();
     if (gone == 0)
         _exit(0);
     assert_int_equal(waitpid(gone, NULL, 0), gone);
-    remove_after(3, gone, 0, false);
-    remove_after(2, getpid(), 1, true);
-    close(holder);
-    glances = 0;
+    remove_locked(gone, false);
+    remove_locked(getpid(), true);
+}
+
+/* Another program may put a file in the place of one that was made for it. */
+TEST(a_reserved_one_is_named_as_another_program_left_it) {
+    HdAtomicFile file;
+    struct stat found;
+    assert_int_equal(hd_atomic_file_reserve(&file, "3.mkv", &error), HD_OK);
+    assert_true(file.stream == NULL && file.lock >= 0);
+    write_bytes("theirs", "film", 4);
+    assert_int_equal(rename("theirs", file.temporary), 0);
+    assert_int_equal(hd_atomic_file_commit(&file, HD_DURABLE, &error), HD_OK);
+    assert_true(stat("3.mkv", &found) == 0 && found.st_size == 4);
+    assert_int_equal(file.lock, -1);
 }
 
 static void open_for(HdAtomicFile *file, const char *path) {
@@ -133,7 +142,7 @@ TEST(what_goes_away_meanwhile_is_named) {
     char message[HD_MAX_PATH + 64];
     open_for(&file, "going/file");
     assert_int_equal(unlink(file.temporary), 0);
-    assert_int_equal(hd_temporary_check(file.temporary, "going/file", &error), HD_FAILED);
+    assert_int_equal(hd_atomic_file_check(&file, &error), HD_FAILED);
     snprintf(message, sizeof message, "cannot write going/file: somebody removed %s",
              file.temporary);
     assert_string_equal(error.message, message);

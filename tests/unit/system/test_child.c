@@ -15,18 +15,17 @@ static char how[64];
 
 static int begin(void **state) {
     (void)state;
-    unsetenv("HEDRON_FFMPEG_PATIENCE");
     error = (HdError){0};
     return 0;
 }
 
-static HdStatus start(const char *script, const char *file, int lock) {
+static HdStatus start(const char *script, int lock) {
     const char *const arguments[] = {"/bin/sh", "-c", script, NULL};
-    return hd_child_start(&child, arguments, true, file, lock, &error);
+    return hd_child_start(&child, arguments, true, lock, &error);
 }
 
 static void run(const char *script) {
-    assert_int_equal(start(script, NULL, -1), HD_OK);
+    assert_int_equal(start(script, -1), HD_OK);
     assert_true(child.pid > 0 && child.input >= 0 && child.output >= 0);
 }
 
@@ -75,7 +74,7 @@ TEST(what_is_sent_comes_back) {
     for (size_t i = 0; i < SIZE; i++)
         bytes[i] = (uint8_t)('a' + i % 26);
     run("tee copy; echo ' end' >&2; echo; echo ' '"); /* it says as much as it hears */
-    assert_true(hd_child_send(&child, bytes, SIZE));
+    assert_true(hd_child_send(&child, bytes, SIZE, 60000));
     expect_end(true, "exit code 0");
     assert_int_equal(child.said_length, HD_CHILD_MAX_SAID);
     assert_int_equal(strlen(hd_child_said(&child)), HD_CHILD_MAX_SAID - 4);
@@ -84,41 +83,33 @@ TEST(what_is_sent_comes_back) {
     assert_int_equal(stat("copy", &found), 0);
     assert_int_equal(found.st_size, SIZE);
     run("exec <&-; echo gone"); /* it does not read */
-    assert_false(hd_child_send(&child, bytes, SIZE));
+    assert_false(hd_child_send(&child, bytes, SIZE, 60000));
     expect_end(true, "exit code 0");
     assert_string_equal(hd_child_said(&child), "gone");
     free(bytes);
 }
 
-/* Silence, or that it stands still; the look comes every 0.2 s. */
+/* The look comes every 0.2 s. */
 TEST(one_that_hangs_is_killed) {
     static const uint8_t bytes[1 << 20];
     run("sleep 1000");
     assert_false(hd_child_end(&child, 300, how));
     assert_string_equal(how, "signal 9");
-    assert_false(child.is_stuck);
-    run("sleep 1000");
-    child.patience_s = 0;
-    assert_false(hd_child_end(&child, HD_CHILD_WHILE_IT_WORKS, how));
-    assert_string_equal(how, "signal 9");
     assert_true(child.is_stuck);
     run("sleep 1000");
-    child.patience_s = 1;
-    assert_false(hd_child_send(&child, bytes, sizeof bytes));
+    assert_false(hd_child_send(&child, bytes, sizeof bytes, 1000));
     assert_true(child.is_stuck);
     hd_child_stop(&child);
     expect_none();
 }
 
-/* It speaks, then its file grows: each for longer than the patience, but with shorter rests. */
+/* It takes in, then it speaks: each for longer than the patience, but with shorter rests. */
 TEST(one_that_works_is_waited_for) {
-    write_bytes("film", "", 0);
-    assert_int_equal(start("for i in 1 2 3 4 5 6; do sleep 0.22; echo; done; "
-                           "for i in 1 2 3 4 5 6 7 8 9 10 11 12; do echo >>film; sleep 0.1; done",
-                           "film", -1),
-                     HD_OK);
-    child.patience_s = 1;
-    assert_true(hd_child_end(&child, HD_CHILD_WHILE_IT_WORKS, how));
+    static const uint8_t bytes[12 << 17];
+    run("for i in 1 2 3 4 5 6; do sleep 0.22; head -c 262144 >/dev/null; done; "
+        "for i in 1 2 3 4 5 6; do sleep 0.22; echo; done");
+    assert_true(hd_child_send(&child, bytes, sizeof bytes, 1000));
+    assert_true(hd_child_end(&child, 1000, how));
     assert_false(child.is_stuck);
 }
 
@@ -129,12 +120,12 @@ TEST(a_lock_and_three_streams_are_all_it_has) {
     assert_int_equal(fcntl(other, F_SETFD, FD_CLOEXEC), 0);
     assert_int_equal(start("readlink /proc/$$/fd/* | grep -c lock; readlink /proc/$$/fd/[012] | "
                            "grep -c socket",
-                           NULL, lock),
+                           lock),
                      HD_OK);
     expect_end(true, "exit code 0");
     assert_string_equal(hd_child_said(&child), "1\n3");
     const char *const arguments[] = {"/bin/sh", "-c", "readlink /proc/$$/fd/0", NULL};
-    assert_int_equal(hd_child_start(&child, arguments, false, NULL, -1, &error), HD_OK);
+    assert_int_equal(hd_child_start(&child, arguments, false, -1, &error), HD_OK);
     assert_int_equal(child.input, -1);
     expect_end(true, "exit code 0");
     assert_string_equal(hd_child_said(&child), "/dev/null");
@@ -146,7 +137,7 @@ TEST(the_whole_group_is_stopped) {
     int ends[2];
     char byte;
     assert_int_equal(pipe(ends), 0);
-    assert_int_equal(start("sleep 1000 & sleep 1000", NULL, ends[1]), HD_OK);
+    assert_int_equal(start("sleep 1000 & sleep 1000", ends[1]), HD_OK);
     close(ends[1]);
     hd_child_stop(&child);
     assert_int_equal(read(ends[0], &byte, 1), 0); /* nobody has the other end */
@@ -156,7 +147,7 @@ TEST(the_whole_group_is_stopped) {
 
 static void expect_no_start(const char *path, HdStatus status, const char *reason) {
     const char *const arguments[] = {path, NULL};
-    assert_int_equal(hd_child_start(&child, arguments, true, NULL, -1, &error), status);
+    assert_int_equal(hd_child_start(&child, arguments, true, -1, &error), status);
     expect_contains(error.message, reason);
     expect_none();
 }
@@ -169,29 +160,6 @@ TEST(one_that_cannot_start_is_told) {
     expect_no_start("./text", HD_UNAVAILABLE, "Exec format error");
     assert_int_equal(symlink("loop", "loop"), 0);
     expect_no_start("./loop", HD_FAILED, "Too many levels");
-}
-
-TEST(the_patience_is_whole_seconds) {
-    static const struct {
-        const char *text;
-        int seconds; /* 0: it is refused */
-    } cases[] = {{"", HD_CHILD_PATIENCE_S},
-                 {"1", 1},
-                 {"86400", 86400},
-                 {"0", 0},
-                 {"86401", 0},
-                 {"1.5", 0},
-                 {"1s", 0}};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        setenv("HEDRON_FFMPEG_PATIENCE", cases[i].text, 1);
-        if (start("exit 0", NULL, -1) == HD_OK) {
-            assert_int_equal(child.patience_s, cases[i].seconds);
-            expect_end(true, "exit code 0");
-            continue;
-        }
-        assert_int_equal(cases[i].seconds, 0);
-        expect_contains(error.message, cases[i].text);
-    }
 }
 
 TEST(programs_are_found_in_order) {

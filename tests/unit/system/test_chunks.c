@@ -2,7 +2,7 @@
 /* Choices in chunks are as one call for all items makes them. */
 #include <stdlib.h>
 
-#include "system/chunks.h"
+#include "system/thread_pool.h"
 #include "unit_test.h"
 
 enum { THREADS = 4 };

@@ -2,7 +2,7 @@
 /* What is synced, and what becomes of a disk that says no. */
 #define _GNU_SOURCE
 
-#include "system/durable.h"
+#include "system/atomic_file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -38,27 +38,29 @@ static int begin(void **state) {
     memset(answers, 0, sizeof answers);
     synced_names[0] = '\0';
     calls = 0;
+    hd_known_folders_forget();
     mkdir("a", 0777);
     mkdir("a/b", 0777);
     mkdir("a/c", 0777);
     return 0;
 }
 
-static void expect_synced(HdFolderSet *synced, const char *path, const char *names) {
+static void expect_synced(const char *path, const char *names) {
     synced_names[0] = '\0';
-    assert_int_equal(hd_sync_folder(synced, path, &error), HD_OK);
+    assert_int_equal(hd_sync_folder(path, &error), HD_OK);
     assert_string_equal(synced_names, names);
 }
 
 TEST(folders_are_synced_up_to_one_that_was) {
-    HdFolderSet synced = {0};
-    expect_synced(&synced, "a/b/1.png", "/a/b /a . ");
-    expect_synced(&synced, "a/b/2.png", "/a/b ");
-    expect_synced(&synced, "a/c/1.png", "/a/c /a ");
-    expect_synced(&synced, "1.png", ". ");
-    expect_synced(&(HdFolderSet){0}, "a//b//1.png", "/a/b /a . ");
-    expect_synced(&(HdFolderSet){0}, "/1.png", "/ ");
-    expect_synced(&(HdFolderSet){0}, "//tmp/1.png", "/tmp / ");
+    expect_synced("a/b/1.png", "/a/b /a . ");
+    expect_synced("a/b/2.png", "/a/b ");
+    expect_synced("a/c/1.png", "/a/c /a ");
+    expect_synced("1.png", ". ");
+    expect_synced("a//b//1.png", "/a/b /a . ");
+    hd_known_folders_forget();
+    expect_synced("a/b/1.png", "/a/b /a . ");
+    expect_synced("/1.png", "/ ");
+    expect_synced("//tmp/1.png", "/tmp / ");
 }
 
 /* What has no disk needs none. */
@@ -73,16 +75,15 @@ TEST(a_sync_that_a_signal_ends_is_begun_again) {
 }
 
 TEST(a_disk_that_fails_is_told) {
-    HdFolderSet synced = {0};
     answers[0] = EDQUOT;
     answers[2] = EIO;
     assert_int_equal(hd_sync_file(STDIN_FILENO, "a/1.png", &error), HD_FAILED);
     assert_string_equal(error.message, "cannot write a/1.png to the disk: Disk quota exceeded");
-    assert_int_equal(hd_sync_folder(&synced, "a/b/1.png", &error), HD_FAILED);
+    assert_int_equal(hd_sync_folder("a/b/1.png", &error), HD_FAILED);
     assert_string_equal(error.message, "cannot write a to the disk: Input/output error");
-    expect_synced(&synced, "a/b/2.png", "/a/b "); /* which was */
-    assert_false(hd_folder_set_has(&synced, "a/1.png"));
-    assert_int_equal(hd_sync_folder(&synced, "a/none/1.png", &error), HD_FAILED);
+    expect_synced("a/b/2.png", "/a/b "); /* which was */
+    expect_synced("a/1.png", "/a . ");   /* which was not */
+    assert_int_equal(hd_sync_folder("a/none/1.png", &error), HD_FAILED);
     assert_string_equal(error.message,
                         "cannot write a/none to the disk: No such file or directory");
 }
@@ -92,7 +93,7 @@ TEST(a_folder_that_may_not_be_read_is_left_out) {
     assert_int_equal(chmod("a/b", 0300), 0);
     if (user == 0)
         assert_int_equal(seteuid(65534), 0);
-    const HdStatus status = hd_sync_folder(&(HdFolderSet){0}, "a/b/1.png", &error);
+    const HdStatus status = hd_sync_folder("a/b/1.png", &error);
     assert_int_equal(seteuid(user), 0);
     assert_int_equal(status, HD_OK);
     assert_null(strstr(synced_names, "/b"));

@@ -4,7 +4,7 @@
 #include <signal.h>
 #include <sys/time.h>
 
-#include "system/file_bytes.h"
+#include "system/path.h"
 #include "test_folder.h"
 
 static HdError error;

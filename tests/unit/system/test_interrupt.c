@@ -9,7 +9,6 @@
 #include <sys/wait.h>
 #include <time.h>
 
-#include "system/leftovers.h"
 #include "system/machine.h"
 #include "test_folder.h"
 

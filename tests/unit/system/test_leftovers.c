@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #define _XOPEN_SOURCE 700
-#include "system/leftovers.h"
+#include "system/interrupt.h"
 
 #include <signal.h>
 #include <sys/wait.h>

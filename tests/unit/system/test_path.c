@@ -35,7 +35,7 @@ TEST(long_names_are_refused) {
     memset(path, 'a', sizeof path);
     path[HD_MAX_PATH] = '\0';
     assert_int_equal(hd_path_expand_home(path, out, &error), HD_BAD_INPUT);
-    assert_int_equal(hd_path_make_parents(path, &error), HD_BAD_INPUT);
+    assert_int_equal(hd_path_make_parents(path, 0777, &error), HD_BAD_INPUT);
     path[HD_MAX_PATH - 1] = '\0';
     assert_int_equal(hd_path_expand_home(path, out, &error), HD_OK);
     memcpy(path, "~/", 2);
@@ -54,20 +54,20 @@ TEST(long_names_are_refused) {
 
 TEST(parents_are_made) {
     char absolute[HD_MAX_PATH];
-    assert_int_equal(hd_path_make_parents("one/two//three/file", &error), HD_OK);
+    assert_int_equal(hd_path_make_parents("one/two//three/file", 0777, &error), HD_OK);
     assert_int_equal(access("one/two/three/.", F_OK), 0);
     assert_int_equal(access("one/two/three/file", F_OK), -1);
-    assert_int_equal(hd_path_make_parents("one/two/three/file", &error), HD_OK);
+    assert_int_equal(hd_path_make_parents("one/two/three/file", 0777, &error), HD_OK);
     snprintf(absolute, sizeof absolute, "%s/four/five/file", test_folder);
-    assert_int_equal(hd_path_make_parents(absolute, &error), HD_OK);
+    assert_int_equal(hd_path_make_parents(absolute, 0777, &error), HD_OK);
     assert_int_equal(access("four/five/.", F_OK), 0);
-    assert_int_equal(hd_path_make_parents("./six/../seven/file", &error), HD_OK);
+    assert_int_equal(hd_path_make_parents("./six/../seven/file", 0777, &error), HD_OK);
     assert_int_equal(access("seven/.", F_OK), 0);
     static const char *const without[] = {"file", "", "/file"};
     for (int i = 0; i < 3; i++)
-        assert_int_equal(hd_path_make_parents(without[i], &error), HD_OK);
+        assert_int_equal(hd_path_make_parents(without[i], 0777, &error), HD_OK);
     write_bytes("block", "", 0);
-    assert_int_equal(hd_path_make_parents("block/deep/file", &error), HD_FAILED);
+    assert_int_equal(hd_path_make_parents("block/deep/file", 0777, &error), HD_FAILED);
     expect_contains(error.message, "folder block for block/deep/file: a file has that name");
 }
 

@@ -5,8 +5,8 @@
 #include <fenv.h>
 #include <stdatomic.h>
 
+#include "system/machine.h"
 #include "system/thread_pool.h"
-#include "system/warnings.h"
 #include "unit_test.h"
 #include "wrapped.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "system/warnings.h"
+#include "system/machine.h"
 
 #include "unit_test.h"
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-#include "device/self_test_scenes.h"
+#include <stdlib.h>
+
 #include "kernels/host/shared.h"
+#include "small_scene.h"
 #include "tables/tables.h"
 #include "unit_test.h"
 
@@ -9,8 +11,18 @@ static HdScene scene;
 static HdSceneTables tables;
 
 static int begin(void **state) {
+    enum { FAR = 40 };
     (void)state;
-    return (int)hd_self_test_scene(&scene, HD_SELF_TEST_SOLID, false, false, &error);
+    if (small_scene(&scene, "hexahedron", &error) != HD_OK)
+        return 1;
+    free(scene.lights);
+    scene.light_count = FAR;
+    scene.lights = calloc(FAR, sizeof *scene.lights);
+    assert_non_null(scene.lights);
+    for (int i = 0; i < FAR; i++)
+        scene.lights[i] = (HdLight){.position = {0.0, 0.0, 100.0 + i}, .falloff = {.end = 50.0}};
+    scene.solids[0].lights = (HdEdgeLights){.colour_count = 1};
+    return 0;
 }
 
 static int end(void **state) {

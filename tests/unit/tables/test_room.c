@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L /* setenv */
+#include "render/backends.h"
 #include "tables/room.h"
 
 #include <limits.h>
 #include <stdlib.h>
 
 #include "device/renderer.h"
-#include "device/self_test_scenes.h"
 #include "kernels/host/shared.h"
+#include "small_scene.h"
 #include "tables/tables.h"
 #include "unit_test.h"
 #include "wrapped.h"
@@ -60,7 +61,7 @@ TEST(tables_may_be_too_large) {
 
 static HdScene scene_with_meshes(void) {
     HdScene scene;
-    assert_int_equal(hd_self_test_scene(&scene, HD_SELF_TEST_MESH, false, false, &error), HD_OK);
+    assert_int_equal(small_scene(&scene, "plain-instances", &error), HD_OK);
     return scene;
 }
 

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 
 #include "device/backend.h"
+#include "render/backends.h"
 #include "test_folder.h"
 
 static HdError error;

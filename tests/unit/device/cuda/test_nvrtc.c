@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #define _XOPEN_SOURCE 700
-#include "device/cuda/nvrtc.h"
+#include "device/cuda/compile.h"
 
 #include <dlfcn.h>
 #include <fcntl.h>

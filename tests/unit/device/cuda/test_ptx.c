@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Which of the program's PTX does what kernels of a shape would. */
-#include "device/cuda/ptx.h"
+#include "device/cuda/compile.h"
 
 #include "unit_test.h"
 

@@ -2,9 +2,7 @@
 /* A GPU's memory, its kernels and the queue of a wavefront, of a GPU whose memory runs out and
    whose kernels are a letter. */
 #define _XOPEN_SOURCE 700
-#include "device/gpu/program.h"
-#include "device/gpu/wave_queue.h"
-#include "device/kernel_cache.h"
+#include "device/gpu/gpu.h"
 #include "test_folder.h"
 
 static HdError error;

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 
 #include "device/backend.h"
-#include "device/opencl/error.h"
 #include "unit_test.h"
 #include "wrapped.h"
 

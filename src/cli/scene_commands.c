@@ -1,0 +1,237 @@
+/* SPDX-License-Identifier: MIT */
+/* The commands about files of scenes: check, convert, new. */
+#define _POSIX_C_SOURCE 200809L
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/text.h"
+#include "cli/options.h"
+#include "image/picture.h"
+#include "input/builtin.h"
+#include "input/json/json_device_text.h"
+#include "input/schema.h"
+#include "input/write.h"
+#include "run/load_scene.h"
+#include "system/atomic_file.h"
+
+/* ---- check ---- */
+
+static void print_meshes(const HdScene *scene) {
+    if (scene->mesh_count > 0)
+        printf("%d mesh%s of %" PRId64 " triangles in %d place%s, ", scene->mesh_count,
+               scene->mesh_count == 1 ? "" : "es", hd_scene_triangle_count(scene),
+               scene->instance_count, hd_plural(scene->instance_count));
+}
+
+/* The lines of a text, each without what it is indented by. */
+static json_t *list_lines(const char *text) {
+    char line[sizeof((HdError *)NULL)->message];
+    json_t *list = json_array();
+    while (*text != '\0') {
+        text += strspn(text, " \n");
+        const size_t length = strcspn(text, "\n");
+        snprintf(line, sizeof line, "%.*s", (int)length, text);
+        if (length > 0 && json_array_append_new(list, hd_json_device_text(line)) != 0) {
+            json_decref(list);
+            return NULL;
+        }
+        text += length;
+    }
+    return list;
+}
+
+/* A message is "NAME: what is wrong", or "NAME: 3 problems" and a line for each. */
+static json_t *list_problems(const char *message, const char *name) {
+    const char *several = strchr(message, '\n');
+    if (several == NULL && strncmp(message, name, strlen(name)) == 0)
+        message += strlen(name) + strspn(message + strlen(name), ": ");
+    return list_lines(several != NULL ? several : message);
+}
+
+/* NULL where there is no memory. */
+static json_t *describe_scene(const char *name, HdStatus status, const HdProblems *notes,
+                              const HdScene *scene, const HdError *error) {
+    json_t *problems = status == HD_OK ? json_array() : list_problems(error->message, name);
+    json_t *told =
+        json_pack("{s:o, s:b, s:o, s:o}", "scene", hd_json_device_text(name), "fine",
+                  status == HD_OK, "problems", problems, "notes", list_lines(notes->text));
+    if (status != HD_OK || told == NULL)
+        return told;
+    json_t *counts =
+        json_pack("{s:i, s:i, s:I, s:i, s:i}", "solids", scene->solid_count, "meshes",
+                  scene->instance_count, "triangles", (json_int_t)hd_scene_triangle_count(scene),
+                  "lights", hd_scene_light_count(scene), "frames", scene->frame_count);
+    json_object_update_new(told, counts);
+    return told;
+}
+
+static void print_fine(const char *name, const HdScene *scene, const HdProblems *notes) {
+    int lights = hd_scene_light_count(scene);
+    printf("%s: fine, %d solid%s, ", name, scene->solid_count, hd_plural(scene->solid_count));
+    print_meshes(scene);
+    printf("%d light%s, %d frame%s\n", lights, hd_plural(lights), scene->frame_count,
+           hd_plural(scene->frame_count));
+    hd_problems_print(notes, stdout, name, ": note: ");
+}
+
+/* Prints what it finds, or appends it to `list`. */
+static HdStatus check_scene(const char *operand, json_t *list, HdError *error) {
+    HdProblems notes = {.count = 0};
+    const HdSceneSource source = {
+        .folder = "", .loads_files = true, .notes = &notes, .file_notes = &notes};
+    const char *name = hd_scene_name(operand);
+    HdSceneFile file;
+    HdStatus status = hd_read_scene(&file, operand, &source, error);
+    if (list != NULL)
+        json_array_append_new(list, describe_scene(name, status, &notes, &file.scene, error));
+    else if (status == HD_OK)
+        print_fine(name, &file.scene, &notes);
+    if (status == HD_OK)
+        hd_scene_file_free(&file);
+    return status;
+}
+
+static HdStatus print_list(json_t *list, int scenes, HdError *error) {
+    const bool is_whole = json_array_size(list) == (size_t)scenes;
+    if (!is_whole)
+        json_decref(list);
+    return hd_json_print(is_whole ? json_pack("{s:o}", "scenes", list) : NULL,
+                         "what is told of the scenes", error);
+}
+
+/* Of several scenes each has its message; the last one, which the program prints, counts them. */
+static HdStatus check_scenes(const HdOptions *options, json_t *list, HdError *error) {
+    HdStatus worst = HD_OK;
+    int wrong = 0;
+    for (int i = 0; i < options->operand_count; i++) {
+        HdStatus status = check_scene(options->operands[i], list, error);
+        if (status == HD_OK)
+            continue;
+        wrong++;
+        worst = worst == HD_BAD_INPUT ? worst : status;
+        if (options->operand_count == 1)
+            return status;
+        fflush(stdout);
+        if (list == NULL)
+            fprintf(stderr, "hedron: %s\n", error->message);
+    }
+    if (wrong == 0)
+        return HD_OK;
+    fflush(stdout);
+    return hd_fail(error, worst, "%d of %d scenes %s wrong", wrong, options->operand_count,
+                   wrong == 1 ? "is" : "are");
+}
+
+HdStatus hd_command_check(const HdOptions *options, HdError *error) {
+    static HdError unprinted;
+    if (options->schema)
+        return hd_scene_schema_print(stdout, error);
+    json_t *list = options->json ? json_array() : NULL;
+    const HdStatus status = check_scenes(options, list, error);
+    if (!options->json)
+        return status;
+    const HdStatus printed = print_list(list, options->operand_count, &unprinted);
+    if (printed == HD_OK)
+        return status;
+    *error = unprinted;
+    return printed;
+}
+
+/* ---- convert ---- */
+
+/* A scene's texture counts from the scene's folder, that of a classic input from the current one.
+   Where the two differ, the name gets the current folder in front. */
+static HdStatus keep_texture(HdSceneFile *file, const char *output, HdError *error) {
+    char folder[HD_MAX_PATH], name[HD_MAX_PATH];
+    memcpy(name, file->texture_path, sizeof name);
+    if (output == NULL || strchr(output, '/') == NULL || !hd_texture_path_is_relative(name))
+        return HD_OK;
+    if (getcwd(folder, sizeof folder) == NULL)
+        return hd_fail(error, HD_FAILED, "cannot tell the current folder: %s", strerror(errno));
+    if (snprintf(file->texture_path, sizeof file->texture_path, "%s/%s", folder, name) >=
+        (int)sizeof file->texture_path)
+        return hd_fail(error, HD_BAD_INPUT, "the path of the texture %s gets too long", name);
+    return HD_OK;
+}
+
+/* The classic mode writes any other name in the data format; a scene says it by the ending. */
+static HdStatus keep_output(HdSceneFile *file, HdError *error) {
+    static const char ending[] = ".data";
+    char *path = file->output.path;
+    const HdFormat *format = hd_format_of(path);
+    if (format != NULL && !hd_format_is_film(format))
+        return HD_OK;
+    if (strlen(path) + sizeof ending > HD_MAX_PATH)
+        return hd_fail(error, HD_BAD_INPUT, "the output path has %zu bytes, too many for %s",
+                       strlen(path), ending);
+    memcpy(path + strlen(path), ending, sizeof ending);
+    return HD_OK;
+}
+
+static HdStatus write_scene(const HdSceneFile *file, const char *name, HdError *error) {
+    char path[HD_MAX_PATH];
+    HdAtomicFile out;
+    HdStatus status = hd_path_expand_home(name, path, error);
+    if (status == HD_OK)
+        status = hd_atomic_file_open(&out, path, error);
+    if (status != HD_OK)
+        return status;
+    status = hd_scene_file_print(out.stream, file, error);
+    if (status == HD_OK)
+        return hd_atomic_file_commit(&out, HD_DURABLE, error);
+    hd_atomic_file_discard(&out);
+    return status;
+}
+
+HdStatus hd_command_convert(const HdOptions *options, HdError *error) {
+    const char *source = options->operand_count > 0 ? options->operands[0] : NULL;
+    const char *output = options->store.count > 0 ? options->store.names[0] : NULL;
+    HdSceneFile file;
+    HdStatus status = hd_read_classic(&file, source, options->variant, error);
+    if (status != HD_OK)
+        return status;
+    status = keep_texture(&file, output, error);
+    if (status == HD_OK)
+        status = keep_output(&file, error);
+    if (status == HD_OK)
+        status = output != NULL ? write_scene(&file, output, error)
+                                : hd_scene_file_print(stdout, &file, error);
+    hd_scene_file_free(&file);
+    return status;
+}
+
+/* ---- new ---- */
+
+/* Where the file can be written at all, it is new and whole, or it is taken away again. */
+static HdStatus write_new(const char *path, HdError *error) {
+    size_t size;
+    const char *text = hd_starter_scene_text(&size);
+    FILE *out = fopen(path, "wbx");
+    if (out == NULL && errno == EEXIST)
+        return hd_fail(error, HD_BAD_INPUT, "%s is there already, expected a new name", path);
+    if (out == NULL)
+        return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(errno));
+    const bool is_written = fwrite(text, 1, size, out) == size && fflush(out) == 0;
+    const int why = errno;
+    if (fclose(out) == 0 && is_written)
+        return HD_OK;
+    remove(path);
+    return hd_fail(error, HD_FAILED, "cannot write %s: %s", path,
+                   strerror(is_written ? errno : why));
+}
+
+HdStatus hd_command_new(const HdOptions *options, HdError *error) {
+    const char *name = options->operand_count > 0 ? options->operands[0] : "scene";
+    const char *ending = hd_path_has_ending(name, ".json") ? "" : ".json";
+    char path[HD_MAX_PATH];
+    if (snprintf(path, sizeof path, "%s%s", name, ending) >= (int)sizeof path)
+        return hd_fail(error, HD_BAD_INPUT, "the name of the scene has %zu bytes, expected fewer",
+                       strlen(name));
+    HdStatus status = write_new(path, error);
+    if (status == HD_OK)
+        printf("%s\n", path);
+    return status;
+}

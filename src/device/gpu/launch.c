@@ -1,0 +1,404 @@
+/* SPDX-License-Identifier: MIT */
+/* The launches of a frame. */
+#include <string.h>
+
+#include "base/minmax.h"
+#include "device/gpu/gpu.h"
+#include "kernels/host/shared.h"
+#include "system/interrupt.h"
+#include "system/machine.h"
+
+/* ---- arguments of kernels ---- */
+
+_Static_assert(HD_SCENE_TABLE_COUNT + HD_FRAME_TABLE_COUNT + 16 <= HD_GPU_MOST_ARGUMENTS,
+               "a launch has room for the tables and for what follows them");
+
+#define QUEUE_LIST(X, LAST) HD_QUEUE_ARGUMENTS(X)
+
+HD_GPU_ARGUMENTS(Render, add_render, HD_RENDER_ARGUMENTS)
+HD_GPU_ARGUMENTS(Queue, add_queue, QUEUE_LIST)
+HD_GPU_ARGUMENTS(TraceTake, add_trace_take, HD_TRACE_TAKE_ARGUMENTS)
+HD_GPU_ARGUMENTS(StoreBatch, add_store_batch, HD_STORE_BATCH_ARGUMENTS)
+HD_GPU_ARGUMENTS(RenderByWaves, add_render_by_waves, HD_RENDER_BY_WAVES_ARGUMENTS)
+HD_GPU_ARGUMENTS(FirstHits, add_first_hits, HD_FIRST_HITS_ARGUMENTS)
+HD_GPU_ARGUMENTS(SumCounts, add_sum_counts, HD_SUM_COUNTS_ARGUMENTS)
+HD_GPU_ARGUMENTS(Encode, add_encode, HD_ENCODE_ARGUMENTS)
+
+/* ---- launches ---- */
+
+static HdGpuLaunch launch_of(const HdGpuRenderer *renderer, HdKernel kernel) {
+    return (HdGpuLaunch){.kernel = kernel, .group_size = renderer->program.group_size};
+}
+
+/* With the tables as its first arguments. */
+static HdGpuLaunch tracing_of(const HdGpuRenderer *renderer, HdKernel kernel) {
+    HdGpuLaunch launch = launch_of(renderer, kernel);
+    for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++)
+        hd_gpu_add_memory(&launch, &renderer->scene[i]);
+    for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
+        hd_gpu_add_memory(&launch, &renderer->frame[i]);
+    return launch;
+}
+
+/* As many groups as the items need, but no more than the grid may have. */
+static int group_count(const HdGpuRenderer *renderer, int items, int items_per_group) {
+    int groups = (items + items_per_group - 1) / items_per_group;
+    bool is_limited = renderer->has_groups && renderer->options.grid > 0;
+    return is_limited ? hd_min(groups, renderer->options.grid) : groups;
+}
+
+static HdStatus queue_launch(const HdGpuRenderer *renderer, const HdGpuLaunch *launch,
+                             HdGpuMark *mark, HdError *error) {
+    return renderer->gpu.driver->launch(renderer->gpu.handle, launch, mark, error);
+}
+
+static HdStatus check_wanted(const HdFrameTables *tables, HdError *error) {
+    return hd_interrupt_signal() != 0 || hd_watched_is_unwanted(&tables->watched)
+               ? hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame")
+               : HD_OK;
+}
+
+/* Launches are queued one by one, so that a signal ends the frame between two of them, so that
+   each tells how large the next one may be, and so that it is known what is done: the items before
+   number `done`. CPUs drive no display, but the rest holds for them too. */
+static HdStatus wait_between(HdGpuRenderer *renderer, HdGpuFlight *flight, int done,
+                             HdError *error) {
+    const HdGpu *gpu = &renderer->gpu;
+    double waited = hd_monotonic_seconds();
+    HdStatus status = gpu->driver->wait_for_launch(gpu->handle, flight->untimed, error);
+    if (status == HD_OK)
+        status = hd_gpu_flight_time_launch(renderer, flight, waited, error);
+    if (status != HD_OK)
+        return status;
+    hd_gpu_flight_tell(flight, done);
+    return check_wanted(flight->of, error);
+}
+
+/* Among how many threads of a group the samples of a pixel are shared: the greatest divisor of
+   their number up to the group's size and 64, so that all of them have as many. */
+static int sample_parts(int samples, int group_size) {
+    enum { MOST_PARTS = 64 };
+    int parts = hd_min(group_size, MOST_PARTS);
+    while (samples % parts != 0)
+        parts--;
+    return parts;
+}
+
+static int samples_per_item(const HdGpuRenderer *renderer, const HdGpuFlight *flight) {
+    return renderer->program.cache.shape.pixels_per_item * flight->of->samples;
+}
+
+static HdStatus launch_mega(HdGpuRenderer *renderer, HdGpuFlight *flight, HdError *error) {
+    int samples = flight->of->samples, group_size = renderer->program.group_size;
+    int parts = renderer->has_groups ? sample_parts(samples, group_size) : 1;
+    int per_group = group_size / parts, work = samples_per_item(renderer, flight);
+    Render own = {.parts = parts, .pixels = &flight->pixels, .counts = &renderer->counts};
+    HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_TRACE);
+    add_render(&launch, &own);
+    HdStatus status = HD_OK;
+    for (int done = 0; status == HD_OK && done < flight->items; done += own.item_count) {
+        status = done > 0 ? wait_between(renderer, flight, done, error) : HD_OK;
+        own.first_item = done;
+        own.item_count =
+            hd_launch_size_items(&renderer->flights.size, flight->items - done, work, per_group);
+        launch.groups = group_count(renderer, own.item_count, per_group);
+        if (status == HD_OK)
+            status = hd_gpu_flight_launch(renderer, flight, &launch, (double)own.item_count * work,
+                                          error);
+    }
+    return status;
+}
+
+/* Of the wavefront, with a queue each; on CPUs so many strive to be even. */
+static int worker_count(const HdGpuRenderer *renderer, int items) {
+    enum { WORKERS_PER_UNIT = 8 };
+    return renderer->has_groups ? 1
+                                : hd_min(renderer->device.compute_units * WORKERS_PER_UNIT, items);
+}
+
+static Queue queue_of(const HdGpuRenderer *renderer) {
+    const HdGpuWaveQueue *queue = &renderer->queue;
+    return (Queue){
+        .ray_reals = &queue->buffers[0],
+        .ray_ints = &queue->buffers[1],
+        .sums = &queue->buffers[2],
+        .queue_stride = queue->plan.queue_stride,
+        .sum_stride = queue->plan.sum_stride,
+        .compact = renderer->options.pipeline == HD_PIPELINE_WAVEFRONT,
+    };
+}
+
+/* The wavefront of CPUs. */
+static HdStatus launch_workers(HdGpuRenderer *renderer, HdGpuFlight *flight, HdError *error) {
+    const Queue queue = queue_of(renderer);
+    const int work = samples_per_item(renderer, flight);
+    RenderByWaves own = {.pixels = &flight->pixels, .counts = &renderer->counts};
+    HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_TRACE);
+    add_queue(&launch, &queue);
+    add_render_by_waves(&launch, &own);
+    HdStatus status = HD_OK;
+    for (int done = 0; status == HD_OK && done < flight->items; done = own.end_item) {
+        status = done > 0 ? wait_between(renderer, flight, done, error) : HD_OK;
+        const int count =
+            hd_launch_size_items(&renderer->flights.size, flight->items - done, work, 1);
+        own.first_item = done;
+        own.end_item = done + count;
+        launch.groups = worker_count(renderer, count);
+        if (status == HD_OK)
+            status = hd_gpu_flight_launch(renderer, flight, &launch, (double)count * work, error);
+    }
+    return status;
+}
+
+static HdStatus trace_step(HdGpuRenderer *renderer, HdGpuFlight *flight, const HdWaveStep *step,
+                           int most_groups, unsigned *taken, HdError *error) {
+    int group_size = renderer->program.group_size;
+    const Queue queue = queue_of(renderer);
+    const TraceTake own = {
+        .first_item = step->first_item,
+        .level = step->level,
+        .first = step->first,
+        .count = step->count,
+        .to = step->to,
+        .taken_before = step->taken_before,
+        .is_first_launch = step->is_first,
+        .taken = &renderer->queue.taken,
+        .counts = &renderer->counts,
+    };
+    HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_TRACE);
+    add_queue(&launch, &queue);
+    add_trace_take(&launch, &own);
+    launch.groups = (step->count + group_size - 1) / group_size;
+    launch.groups = step->is_first ? most_groups : hd_min(launch.groups, most_groups);
+    HdStatus status = hd_gpu_flight_launch(renderer, flight, &launch, step->count, error);
+    double waited = hd_monotonic_seconds();
+    if (status == HD_OK)
+        status = hd_gpu_wave_queue_read(&renderer->queue, &renderer->gpu, taken, error);
+    if (status == HD_OK)
+        status = hd_gpu_flight_time_launch(renderer, flight, waited, error);
+    return status;
+}
+
+static HdStatus store_batch(const HdGpuRenderer *renderer, const HdGpuFlight *flight,
+                            const HdWaveStep *step, HdError *error) {
+    const StoreBatch own = {
+        .header = &renderer->scene[HD_TABLE_header],
+        .view = &renderer->frame[HD_TABLE_view],
+        .sums = queue_of(renderer).sums,
+        .sum_stride = renderer->queue.plan.sum_stride,
+        .first_item = step->first_item,
+        .item_count = step->item_count,
+        .pixels = &flight->pixels,
+    };
+    HdGpuLaunch launch = launch_of(renderer, HD_KERNEL_STORE);
+    add_store_batch(&launch, &own);
+    launch.groups = group_count(renderer, step->item_count, launch.group_size);
+    return queue_launch(renderer, &launch, NULL, error);
+}
+
+/* Samples of a batch are taken from its end on, each time once all rays of those before are
+   traced. */
+static void tell_step(HdGpuFlight *flight, const HdWaveStep *step) {
+    const int samples = flight->of->samples;
+    const int last = step->action == HD_WAVE_TRACES ? (step->first + step->count) / samples : 0;
+    if (step->action == HD_WAVE_STORES || step->level == 0)
+        hd_gpu_flight_tell(flight, step->first_item + step->item_count - last);
+}
+
+/* The wavefront of devices with groups of threads. */
+static HdStatus launch_waves(HdGpuRenderer *renderer, HdGpuFlight *flight, int most_groups,
+                             HdError *error) {
+    HdWaveRun run = {
+        .plan = &renderer->queue.plan,
+        .items = flight->items,
+        .samples_per_item = flight->of->samples,
+        .depth = renderer->depth,
+        .grain = renderer->program.group_size,
+    };
+    const HdWaveStep *step = &run.step;
+    unsigned taken = 0;
+    HdStatus status = hd_gpu_wave_queue_empty(&renderer->queue, &renderer->gpu, error);
+    while (status == HD_OK) {
+        status = check_wanted(flight->of, error);
+        if (status == HD_OK)
+            status = hd_wave_next(&run, taken, &renderer->flights.size, error);
+        if (status != HD_OK || step->action == HD_WAVE_IS_DONE)
+            return status;
+        tell_step(flight, step);
+        status = step->action == HD_WAVE_STORES
+                     ? store_batch(renderer, flight, step, error)
+                     : trace_step(renderer, flight, step, most_groups, &taken, error);
+    }
+    return status;
+}
+
+static HdStatus launch_sum(HdGpuRenderer *renderer, HdGpuFlight *flight, int count_slots,
+                           HdError *error) {
+    const SumCounts own = {.counts = &renderer->counts,
+                           .count = count_slots,
+                           .sums = &flight->sums,
+                           .workers = HD_SUM_WORKERS};
+    HdGpuLaunch launch = launch_of(renderer, HD_KERNEL_SUM);
+    add_sum_counts(&launch, &own);
+    launch.groups = (own.workers + launch.group_size - 1) / launch.group_size;
+    return queue_launch(renderer, &launch, &flight->summed, error);
+}
+
+static HdStatus trace(HdGpuRenderer *renderer, HdGpuFlight *flight, int count_slots,
+                      HdError *error) {
+    HdStatus status;
+    hd_launch_size_begin_frame(&renderer->flights.size);
+    if (!renderer->program.cache.shape.wavefront)
+        status = launch_mega(renderer, flight, error);
+    else if (renderer->has_groups)
+        status = launch_waves(renderer, flight, count_slots, error);
+    else
+        status = launch_workers(renderer, flight, error);
+    return status == HD_OK ? launch_sum(renderer, flight, count_slots, error) : status;
+}
+
+/* ---- 8 bits ---- */
+
+static HdStatus write_thresholds(HdGpuRenderer *renderer, HdCurve curve, HdError *error) {
+    const HdGpu *gpu = &renderer->gpu;
+    int32_t thresholds[256];
+    if (renderer->thresholds.handle != NULL && renderer->curve == curve)
+        return HD_OK;
+    hd_curve_thresholds8(curve, thresholds);
+    HdStatus status = hd_gpu_write_table(gpu, &renderer->thresholds, thresholds, sizeof thresholds,
+                                         "thresholds of the curve", error);
+    if (status == HD_OK)
+        status = gpu->driver->finish(gpu->handle, error);
+    if (status != HD_OK)
+        hd_gpu_release(gpu, &renderer->thresholds);
+    renderer->curve = curve;
+    return status;
+}
+
+static HdStatus encode(HdGpuRenderer *renderer, HdGpuFlight *flight, HdCurve curve,
+                       HdError *error) {
+    const Encode own = {.pixels = &flight->pixels,
+                        .count = flight->of->width * flight->of->height,
+                        .thresholds = &renderer->thresholds,
+                        .image = &flight->image};
+    HdGpuLaunch launch = launch_of(renderer, HD_KERNEL_ENCODE);
+    HdStatus status = write_thresholds(renderer, curve, error);
+    if (status != HD_OK)
+        return status;
+    add_encode(&launch, &own);
+    launch.groups = group_count(renderer, own.count, launch.group_size);
+    return queue_launch(renderer, &launch, &flight->encoded, error);
+}
+
+/* ---- frames ---- */
+
+static HdStatus reserve_queue(HdGpuRenderer *renderer, const HdGpuFlight *flight, HdError *error) {
+    const HdKernelShape *shape = &renderer->program.cache.shape;
+    int items = flight->items, per_item = samples_per_item(renderer, flight);
+    bool has_groups = renderer->has_groups;
+    HdWaveNeeds needs = {
+        .bytes = renderer->queue.bytes,
+        .precision = shape->precision,
+        .depth = renderer->depth,
+        .grain = has_groups ? renderer->program.group_size : shape->lanes,
+        .samples_at_once = has_groups ? per_item : HD_WAVE_BUNDLE,
+        .samples = has_groups ? hd_wave_samples(items, per_item) : per_item,
+    };
+    return hd_gpu_wave_queue_reserve(&renderer->queue, &renderer->gpu, &needs,
+                                     worker_count(renderer, items), error);
+}
+
+/* `from` must live until the device has it. */
+static HdStatus write_frame_table(HdGpuRenderer *renderer, int table, const void *from,
+                                  size_t bytes, HdError *error) {
+    return hd_gpu_write_table(&renderer->gpu, &renderer->frame[table], from, bytes,
+                              "tables of the frame", error);
+}
+
+static HdStatus write_frame(HdGpuRenderer *renderer, HdGpuFlight *flight, HdError *error) {
+    HdStatus status = HD_OK;
+    char *from = flight->tables.data;
+    for (int i = 0; status == HD_OK && i < HD_FRAME_TABLE_COUNT; i++) {
+        const HdTable *table = &flight->of->table[i];
+        if (table->bytes > 0)
+            memcpy(from, table->data, table->bytes);
+        status = write_frame_table(renderer, i, from, table->bytes, error);
+        from += table->bytes;
+    }
+    return status;
+}
+
+/* Parts of it are counted one by one. */
+HdStatus hd_gpu_launch_frame(HdGpuRenderer *renderer, HdGpuFlight *flight, HdCurve curve,
+                             HdError *error) {
+    const HdGpuProgram *program = &renderer->program;
+    int count_slots = flight->items;
+    HdStatus status = HD_OK;
+    if (program->cache.shape.wavefront)
+        status = reserve_queue(renderer, flight, error);
+    if (program->cache.shape.wavefront && renderer->has_groups)
+        count_slots =
+            hd_wave_groups(&renderer->queue.plan, program->group_size, renderer->options.grid);
+    if (status == HD_OK)
+        status = write_frame(renderer, flight, error);
+    if (status == HD_OK)
+        status = hd_gpu_reserve(&renderer->gpu, &renderer->counts, HD_GPU_DEVICE,
+                                sizeof(HdRayCounts) * (size_t)count_slots,
+                                "counts of the work items", error);
+    if (status == HD_OK)
+        status = trace(renderer, flight, count_slots, error);
+    if (status == HD_OK && flight->encodes)
+        status = encode(renderer, flight, curve, error);
+    return status;
+}
+
+/* ---- what is met first ---- */
+
+static HdStatus wait_for_first_hits(const HdGpuRenderer *renderer, const HdFrameTables *tables,
+                                    HdError *error) {
+    const HdGpu *gpu = &renderer->gpu;
+    HdStatus status = gpu->driver->wait_for_launch(gpu->handle, &renderer->first_hits_found, error);
+    return status == HD_OK ? check_wanted(tables, error) : status;
+}
+
+/* A sample costs less here than where light is traced, by which the size of launches is learned:
+   they are short enough. */
+static HdStatus launch_first_hits(HdGpuRenderer *renderer, const HdFrameTables *tables, int items,
+                                  int floats, HdError *error) {
+    enum { MOST_THREADS = 64 }; /* of a group, which has nothing to do together */
+    HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_FIRST_HITS);
+    FirstHits own = {.floats = floats, .hits = &renderer->first_hits};
+    int work = renderer->program.cache.shape.pixels_per_item * (tables->samples + 1);
+    HdStatus status = HD_OK;
+    add_first_hits(&launch, &own);
+    launch.group_size = hd_min(launch.group_size, MOST_THREADS);
+    for (int done = 0; status == HD_OK && done < items; done += own.item_count) {
+        status = done > 0 ? wait_for_first_hits(renderer, tables, error) : HD_OK;
+        own.first_item = done;
+        own.item_count =
+            hd_launch_size_items(&renderer->flights.size, items - done, work, launch.group_size);
+        launch.groups = group_count(renderer, own.item_count, launch.group_size);
+        if (status == HD_OK)
+            status = queue_launch(renderer, &launch, &renderer->first_hits_found, error);
+    }
+    return status;
+}
+
+HdStatus hd_gpu_find_first_hits(HdGpuRenderer *renderer, const HdFrameTables *tables,
+                                HdFrame *frame, HdError *error) {
+    const HdGpu *gpu = &renderer->gpu;
+    const size_t pixels = (size_t)tables->width * (size_t)tables->height;
+    const size_t bytes = pixels * (size_t)frame->first_floats * sizeof *frame->first;
+    const int items = hd_kernel_item_count(tables->width, tables->height,
+                                           renderer->program.cache.shape.pixels_per_item);
+    HdStatus status = hd_gpu_reserve(gpu, &renderer->first_hits, HD_GPU_DEVICE, bytes,
+                                     "pixels' first hits", error);
+    for (int i = 0; status == HD_OK && i < HD_FRAME_TABLE_COUNT; i++)
+        status =
+            write_frame_table(renderer, i, tables->table[i].data, tables->table[i].bytes, error);
+    if (status == HD_OK)
+        status = launch_first_hits(renderer, tables, items, frame->first_floats, error);
+    return status == HD_OK
+               ? gpu->driver->read(gpu->handle, &renderer->first_hits, frame->first, bytes, error)
+               : status;
+}

@@ -1,0 +1,294 @@
+/* SPDX-License-Identifier: MIT */
+#include "verify/probe.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/hash.h"
+#include "device/arithmetic.h"
+#include "device/kernel_cache.h"
+#include "verify/probe_operands.h"
+
+#define WORDS(name, words) words,
+static const char *const number_words[] = {HD_PROBE_NUMBERS(WORDS)};
+static const char *const integer_words[] = {HD_PROBE_INTEGERS(WORDS)};
+
+typedef struct Probe {
+    HdPrecision precision;
+    HdProbeBatch batch;
+    HdProbeResults found, expected;
+    HdProbeReport *report;
+    bool only_rounding_differs; /* of divisions and roots */
+} Probe;
+
+/* ---- memory ---- */
+
+static size_t number_size(HdPrecision precision) {
+    return precision == HD_PRECISION_DOUBLE ? sizeof(double) : sizeof(float);
+}
+
+static void *take_numbers(const Probe *probe, int each) {
+    return calloc((size_t)each * (size_t)probe->batch.count, number_size(probe->precision));
+}
+
+static bool take_results(const Probe *probe, HdProbeResults *results) {
+    results->numbers = take_numbers(probe, HD_PROBE_NUMBER_COUNT);
+    results->integers =
+        calloc(HD_PROBE_INTEGER_COUNT * (size_t)probe->batch.count, sizeof(int64_t));
+    return results->numbers != NULL && results->integers != NULL;
+}
+
+static void free_probe(Probe *probe) {
+    for (int i = 0; i < 3; i++)
+        free(probe->batch.operands[i]);
+    free(probe->batch.bits);
+    free(probe->found.numbers);
+    free(probe->found.integers);
+    free(probe->expected.numbers);
+    free(probe->expected.integers);
+}
+
+static HdStatus begin(Probe *probe, HdPrecision precision, int tuples, HdProbeReport *report,
+                      HdError *error) {
+    *probe = (Probe){.precision = precision, .report = report, .only_rounding_differs = true};
+    *report = (HdProbeReport){.hash = HD_HASH_START, .expected = HD_HASH_START};
+    probe->batch.precision = precision;
+    probe->batch.count = tuples < HD_PROBE_BATCH ? tuples : HD_PROBE_BATCH;
+    bool has_room = true;
+    for (int i = 0; i < 3; i++) {
+        probe->batch.operands[i] = take_numbers(probe, 1);
+        has_room = has_room && probe->batch.operands[i] != NULL;
+    }
+    probe->batch.bits = calloc((size_t)probe->batch.count, sizeof *probe->batch.bits);
+    has_room = has_room && probe->batch.bits != NULL && take_results(probe, &probe->found) &&
+               take_results(probe, &probe->expected);
+    if (has_room)
+        return HD_OK;
+    free_probe(probe);
+    return hd_fail(error, HD_FAILED, "out of memory: no room for the arithmetic probe");
+}
+
+/* ---- numbers ---- */
+
+static double number_at(const Probe *probe, const void *numbers, size_t place) {
+    return probe->precision == HD_PRECISION_DOUBLE ? ((const double *)numbers)[place]
+                                                   : (double)((const float *)numbers)[place];
+}
+
+static bool is_same(double a, double b) {
+    return isnan(a) ? isnan(b) : a == b && !signbit(a) == !signbit(b);
+}
+
+static const char *precision_name(const Probe *probe) {
+    return probe->precision == HD_PRECISION_DOUBLE ? "double" : "float";
+}
+
+static double least_normal(const Probe *probe) {
+    return probe->precision == HD_PRECISION_DOUBLE ? 0x1p-1022 : 0x1p-126;
+}
+
+static bool is_small(const Probe *probe, double a) {
+    return a != 0.0 && fabs(a) < least_normal(probe);
+}
+
+/* One kind of NaN, so that hashes agree. */
+static uint64_t hash_number(uint64_t hash, double number) {
+    double told = isnan(number) ? (double)NAN : number;
+    return hd_hash_words(hash, &told, sizeof told);
+}
+
+/* ---- what differs ---- */
+
+static double rounded_twice(const Probe *probe, double a, double b, double c) {
+    float product = (float)a * (float)b;
+    return probe->precision == HD_PRECISION_DOUBLE ? a * b + c : (double)(product + (float)c);
+}
+
+static double rounded_once(const Probe *probe, double a, double b, double c) {
+    return probe->precision == HD_PRECISION_DOUBLE ? fma(a, b, c)
+                                                   : (double)fmaf((float)a, (float)b, (float)c);
+}
+
+/* What a difference looks like, in brackets; "" where it looks like nothing that is known. */
+static const char *guess_cause(const Probe *probe, int primitive, double a, double b, double c,
+                               double found, double expected) {
+    double first = primitive == HD_PROBE_NUMBER_apart_from ? -a : a;
+    bool is_apart = primitive == HD_PROBE_NUMBER_apart || primitive == HD_PROBE_NUMBER_apart_from;
+    bool is_rounded = primitive == HD_PROBE_NUMBER_quotient || primitive == HD_PROBE_NUMBER_root;
+    if (is_apart && is_same(found, rounded_once(probe, first, b, c)))
+        return " (a product and a sum are contracted into one operation)";
+    if (primitive == HD_PROBE_NUMBER_fused && is_same(found, rounded_twice(probe, a, b, c)))
+        return " (it is rounded twice)";
+    if (is_small(probe, expected) && found == 0.0)
+        return " (denormal numbers are flushed to 0)";
+    if (is_small(probe, a) || is_small(probe, b) || is_small(probe, c))
+        return " (denormal operands are taken for 0)";
+    return is_rounded ? " (it is not correctly rounded)" : "";
+}
+
+static void note_difference(Probe *probe, const char *text) {
+    char *first = probe->report->difference;
+    if (first[0] == '\0')
+        snprintf(first, sizeof probe->report->difference, "%s", text);
+}
+
+static void compare_number(Probe *probe, int primitive, size_t i) {
+    size_t place = (size_t)primitive * (size_t)probe->batch.count + i;
+    double found = number_at(probe, probe->found.numbers, place);
+    double expected = number_at(probe, probe->expected.numbers, place);
+    probe->report->hash = hash_number(probe->report->hash, found);
+    probe->report->expected = hash_number(probe->report->expected, expected);
+    if (is_same(found, expected))
+        return;
+    double a = number_at(probe, probe->batch.operands[0], i);
+    double b = number_at(probe, probe->batch.operands[1], i);
+    double c = number_at(probe, probe->batch.operands[2], i);
+    char text[sizeof probe->report->difference];
+    probe->only_rounding_differs =
+        probe->only_rounding_differs &&
+        (primitive == HD_PROBE_NUMBER_quotient || primitive == HD_PROBE_NUMBER_root);
+    snprintf(text, sizeof text,
+             "%s of a = %a, b = %a, c = %a, x = 0x%016" PRIx64 " in %s is %a, expected %a%s",
+             number_words[primitive], a, b, c, (uint64_t)probe->batch.bits[i],
+             precision_name(probe), found, expected,
+             guess_cause(probe, primitive, a, b, c, found, expected));
+    note_difference(probe, text);
+}
+
+static void compare_integer(Probe *probe, int primitive, size_t i) {
+    size_t place = (size_t)primitive * (size_t)probe->batch.count + i;
+    int64_t found = probe->found.integers[place], expected = probe->expected.integers[place];
+    probe->report->hash = hd_hash_words(probe->report->hash, &found, sizeof found);
+    probe->report->expected = hd_hash_words(probe->report->expected, &expected, sizeof expected);
+    if (found == expected)
+        return;
+    char text[sizeof probe->report->difference];
+    double a = number_at(probe, probe->batch.operands[0], i);
+    double b = number_at(probe, probe->batch.operands[1], i);
+    probe->only_rounding_differs = false;
+    snprintf(
+        text, sizeof text,
+        "%s of a = %a, b = %a, x = 0x%016" PRIx64 " in %s is %" PRId64 ", expected %" PRId64 "%s",
+        integer_words[primitive], a, b, (uint64_t)probe->batch.bits[i], precision_name(probe),
+        found, expected,
+        is_small(probe, a) || is_small(probe, b) ? " (denormal operands are taken for 0)" : "");
+    note_difference(probe, text);
+}
+
+static void compare_batch(Probe *probe) {
+    for (int primitive = 0; primitive < HD_PROBE_NUMBER_COUNT; primitive++)
+        for (int i = 0; i < probe->batch.count; i++)
+            compare_number(probe, primitive, (size_t)i);
+    for (int primitive = 0; primitive < HD_PROBE_INTEGER_COUNT; primitive++)
+        for (int i = 0; i < probe->batch.count; i++)
+            compare_integer(probe, primitive, (size_t)i);
+}
+
+/* Devices whose threads do not work in groups add nothing. */
+static void compare_sums(Probe *probe) {
+    char text[sizeof probe->report->difference];
+    const HdProbeResults *found = &probe->found, *expected = &probe->expected;
+    for (int i = 0; i < HD_PROBE_SUMS; i++)
+        if (found->sums[i] != expected->sums[i] || found->counters[i] != expected->counters[i]) {
+            probe->only_rounding_differs = false;
+            snprintf(text, sizeof text,
+                     "the sum %d that all threads add to atomically is 0x%016" PRIx64
+                     " in 64 bits and %" PRIu32 " in 32, expected 0x%016" PRIx64 " and %" PRIu32,
+                     i, (uint64_t)found->sums[i], found->counters[i], (uint64_t)expected->sums[i],
+                     expected->counters[i]);
+            note_difference(probe, text);
+        }
+}
+
+/* ---- probing ---- */
+
+static HdStatus run(HdRenderer *renderer, Probe *probe, int tuples, HdError *error) {
+    bool is_double = probe->precision == HD_PRECISION_DOUBLE;
+    HdStatus status = HD_OK;
+    for (int start = 0; status == HD_OK && start < tuples; start += probe->batch.count) {
+        (is_double ? hd_probe_operands_double : hd_probe_operands_float)(&probe->batch,
+                                                                         (uint64_t)start);
+        (is_double ? hd_probe_expect_double : hd_probe_expect_float)(&probe->batch,
+                                                                     &probe->expected);
+        status = hd_renderer_compute(renderer, &probe->batch, &probe->found, error);
+        if (status == HD_OK)
+            compare_batch(probe);
+        probe->report->tuples += probe->batch.count;
+    }
+    return status;
+}
+
+static HdStatus probe_once(HdRenderer *renderer, int tuples, HdProbeReport *report,
+                           bool *only_rounding_differs, HdError *error) {
+    Probe probe;
+    const HdKernelShape *shape = &hd_renderer_kernels(renderer)->shape;
+    HdStatus status = begin(&probe, shape->precision, tuples, report, error);
+    if (status != HD_OK)
+        return status;
+    status = run(renderer, &probe, tuples, error);
+    if (status == HD_OK && shape->group_size > 0)
+        compare_sums(&probe);
+    *only_rounding_differs = probe.only_rounding_differs;
+    free_probe(&probe);
+    return status;
+}
+
+/* What is still wrong then is told as it was without. */
+static void try_by_fma(HdRenderer *renderer, int tuples, HdProbeReport *report) {
+    HdKernelShape *shape = &hd_renderer_kernels(renderer)->shape;
+    HdProbeReport healed;
+    HdError ignored;
+    bool only_rounding_differs;
+    shape->rounds_by_fma = true;
+    HdStatus status = probe_once(renderer, tuples, &healed, &only_rounding_differs, &ignored);
+    shape->rounds_by_fma = status == HD_OK && healed.difference[0] == '\0';
+    if (shape->rounds_by_fma)
+        *report = healed;
+}
+
+HdStatus hd_probe(HdRenderer *renderer, int tuples, HdProbeReport *report, HdError *error) {
+    HdKernelCache *kernels = hd_renderer_kernels(renderer);
+    const HdDevice *device = hd_renderer_device(renderer);
+    bool only_rounding_differs = false;
+    HdStatus status = probe_once(renderer, tuples, report, &only_rounding_differs, error);
+    kernels->is_settled = false;
+    if (status != HD_OK)
+        return status;
+    if (report->difference[0] != '\0' && only_rounding_differs && !kernels->shape.rounds_by_fma)
+        try_by_fma(renderer, tuples, report);
+    report->rounds_by_fma = kernels->shape.rounds_by_fma;
+    kernels->is_settled = report->difference[0] == '\0';
+    HdArithmetic found = {.rounds_by_fma = report->rounds_by_fma};
+    snprintf(found.difference, sizeof found.difference, "%s", report->difference);
+    hd_arithmetic_remember(device->name, device->driver, kernels->shape.precision, &found);
+    return HD_OK;
+}
+
+HdStatus hd_probe_settle(HdRenderer *renderer, HdError *error) {
+    HdKernelCache *kernels = hd_renderer_kernels(renderer);
+    const HdDevice *device = hd_renderer_device(renderer);
+    HdArithmetic known;
+    HdProbeReport report;
+    if (kernels == NULL || kernels->is_settled || kernels->shape.math != HD_MATH_STRICT)
+        return HD_OK;
+    if (!hd_arithmetic_recall(device->name, device->driver, kernels->shape.precision, &known)) {
+        HdStatus status = hd_probe(renderer, HD_PROBE_QUICK, &report, error);
+        if (status != HD_OK)
+            return status;
+        known.rounds_by_fma = report.rounds_by_fma;
+        snprintf(known.difference, sizeof known.difference, "%s", report.difference);
+    }
+    kernels->shape.rounds_by_fma = known.rounds_by_fma;
+    kernels->is_settled = known.difference[0] == '\0';
+    if (kernels->is_settled)
+        return HD_OK;
+    hd_fail(
+        error, HD_UNAVAILABLE,
+        "%s (%s) computes wrongly: %s; another version of its driver or compiler may do better, "
+        "and --math fast does without",
+        device->name, device->driver, known.difference);
+    return hd_renderer_fail(renderer, HD_UNAVAILABLE, error);
+}

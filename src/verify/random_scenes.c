@@ -1,0 +1,505 @@
+/* SPDX-License-Identifier: MIT */
+#include "verify/random_scenes.h"
+
+#include <inttypes.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "input/check.h"
+#include "render/backends.h"
+#include "system/interrupt.h"
+#include "system/machine.h"
+#include "system/thread_pool.h"
+#include "verify/first_difference.h"
+#include "verify/scene_builder.h"
+#include "verify/trust.h"
+
+enum { WIDTH = 24, HEIGHT = 16, MOST_SOLIDS = 5, MOST_LIGHTS = 3 };
+/* Of planes that kernels have room for; a floor takes five, cubes the fewest of all solids. */
+enum { PLANES = 32, FLOOR_PLANES = 5, LEAST_PLANES = 3 };
+
+#define SHALLOW .plane_count = PLANES, .depth = 8
+#define DEEP    .plane_count = PLANES, .depth = 16
+#define MESHES  .node_stack = 32
+#define ALL     .refracts = true, .lit_from_behind = true, .many_lights = true
+/* What is small enough for constant memory is there (HdSceneTables.small_tables). */
+#define SMALL .small_tables = true
+
+/* Scenes of one kind are rendered by the same kernels. */
+typedef struct Kind {
+    const char *name;
+    HdSceneTables needs; /* what the kernels are built for (hd_scene_tables_raise) */
+    bool has_meshes, has_few_lights, has_many_lights, is_surveyed;
+} Kind;
+
+static const Kind kinds[] = {
+    {.name = "few lights", .needs = {SHALLOW, SMALL}, .has_few_lights = true},
+    {.name = "few lights from behind",
+     .needs = {SHALLOW, SMALL, .lit_from_behind = true},
+     .has_few_lights = true},
+    {.name = "refracting, few lights",
+     .needs = {SHALLOW, SMALL, .refracts = true},
+     .has_few_lights = true},
+    {.name = "deep and lit from behind",
+     .needs = {DEEP, SMALL, .lit_from_behind = true, .many_lights = true}},
+    {.name = "many lights",
+     .needs = {SHALLOW, SMALL, .many_lights = true},
+     .has_many_lights = true},
+    {.name = "many lights from behind",
+     .needs = {SHALLOW, SMALL, .lit_from_behind = true, .many_lights = true},
+     .has_many_lights = true},
+    {.name = "all solids can do", .needs = {SHALLOW, SMALL, ALL}},
+    {.name = "all, deep", .needs = {DEEP, SMALL, ALL}},
+    {.name = "meshes", .needs = {SHALLOW, SMALL, MESHES}, .has_meshes = true},
+    {.name = "meshes and all", .needs = {SHALLOW, SMALL, MESHES, ALL}, .has_meshes = true},
+    {.name = "surveyed", .needs = {SHALLOW, SMALL, ALL, .surveyed = true}, .is_surveyed = true},
+    {.name = "meshes in global memory, surveyed",
+     .needs = {SHALLOW, MESHES, ALL, .surveyed = true},
+     .has_meshes = true,
+     .is_surveyed = true},
+};
+
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+/* They take turns. */
+static int kind_of(uint64_t seed) {
+    return (int)(seed % KINDS);
+}
+
+/* ---- lots ---- */
+
+typedef struct Lots {
+    uint64_t state;
+    const Kind *kind;
+    int planes_left; /* for solids */
+} Lots;
+
+/* SplitMix64 (Steele, Lea and Flood 2014, Fast Splittable Pseudorandom Number Generators). */
+static uint64_t next(Lots *lots) {
+    uint64_t z = lots->state += 0x9e3779b97f4a7c15U;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebU;
+    return z ^ z >> 31;
+}
+
+static double from_to(Lots *lots, double least, double most) {
+    return least + (most - least) * (double)(next(lots) >> 11) * 0x1p-53;
+}
+
+static int below(Lots *lots, int count) {
+    return (int)(next(lots) % (uint64_t)count);
+}
+
+static bool chance(Lots *lots, double share) {
+    return from_to(lots, 0.0, 1.0) < share;
+}
+
+/* Arguments are not evaluated in any fixed order, lots are drawn in one. */
+static HdVec3 vector(Lots *lots, double least, double most) {
+    HdVec3 v;
+    v.x = from_to(lots, least, most);
+    v.y = from_to(lots, least, most);
+    v.z = from_to(lots, least, most);
+    return v;
+}
+
+/* ---- materials ---- */
+
+/* Reflection and transmission, which make 1 at most. */
+static void draw_shares(Lots *lots, double *reflection, double *transmission) {
+    *reflection = chance(lots, 0.3) ? 0.0 : from_to(lots, 0.0, 0.9);
+    *transmission = chance(lots, 0.15) ? 0.0 : from_to(lots, 0.0, 1.0 - *reflection);
+}
+
+static HdMaterial draw_material(Lots *lots, bool is_opaque) {
+    static const int exponents[] = {1, 2, 3, 7, 20, 64, 200, 1000};
+    HdMaterial material = build_material(vector(lots, 0.0, 1.0), 0.0, 0.0);
+    material.ambient = chance(lots, 0.25) ? from_to(lots, 0.0, 0.2) : 0.0;
+    material.diffuse = chance(lots, 0.9) ? from_to(lots, 0.0, 1.0) : 0.0;
+    material.specular = chance(lots, 0.5) ? from_to(lots, 0.0, 0.6) : 0.0;
+    material.shininess = exponents[below(lots, (int)(sizeof exponents / sizeof *exponents))];
+    if (chance(lots, 0.4))
+        material.mirror_tint = vector(lots, 0.5, 1.0);
+    draw_shares(lots, &material.reflection, &material.transmission);
+    material.has_inner_side = !is_opaque && chance(lots, 0.5);
+    if (material.has_inner_side)
+        draw_shares(lots, &material.inner_reflection, &material.inner_transmission);
+    material.lit_from_behind = lots->kind->needs.lit_from_behind && chance(lots, 0.6);
+    if (!is_opaque)
+        return material;
+    material.transmission = 0.0;
+    material.lit_from_behind = false;
+    return material;
+}
+
+/* ---- what there is to see ---- */
+
+static HdFalloff draw_falloff(Lots *lots) {
+    HdFalloff falloff = {0};
+    double size = from_to(lots, 2.0, 8.0);
+    int which = below(lots, 3);
+    falloff.distance = which == 1 ? size : 0.0;
+    falloff.end = which == 2 ? size : 0.0;
+    return falloff;
+}
+
+static void draw_edge_lights(Lots *lots, HdSolid *solid) {
+    HdEdgeLights *lights = &solid->lights;
+    *lights = (HdEdgeLights){.colour_count = 1};
+    lights->per_edge = lots->kind->has_many_lights ? 2 + below(lots, 5) : 1 + below(lots, 3);
+    if (lots->kind->has_few_lights)
+        lights->per_edge = 1;
+    lights->colour_count = 1 + below(lots, 2);
+    for (int i = 0; i < lights->colour_count; i++)
+        lights->colours[i] = vector(lots, 0.0, 1.0);
+    lights->intensity = from_to(lots, 0.05, 0.4) / (lots->kind->has_many_lights ? 8.0 : 1.0);
+    lights->falloff = draw_falloff(lots);
+    if (chance(lots, 0.7)) {
+        lights->disc_radius = from_to(lots, 0.005, 0.1) * solid->circumradius;
+        lights->disc_radiance = from_to(lots, 0.5, 2.0);
+    }
+}
+
+/* Solids that refract may touch nothing: then each has a sector of its own. */
+static void draw_place(Lots *lots, HdSolid *solid, int number) {
+    static const HdVec3 apart[MOST_SOLIDS] = {
+        {2.2, 0.0, 0.0}, {-2.2, 0.3, 0.2}, {0.0, 2.3, 0.4}, {0.2, -2.3, -0.2}, {0.0, 0.0, 2.4}};
+    solid->circumradius = from_to(lots, 0.5, 1.6);
+    solid->centre = vector(lots, -2.6, 2.6);
+    solid->centre.z = from_to(lots, 0.0, 2.2);
+    if (lots->kind->needs.refracts) {
+        solid->circumradius = from_to(lots, 0.5, 1.1);
+        solid->centre = apart[number];
+    }
+    if (chance(lots, 0.85))
+        solid->rotation_degrees = vector(lots, -180.0, 180.0);
+}
+
+static void draw_solid(Lots *lots, HdSolid *solid, int number) {
+    static const int planes[HD_SOLID_KIND_COUNT] = {4, LEAST_PLANES, 4, 6, 10};
+    *solid = (HdSolid){.lights = {.colour_count = 1}};
+    solid->kind = (HdSolidKind)below(lots, HD_SOLID_KIND_COUNT);
+    if (planes[solid->kind] > lots->planes_left - LEAST_PLANES * (MOST_SOLIDS - 1 - number))
+        solid->kind = HD_HEXAHEDRON;
+    lots->planes_left -= planes[solid->kind];
+    draw_place(lots, solid, number);
+    solid->face = draw_material(lots, false);
+    if (lots->kind->needs.refracts && chance(lots, 0.6))
+        solid->face.index_of_refraction = from_to(lots, 0.7, 2.4);
+    solid->rim = draw_material(lots, true);
+    if (chance(lots, 0.5))
+        solid->rim_width = from_to(lots, 0.02, 0.08) * solid->circumradius;
+    bool takes_lights =
+        !lots->kind->has_few_lights || (number < 2 && solid->kind == HD_TETRAHEDRON);
+    if (takes_lights && chance(lots, lots->kind->has_many_lights ? 0.9 : 0.6))
+        draw_edge_lights(lots, solid);
+}
+
+static bool draw_floor(Lots *lots, HdScene *scene) {
+    double x[4], y[4];
+    for (int i = 0; i < 4; i++) {
+        x[i] = (i == 1 || i == 2 ? 1.0 : -1.0) * from_to(lots, 3.5, 5.5);
+        y[i] = (i < 2 ? 1.0 : -1.0) * from_to(lots, 3.5, 5.5);
+    }
+    build_floor(scene, hd_vec3(x[0], y[0], -1.5), hd_vec3(x[1], y[1], -1.5),
+                hd_vec3(x[2], y[2], -1.5), hd_vec3(x[3], y[3], -1.5));
+    scene->floor.material = draw_material(lots, true);
+    return !chance(lots, 0.5) ||
+           build_texture(&scene->floor.texture, 3 + below(lots, 30), 2 + below(lots, 30));
+}
+
+static bool draw_mesh(Lots *lots, HdScene *scene, int number) {
+    HdMesh *mesh = &scene->meshes[number];
+    const HdMaterial first = draw_material(lots, false), second = draw_material(lots, false);
+    if (chance(lots, 0.3))
+        return build_cube_mesh(mesh, &first, &second);
+    int rows = 3 + below(lots, 5);
+    double bump = from_to(lots, 0.0, 0.3);
+    bool is_smooth = chance(lots, 0.5), is_mapped = chance(lots, 0.5);
+    if (!build_sphere_mesh(mesh, rows, bump, is_smooth, is_mapped, &first))
+        return false;
+    if (is_mapped)
+        mesh->materials[0].picture = number;
+    return true;
+}
+
+static bool draw_meshes(Lots *lots, HdScene *scene) {
+    int meshes = 1 + below(lots, 2), instances = meshes + below(lots, 3);
+    if (!build_meshes(scene, meshes, instances, meshes))
+        return false;
+    for (int i = 0; i < meshes; i++)
+        if (!build_texture(&scene->pictures[i].texture, 8, 5) || !draw_mesh(lots, scene, i))
+            return false;
+    for (int i = 0; i < instances; i++) {
+        HdVec3 place = vector(lots, -2.5, 2.5), rotation = vector(lots, -180.0, 180.0);
+        build_instance(scene, i, i < meshes ? i : below(lots, meshes), place, rotation,
+                       from_to(lots, 0.3, 1.1));
+        scene->instances[i].has_material = chance(lots, 0.3);
+        if (scene->instances[i].has_material)
+            scene->instances[i].material = draw_material(lots, false);
+    }
+    return finish_meshes(scene);
+}
+
+static void draw_light(Lots *lots, HdLight *light) {
+    light->position = vector(lots, -5.0, 5.0);
+    light->position.z = from_to(lots, 2.0, 6.0);
+    light->intensity = vector(lots, 0.0, 1.2);
+    light->falloff = draw_falloff(lots);
+}
+
+static void draw_picture(Lots *lots, HdScene *scene) {
+    scene->depth = lots->kind->needs.depth - below(lots, 3);
+    if (scene->depth > 8 || chance(lots, 0.4))
+        scene->cutoff = from_to(lots, 0.001, 0.02);
+    scene->background = vector(lots, 0.0, 0.4);
+    scene->exposure = chance(lots, 0.5) ? 1.0 : from_to(lots, 0.5, 2.0);
+    if (!lots->kind->is_surveyed)
+        return;
+    if (chance(lots, 0.7))
+        scene->sampling = HD_SAMPLING_ADAPTIVE;
+    if (scene->sampling != HD_SAMPLING_ADAPTIVE || chance(lots, 0.5)) {
+        scene->max_error = from_to(lots, 1.0, 16.0);
+        scene->cutoff = 0.0;
+    }
+}
+
+static bool draw_scene(Lots *lots, HdScene *scene, HdCamera *camera) {
+    int solids = lots->kind->has_meshes ? below(lots, 3) : 1 + below(lots, MOST_SOLIDS);
+    int lights = below(lots, MOST_LIGHTS + 1);
+    int samples = lots->kind->is_surveyed ? 2 + below(lots, 2) : 1 + below(lots, 2);
+    if (!build_scene(scene, WIDTH, HEIGHT, samples, 0, solids, lights))
+        return false;
+    draw_picture(lots, scene);
+    lots->planes_left = PLANES - FLOOR_PLANES;
+    for (int i = 0; i < solids; i++)
+        draw_solid(lots, &scene->solids[i], i);
+    for (int i = 0; i < lights; i++)
+        draw_light(lots, &scene->lights[i]);
+    if ((chance(lots, 0.8) && !draw_floor(lots, scene)) ||
+        (lots->kind->has_meshes && !draw_meshes(lots, scene)))
+        return false;
+    HdVec3 eye = vector(lots, -5.5, 5.5), target = vector(lots, -0.8, 0.8);
+    eye.z = from_to(lots, -0.5, 4.5);
+    build_camera(camera, eye, target, from_to(lots, 40.0, 100.0));
+    return true;
+}
+
+/* The same on every machine. Most are valid; for those that are not, lots are drawn anew. */
+static HdStatus build_random(uint64_t seed, HdScene *scene, HdCamera *camera, HdError *error) {
+    HdError ignored;
+    Lots lots = {.state = seed, .kind = &kinds[kind_of(seed)]};
+    for (;;) {
+        if (!draw_scene(&lots, scene, camera)) {
+            hd_scene_free(scene);
+            return hd_fail(error, HD_FAILED,
+                           "out of memory: no room for the scene of seed %" PRIu64, seed);
+        }
+        if (hd_scene_validate(scene, &ignored) == HD_OK)
+            return HD_OK;
+        hd_scene_free(scene);
+    }
+}
+
+/* ---- the test ---- */
+
+enum { DEVICE, PLAIN_C, SIDES };
+enum { ANY = -1, MOST_WORKERS = 16 };
+
+typedef struct Worker {
+    HdRenderer *renderers[SIDES];
+    int kind; /* whose kernels the device's renderer has; ANY: none yet */
+} Worker;
+
+typedef struct Run {
+    const HdRandomTest *test;
+    HdDevice plain;
+    Worker *workers;
+    int worker_count;
+    pthread_mutex_t mutex; /* of what follows, and so that kernels are compiled once */
+    HdRandomResult *result;
+    HdStatus status; /* the first failure's */
+    HdError *error;
+    atomic_bool has_failed; /* then nothing more is begun */
+} Run;
+
+/* Pixels of a surveyed scene have other sizes: kernels for them are for no other scene. */
+static const HdSceneTables *needs_of(const HdRandomTest *test, int kind) {
+    static const HdSceneTables general = {.plane_count = 32,
+                                          .depth = 32,
+                                          .node_stack = 32,
+                                          .refracts = true,
+                                          .lit_from_behind = true};
+    return test->general ? &general : &kinds[kind].needs;
+}
+
+/* ---- one scene ---- */
+
+static HdStatus render(const Run *run, HdRenderer *renderer, const HdScene *scene,
+                       const HdCamera *camera, int kind, uint64_t *hash, HdError *error) {
+    HdFrame frame;
+    HdStatus status =
+        hd_put_and_render(renderer, scene, camera, needs_of(run->test, kind), 0, &frame, error);
+    if (status != HD_OK)
+        return status;
+    *hash = hd_frame_hash(&frame);
+    hd_frame_free(&frame);
+    return HD_OK;
+}
+
+/* The first renderer that needs kernels compiles them and keeps them for the others. */
+static HdStatus render_on_device(Run *run, Worker *worker, const HdScene *scene,
+                                 const HdCamera *camera, int kind, uint64_t *hash, HdError *error) {
+    bool has_kernels = worker->kind == kind;
+    if (!has_kernels)
+        pthread_mutex_lock(&run->mutex);
+    HdStatus status = render(run, worker->renderers[DEVICE], scene, camera, kind, hash, error);
+    if (!has_kernels)
+        pthread_mutex_unlock(&run->mutex);
+    worker->kind = kind;
+    return status;
+}
+
+static HdStatus compare(Run *run, Worker *worker, uint64_t seed, bool *differs, HdError *error) {
+    HdScene scene;
+    HdCamera camera;
+    uint64_t found = 0, expected = 0;
+    int kind = kind_of(seed);
+    HdStatus status = build_random(seed, &scene, &camera, error);
+    if (status != HD_OK)
+        return status;
+    status = render_on_device(run, worker, &scene, &camera, kind, &found, error);
+    if (status == HD_OK)
+        status = render(run, worker->renderers[PLAIN_C], &scene, &camera, kind, &expected, error);
+    hd_scene_free(&scene);
+    *differs = found != expected;
+    return status;
+}
+
+/* ---- all of them ---- */
+
+static void note(Run *run, uint64_t seed, HdStatus status, bool differs, const HdError *error) {
+    HdRandomResult *result = run->result;
+    pthread_mutex_lock(&run->mutex);
+    if (status != HD_OK && run->status == HD_OK) {
+        run->status = status;
+        *run->error = *error;
+        run->has_failed = true;
+    }
+    result->scenes += status == HD_OK;
+    if (status == HD_OK && differs) {
+        if (result->different == 0 || seed < result->first_seed)
+            result->first_seed = seed;
+        result->different++;
+    }
+    pthread_mutex_unlock(&run->mutex);
+}
+
+/* Scene by scene of a kind, since its kernels are at hand. */
+static void work(void *context, int thread, int number) {
+    Run *run = context;
+    const HdRandomTest *test = run->test;
+    (void)thread;
+    for (int kind = 0; kind < KINDS; kind++)
+        for (int i = number; i < test->scenes; i += run->worker_count) {
+            HdError error;
+            uint64_t seed = test->seed + (uint64_t)i;
+            bool differs = false;
+            if (kind_of(seed) != kind || (test->kind != ANY && test->kind != kind))
+                continue;
+            HdStatus status = hd_interrupt_signal() != 0
+                                  ? hd_fail(&error, HD_INTERRUPTED, "interrupted")
+                                  : compare(run, &run->workers[number], seed, &differs, &error);
+            note(run, seed, status, differs, &error);
+            if (run->has_failed)
+                return;
+        }
+}
+
+static bool has_failed(const void *context) {
+    return ((const Run *)context)->has_failed;
+}
+
+static HdStatus open_workers(Run *run, HdError *error) {
+    const HdRandomTest *test = run->test;
+    const HdRenderOptions plain = {.precision = test->options.precision, .threads = 1};
+    HdRenderOptions options = test->options;
+    options.test.keeps_pipeline = true;
+    HdStatus status = HD_OK;
+    for (int i = 0; status == HD_OK && i < run->worker_count; i++) {
+        Worker *worker = &run->workers[i];
+        worker->kind = ANY;
+        status = hd_renderer_open(&worker->renderers[DEVICE], test->device, &options, error);
+        if (status == HD_OK)
+            status = hd_renderer_open(&worker->renderers[PLAIN_C], &run->plain, &plain, error);
+    }
+    return status;
+}
+
+static void close_workers(Run *run) {
+    for (int i = 0; i < run->worker_count; i++)
+        for (int side = 0; side < SIDES; side++)
+            hd_renderer_close(run->workers[i].renderers[side]);
+}
+
+static HdStatus run_workers(Run *run, HdError *error) {
+    HdThreadPool *pool;
+    HdStatus status = open_workers(run, error);
+    if (status == HD_OK)
+        status = hd_thread_pool_create(&pool, run->worker_count, error);
+    if (status == HD_OK) {
+        hd_thread_pool_run(pool, run->worker_count, work, run, has_failed);
+        hd_thread_pool_destroy(pool);
+        status = run->status;
+    }
+    close_workers(run);
+    return status;
+}
+
+/* ---- what differs ---- */
+
+static HdStatus build(const void *what, HdScene *scene, HdCamera *camera, HdError *error) {
+    const HdRandomResult *result = what;
+    return build_random(result->first_seed, scene, camera, error);
+}
+
+/* Where the search fails, that a scene differs is told all the same. */
+static HdStatus tell_difference(const HdRandomTest *test, HdRandomResult *result, HdError *error) {
+    char text[sizeof result->text / 2];
+    int kind = kind_of(result->first_seed);
+    const HdDispute dispute = {test->device, &test->options, needs_of(test, kind), build, result};
+    HdStatus status = hd_first_difference(&dispute, text, sizeof text, error);
+    snprintf(result->text, sizeof result->text, "the scene of seed %" PRIu64 " (%s): %s%.400s",
+             result->first_seed, kinds[kind].name,
+             status != HD_OK   ? "where it differs could not be found out: "
+             : text[0] != '\0' ? ""
+                               : "asked again it renders as plain C does",
+             status != HD_OK ? error->message : text);
+    return status == HD_INTERRUPTED ? status : HD_OK;
+}
+
+HdStatus hd_random_test(const HdRandomTest *test, HdRandomResult *result, HdError *error) {
+    Run run = {.test = test, .result = result, .error = error};
+    int count;
+    *result = (HdRandomResult){0};
+    HdStatus status = hd_backend_enumerate(hd_backend_always_there(), &run.plain, 1, &count, error);
+    if (status != HD_OK)
+        return status;
+    run.worker_count = test->threads > 0 ? test->threads : hd_processor_count();
+    if (run.worker_count > MOST_WORKERS)
+        run.worker_count = MOST_WORKERS;
+    run.workers = calloc((size_t)run.worker_count, sizeof *run.workers);
+    if (run.workers == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for %d threads", run.worker_count);
+    pthread_mutex_init(&run.mutex, NULL);
+    status = run_workers(&run, error);
+    pthread_mutex_destroy(&run.mutex);
+    free(run.workers);
+    if (status == HD_INTERRUPTED || result->different == 0)
+        return status;
+    HdError later; /* the first failure is told */
+    HdStatus told = tell_difference(test, result, &later);
+    return status == HD_OK ? told : status;
+}
