@@ -36,7 +36,6 @@ static void tell(HdViewSide *side, const char *device) {
     pthread_mutex_lock(&side->mutex);
     snprintf(side->told, sizeof side->told, "%s", device);
     pthread_mutex_unlock(&side->mutex);
-    side->wake(side->context);
 }
 
 /* Rows of radiance become rows of the picture, which keeps its others. */
@@ -52,7 +51,6 @@ static HdStatus show_rows(HdViewSide *side, const HdFrame *frame, int top, int h
         side->has_news = true;
     }
     pthread_mutex_unlock(&side->mutex);
-    side->wake(side->context);
     return status;
 }
 
@@ -255,7 +253,6 @@ static void fulfil(HdViewSide *side, const HdViewWish *wish, int serial) {
     snprintf(side->problem, sizeof side->problem, "%.4000s", status == HD_OK ? "" : error.message);
     pthread_cond_broadcast(&side->changed);
     pthread_mutex_unlock(&side->mutex);
-    side->wake(side->context);
 }
 
 static bool take_wish(HdViewSide *side, HdViewWish *wish, int *serial) {
@@ -411,10 +408,9 @@ static void take_file(HdViewSide *side, const HdSceneFile *file) {
     side->files = hash_files(side->plan.scene.path, &side->file);
 }
 
-HdStatus hd_view_side_open(HdViewSide *side, const HdViewPlan *plan, void (*wake)(void *context),
-                           void *context, HdError *error) {
+HdStatus hd_view_side_open(HdViewSide *side, const HdViewPlan *plan, HdError *error) {
     HdSceneFile file;
-    *side = (HdViewSide){.plan = *plan, .wake = wake, .context = context};
+    *side = (HdViewSide){.plan = *plan};
     HdStatus status = read_file(side, &file, error);
     if (status != HD_OK)
         return status;

@@ -36,8 +36,6 @@ typedef struct HdViewSide {
     uint64_t files;     /* as they were when read last */
     char mistake[4096]; /* why the last reading failed; "": it did not */
     HdViewImage image;
-    void (*wake)(void *context); /* on the thread, whenever there is something new */
-    void *context;
     pthread_t thread;
     bool has_thread;
     bool is_opened;    /* the device is that of the plan */
@@ -60,8 +58,7 @@ typedef struct HdViewSide {
 } HdViewSide;
 
 /* Reads the scene and starts the thread. On failure nothing is open. */
-HdStatus hd_view_side_open(HdViewSide *side, const HdViewPlan *plan, void (*wake)(void *context),
-                           void *context, HdError *error);
+HdStatus hd_view_side_open(HdViewSide *side, const HdViewPlan *plan, HdError *error);
 
 /* Reads the scene again if a file has changed; true where it did. With a mistake in it the side
    keeps what it had. */

@@ -17,8 +17,6 @@
 #include "view/viewer.h"
 
 enum {
-    MOVING_WAIT_MS = 4,
-    IDLE_WAIT_MS = 100,
     ANSWER_WAIT_MS = 1000,
     USUAL_CELL_WIDTH = 8, /* where the terminal does not tell */
     SYMBOL_WIDTH = 2,     /* pixels that a symbol shows beside each other */
@@ -41,8 +39,7 @@ typedef struct Terminal {
     ChafaSymbolMap *symbols; /* owned */
     ChafaPixelMode protocol; /* of pictures */
     int columns, rows, cell_width, cell_height;
-    Area area;    /* of the picture */
-    int wakes[2]; /* a pipe, by which workers wake the loop */
+    Area area; /* of the picture */
     HdViewer *viewer;
     int version; /* of the picture that is shown */
     int line_count;
@@ -145,10 +142,10 @@ static HdStatus find_sequences(Terminal *t, HdError *error) {
 
 /* ---- keys ---- */
 
-/* An escape sequence counts as a whole; what is no arrow does nothing. */
+/* Waits for some; an escape sequence counts as a whole; what is no arrow does nothing. */
 static void take_keys(Terminal *t) {
     char bytes[256];
-    const int count = receive(t, bytes, (int)sizeof bytes, 0);
+    const int count = receive(t, bytes, (int)sizeof bytes, hd_viewer_wait_ms(t->viewer));
     const double now = hd_monotonic_seconds();
     for (int i = 0; i < count; i++) {
         int key = (unsigned char)bytes[i];
@@ -284,28 +281,11 @@ static HdStatus draw(Terminal *t, HdError *error) {
 
 /* ---- the loop ---- */
 
-static void wake(void *context) {
-    const Terminal *t = context;
-    (void)!write(t->wakes[1], "", 1);
-}
-
-static void wait_for_more(Terminal *t) {
-    char bytes[64];
-    const bool is_moving = hd_viewer_is_moving(t->viewer, hd_monotonic_seconds());
-    struct pollfd entries[2] = {{.fd = t->file, .events = POLLIN},
-                                {.fd = t->wakes[0], .events = POLLIN}};
-    poll(entries, 2, is_moving ? MOVING_WAIT_MS : IDLE_WAIT_MS);
-    while (read(t->wakes[0], bytes, sizeof bytes) > 0)
-        continue;
-    if ((entries[0].revents & POLLIN) != 0)
-        take_keys(t);
-}
-
 static HdStatus run(Terminal *t, HdError *error) {
     HdStatus status = HD_OK;
     while (status == HD_OK && hd_viewer_tick(t->viewer, hd_monotonic_seconds())) {
         status = draw(t, error);
-        wait_for_more(t);
+        take_keys(t);
         if (hd_interrupt_signal() != 0)
             return hd_fail(error, HD_INTERRUPTED, "interrupted");
     }
@@ -332,9 +312,6 @@ static HdStatus open_terminal(Terminal *t, HdError *error) {
                        strerror(errno));
     if (tcgetattr(t->file, &t->before) != 0)
         return hd_fail(error, HD_UNAVAILABLE, "--terminal needs a terminal: %s", strerror(errno));
-    if (pipe(t->wakes) != 0 || fcntl(t->wakes[0], F_SETFL, O_NONBLOCK) != 0 ||
-        fcntl(t->wakes[1], F_SETFL, O_NONBLOCK) != 0)
-        return hd_fail(error, HD_FAILED, "cannot make a pipe: %s", strerror(errno));
     return HD_OK;
 }
 
@@ -366,9 +343,6 @@ static void give_terminal_back(Terminal *t) {
 static void close_terminal(Terminal *t) {
     give_terminal_back(t);
     hd_viewer_close(t->viewer);
-    for (int i = 0; i < 2; i++)
-        if (t->wakes[i] >= 0)
-            close(t->wakes[i]);
     if (t->file >= 0)
         close(t->file);
     fputs(t->said->str, stdout);
@@ -381,8 +355,8 @@ static void close_terminal(Terminal *t) {
 }
 
 HdStatus hd_view_in_terminal(const HdViewPlan *plan, HdError *error) {
-    Terminal t = {.file = -1, .wakes = {-1, -1}, .version = -1, .said = g_string_new(NULL)};
-    const HdViewHost host = {wake, say, &t};
+    Terminal t = {.file = -1, .version = -1, .said = g_string_new(NULL)};
+    const HdViewHost host = {say, &t};
     HdStatus status = open_terminal(&t, error);
     if (status == HD_OK)
         status = hd_viewer_open(&t.viewer, plan, &host, error);

@@ -124,12 +124,12 @@ static HdDetail most_detail(const HdViewer *viewer) {
     return full;
 }
 
-static void wish_for(HdViewer *viewer, bool is_moving) {
+static void wish_for(HdViewer *viewer, bool quickly) {
     HdError error;
-    HdViewWish wish = {.is_moving = is_moving};
+    HdViewWish wish = {.is_moving = quickly};
     const HdDetail full = most_detail(viewer);
     viewer->asked = viewer->change;
-    viewer->settling = is_moving ? 0 : viewer->change;
+    viewer->settling = quickly ? 0 : viewer->change;
     if (find_camera(viewer, &wish.camera, &error) != HD_OK) {
         snprintf(viewer->note, sizeof viewer->note, "%.500s", error.message);
         return;
@@ -139,8 +139,12 @@ static void wish_for(HdViewer *viewer, bool is_moving) {
         hd_view_side_show(&viewer->sides[i], &wish);
 }
 
-bool hd_viewer_is_moving(const HdViewer *viewer, double now) {
-    return viewer->is_playing || now - viewer->moved < STILL_SECONDS;
+static bool is_moving(const HdViewer *viewer) {
+    return viewer->is_playing || viewer->now - viewer->moved < STILL_SECONDS;
+}
+
+int hd_viewer_wait_ms(HdViewer *viewer) {
+    return !all_idle(viewer) ? 1 : is_moving(viewer) ? 4 : 100;
 }
 
 /* A moving picture that is under way is waited for, so that pictures come; a whole one is not. */
@@ -148,8 +152,7 @@ static void ask_workers(HdViewer *viewer) {
     const bool idle = all_idle(viewer);
     if (viewer->asked != viewer->change && (idle || viewer->settling != 0))
         wish_for(viewer, true);
-    else if (idle && viewer->settling != viewer->change &&
-             !hd_viewer_is_moving(viewer, viewer->now))
+    else if (idle && viewer->settling != viewer->change && !is_moving(viewer))
         wish_for(viewer, false);
 }
 
@@ -276,8 +279,7 @@ static void split(HdViewer *viewer, int by) {
     if (viewer->side_count == 2)
         hd_view_side_close(&viewer->sides[1]);
     else
-        status = hd_view_side_open(&viewer->sides[1], &first->plan, viewer->host.wake,
-                                   viewer->host.context, &error);
+        status = hd_view_side_open(&viewer->sides[1], &first->plan, &error);
     if (status != HD_OK)
         snprintf(viewer->note, sizeof viewer->note, "%.500s", error.message);
     viewer->side_count = status == HD_OK && viewer->side_count == 1 ? 2 : 1;
@@ -575,7 +577,7 @@ HdStatus hd_viewer_open(HdViewer **viewer, const HdViewPlan *plan, const HdViewH
     v->gain = FIRST_GAIN;
     v->change = 1;
     v->side_count = 1;
-    HdStatus status = hd_view_side_open(&v->sides[0], plan, host->wake, host->context, error);
+    HdStatus status = hd_view_side_open(&v->sides[0], plan, error);
     if (status == HD_OK)
         *viewer = v;
     else

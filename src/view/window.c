@@ -7,12 +7,13 @@
 
 #include <SDL.h>
 
+#include "base/minmax.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "view/viewer.h"
 
 /* Smaller scenes get a window of this width at least. */
-enum { LEAST_WIDTH = 960, MARGIN = 6, MOVING_WAIT_MS = 4, IDLE_WAIT_MS = 100 };
+enum { LEAST_WIDTH = 960, MARGIN = 6 };
 
 /* Seconds after which a held arrow glides, and how fast: shares of the picture's width in one. */
 #define GLIDE_AFTER 0.2
@@ -31,9 +32,10 @@ typedef struct Window {
     int picture_width, picture_height, text_width, text_height;
     Canvas canvas; /* of the text; its pixels are owned */
     HdViewer *viewer;
-    Uint32 woken;    /* type of the event by which workers wake the window */
-    int version;     /* of the picture that is shown */
-    bool is_changed; /* something else than the picture is */
+    int version;                             /* of the picture that is shown */
+    char lines[HD_VIEW_LINES][HD_VIEW_LINE]; /* that are shown */
+    int line_count;
+    bool is_changed; /* something else than picture and lines is */
     int held;        /* arrow key that is down; 0: none */
     double held_from, glided;
 } Window;
@@ -158,35 +160,45 @@ static HdStatus fit_text(Window *w, int width, int height, HdError *error) {
 static HdStatus draw_text(Window *w, int width, int height, HdError *error) {
     static const uint8_t ground[4] = {8, 10, 16, 190}, ink[4] = {235, 240, 245, 255},
                          alarm[4] = {255, 140, 120, 255}, clear[4] = {0, 0, 0, 0};
-    char lines[HD_VIEW_LINES][HD_VIEW_LINE];
-    const int count = hd_viewer_lines(w->viewer, lines);
+    const int count = w->line_count;
     const int scale = width >= 1600 ? 3 : width >= 800 ? 2 : 1;
     const bool is_split = hd_viewer_is_split(w->viewer);
     const int room = is_split ? width / 2 : width;
     const int fitting = scale > 1 && room < HD_VIEW_LINE * LETTER_WIDTH * scale ? scale - 1 : scale;
     const int left = is_split ? width / 2 : 0, top = is_split ? height / 2 : 0;
     HdStatus status = fit_text(w, width, height, error);
-    size_t longest = 0;
+    int longest = 0;
     if (status != HD_OK)
         return status;
     fill(&w->canvas, 0, 0, width, height, clear);
     for (int i = 0; i < count; i++)
-        longest = SDL_strlen(lines[i]) > longest ? SDL_strlen(lines[i]) : longest;
+        longest = hd_max(longest, (int)strlen(w->lines[i]));
     if (count > 0)
-        fill(&w->canvas, left, top, (int)longest * LETTER_WIDTH * fitting + 2 * MARGIN,
+        fill(&w->canvas, left, top, longest * LETTER_WIDTH * fitting + 2 * MARGIN,
              count * LETTER_HEIGHT * fitting + 2 * MARGIN, ground);
     for (int i = 0; i < count; i++)
-        write_text(&w->canvas, lines[i], left + MARGIN, top + MARGIN + i * LETTER_HEIGHT * fitting,
-                   fitting, lines[i][0] == '!' ? alarm : ink);
+        write_text(&w->canvas, w->lines[i], left + MARGIN,
+                   top + MARGIN + i * LETTER_HEIGHT * fitting, fitting,
+                   w->lines[i][0] == '!' ? alarm : ink);
     SDL_UpdateTexture(w->text, NULL, w->canvas.rgba, 4 * width);
     return HD_OK;
+}
+
+/* Whether the lines are other than those that are shown, whose place they take. */
+static bool update_lines(Window *w) {
+    char lines[HD_VIEW_LINES][HD_VIEW_LINE] = {{0}};
+    w->line_count = hd_viewer_lines(w->viewer, lines);
+    const bool is_new = memcmp(lines, w->lines, sizeof lines) != 0;
+    memcpy(w->lines, lines, sizeof lines);
+    return is_new;
 }
 
 static HdStatus draw(Window *w, HdError *error) {
     int width, height;
     const int before = w->version;
     HdStatus status = update_picture(w, error);
-    if (status != HD_OK || (before == w->version && !w->is_changed))
+    w->is_changed = update_lines(w) || w->is_changed || before != w->version;
+    if (status != HD_OK || !w->is_changed)
         return status;
     w->is_changed = false;
     SDL_GetRendererOutputSize(w->renderer, &width, &height);
@@ -269,8 +281,7 @@ static HdStatus run(Window *w, HdError *error) {
     while (status == HD_OK && hd_viewer_tick(w->viewer, hd_monotonic_seconds())) {
         status = draw(w, error);
         SDL_Event event;
-        const bool is_moving = hd_viewer_is_moving(w->viewer, hd_monotonic_seconds());
-        if (SDL_WaitEventTimeout(&event, is_moving ? MOVING_WAIT_MS : IDLE_WAIT_MS) != 0)
+        if (SDL_WaitEventTimeout(&event, hd_viewer_wait_ms(w->viewer)) != 0)
             do
                 take_event(w, &event);
             while (SDL_PollEvent(&event) != 0);
@@ -282,12 +293,6 @@ static HdStatus run(Window *w, HdError *error) {
 }
 
 /* ---- from open to close ---- */
-
-static void wake(void *context) {
-    const Window *w = context;
-    SDL_Event event = {.type = w->woken};
-    SDL_PushEvent(&event);
-}
 
 static void say(void *context, const char *lines) {
     (void)context;
@@ -311,7 +316,7 @@ static HdStatus open_window(Window *w, HdError *error) {
 }
 
 static HdStatus show(Window *w, const HdViewPlan *plan, HdError *error) {
-    const HdViewHost host = {wake, say, w};
+    const HdViewHost host = {say, NULL};
     w->is_changed = true;
     HdStatus status = hd_viewer_open(&w->viewer, plan, &host, error);
     if (status == HD_OK)
@@ -341,7 +346,6 @@ HdStatus hd_view_in_window(const HdViewPlan *plan, HdError *error) {
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     SDL_SetHint(SDL_HINT_RENDER_SCALE_QUALITY, "linear");
     HdStatus status = open_display(error);
-    w.woken = SDL_RegisterEvents(1);
     if (status == HD_OK)
         status = show(&w, plan, error);
     free(w.canvas.rgba);
