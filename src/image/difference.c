@@ -209,7 +209,8 @@ static void free_map(HdHeatMap *map) {
 
 HdStatus hd_heat_map_open(HdHeatMap **out, const char *path, int width, int height,
                           HdError *error) {
-    const HdPngFacts facts = {.width = width, .height = height, .bits = 8, .is_srgb = true};
+    const HdPictureFacts facts = {
+        .width = width, .height = height, .bits = 8, .curve = HD_CURVE_SRGB};
     HdHeatMap *map = calloc(1, sizeof *map);
     uint8_t *row = malloc((size_t)width * 3);
     if (map == NULL || row == NULL) {

@@ -16,26 +16,30 @@ typedef struct PfmRows {
     const char *path; /* the caller's; for messages */
     int width, height, next;
     int64_t begin; /* of the values */
-    bool is_big_endian;
+    bool is_big_endian, is_grey;
 } PfmRows;
 
 static bool begins(const unsigned char *bytes, size_t size) {
     return size >= 2 && (memcmp(bytes, "PF", 2) == 0 || memcmp(bytes, "Pf", 2) == 0);
 }
 
-static HdStatus fail_head(const char *path, HdError *error) {
+static HdStatus fail_head(const PfmRows *rows, HdError *error) {
+    if (rows->is_grey)
+        return hd_fail(error, HD_BAD_INPUT, "%s is a PFM without colour, expected one with r, g, b",
+                       rows->path);
     return hd_fail(error, HD_BAD_INPUT,
                    "cannot read %s as PFM: expected the lines PF, WIDTH HEIGHT (1..%d each) and "
                    "-1.0 or 1.0",
-                   path, HD_MAX_IMAGE_SIDE);
+                   rows->path, HD_MAX_IMAGE_SIDE);
 }
 
 /* The scale's sign is the byte order; its size has no agreed meaning, so that 1 alone is taken. One
    byte of white space comes before the values. */
 static bool read_head(PfmRows *rows) {
-    char text[96], *at, *end;
+    char text[96] = "", *at, *end;
     size_t count = fread(text, 1, sizeof text - 1, rows->file);
     text[count] = '\0';
+    rows->is_grey = text[1] == 'f';
     if (strncmp(text, "PF\n", 3) != 0)
         return false;
     long width = strtol(text + 3, &at, 10);
@@ -63,15 +67,6 @@ static HdStatus check_size(const PfmRows *rows, HdError *error) {
     return HD_OK;
 }
 
-static HdStatus read_begin(PfmRows *rows, HdError *error) {
-    const bool is_grey = getc(rows->file) == 'P' && getc(rows->file) == 'f';
-    rewind(rows->file);
-    if (is_grey)
-        return hd_fail(error, HD_BAD_INPUT, "%s is a PFM without colour, expected one with r, g, b",
-                       rows->path);
-    return read_head(rows) ? check_size(rows, error) : fail_head(rows->path, error);
-}
-
 static HdStatus open_rows(void **out, FILE *file, const char *path, HdPictureFacts *facts,
                           HdError *error) {
     PfmRows *rows = calloc(1, sizeof *rows);
@@ -79,7 +74,7 @@ static HdStatus open_rows(void **out, FILE *file, const char *path, HdPictureFac
         return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", path);
     rows->file = file;
     rows->path = path;
-    const HdStatus status = read_begin(rows, error);
+    const HdStatus status = read_head(rows) ? check_size(rows, error) : fail_head(rows, error);
     *facts = (HdPictureFacts){.width = rows->width, .height = rows->height, .bits = 32};
     if (status == HD_OK)
         *out = rows;

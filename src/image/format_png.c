@@ -32,7 +32,7 @@ typedef struct PngReader {
     FILE *file;
     size_t allowed;   /* to be read still */
     const char *name; /* for messages */
-    HdPngFacts facts;
+    HdPictureFacts facts;
     bool is_interlaced;
     int passes; /* over the same rows */
     int next;
@@ -101,7 +101,8 @@ static bool try_head(PngReader *reader) {
     limit_reading(png);
     png_read_info(png, info);
     reader->is_interlaced = png_get_interlace_type(png, info) != PNG_INTERLACE_NONE;
-    reader->facts.is_srgb = png_get_valid(png, info, PNG_INFO_sRGB) != 0;
+    reader->facts.curve =
+        png_get_valid(png, info, PNG_INFO_sRGB) != 0 ? HD_CURVE_SRGB : HD_CURVE_LINEAR;
     convert_to_rgb(png);
     reader->passes = png_set_interlace_handling(png);
     png_read_update_info(png, info);
@@ -221,7 +222,8 @@ static int make_texts(const HdPictureLabel *label, char number[NUMBER_SIZE],
 
 /* Frames are many and short-lived. After the filter what repeats is mostly zeros, and looking for
    nothing else is both faster and smaller than level 1. */
-static bool try_begin(HdPngWriter *writer, const HdPngFacts *facts, png_text *texts, int count) {
+static bool try_begin(HdPngWriter *writer, const HdPictureFacts *facts, png_text *texts,
+                      int count) {
     png_structp png = writer->png;
     if (setjmp(png_jmpbuf(png)) != 0)
         return false;
@@ -231,7 +233,7 @@ static bool try_begin(HdPngWriter *writer, const HdPngFacts *facts, png_text *te
     png_set_IHDR(png, writer->info, (png_uint_32)facts->width, (png_uint_32)facts->height,
                  facts->bits, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
-    if (facts->is_srgb)
+    if (facts->curve == HD_CURVE_SRGB)
         png_set_sRGB(png, writer->info, PNG_sRGB_INTENT_PERCEPTUAL);
     else
         png_set_gAMA_fixed(png, writer->info, PNG_GAMMA_LINEAR);
@@ -298,8 +300,8 @@ static HdStatus status_of(bool good, const HdPngWriter *writer, HdError *error) 
                 : hd_fail(error, HD_FAILED, "cannot write %s: %s", writer->path, writer->message);
 }
 
-HdStatus hd_png_begin(HdPngWriter **out, FILE *stream, const char *path, const HdPngFacts *facts,
-                      const HdPictureLabel *label, HdError *error) {
+HdStatus hd_png_begin(HdPngWriter **out, FILE *stream, const char *path,
+                      const HdPictureFacts *facts, const HdPictureLabel *label, HdError *error) {
     char number[NUMBER_SIZE];
     png_text texts[MAX_TEXTS];
     const int count = make_texts(label, number, texts);
@@ -372,7 +374,7 @@ static HdStatus open_bytes(PngReader **reader, const unsigned char *bytes, size_
     if (file == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
     const HdStatus status = open_reader(reader, file, name, error);
-    if (status != HD_OK)
+    if (*reader == NULL)
         fclose(file);
     return status;
 }
@@ -384,11 +386,11 @@ static void close_bytes(PngReader *reader) {
 
 static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                        const char *name, HdCurve curve, HdError *error) {
-    PngReader *reader;
+    PngReader *reader = NULL; /* stays so on failure */
     HdStatus status = create_texture(texture, bytes, size, name, error);
     if (status == HD_OK)
         status = open_bytes(&reader, bytes, size, name, error);
-    if (status != HD_OK)
+    if (reader == NULL)
         return status;
     status = read_rows(reader, texture->texels, texture->height, error);
     if (status == HD_OK)
@@ -423,11 +425,11 @@ static HdStatus load_rows(HdFrame *frame, PngReader *reader, const char *name, H
 
 static HdStatus load(HdFrame *frame, const unsigned char *bytes, size_t size, const char *name,
                      HdError *error) {
-    PngReader *reader;
+    PngReader *reader = NULL; /* stays so on failure */
     HdStatus status = open_bytes(&reader, bytes, size, name, error);
-    if (status != HD_OK)
+    if (reader == NULL)
         return status;
-    const HdPngFacts *facts = &reader->facts;
+    const HdPictureFacts *facts = &reader->facts;
     if (facts->width != frame->width || facts->height != frame->height || facts->bits != 8 ||
         reader->is_interlaced)
         status = hd_fail(error, HD_FAILED,
@@ -478,18 +480,16 @@ static HdStatus write_rows(HdPngWriter *writer, const HdFrame *frame, const HdPi
 static HdStatus write_frame(const HdFrame *frame, const HdPictureStyle *style,
                             const HdPictureLabel *label, FILE *stream, const char *path,
                             HdError *error) {
-    const HdPngFacts facts = {.width = frame->width,
-                              .height = frame->height,
-                              .bits = style->bits,
-                              .is_srgb = style->curve == HD_CURVE_SRGB};
-    HdPngWriter *writer = NULL;
+    const HdPictureFacts facts = {
+        .width = frame->width, .height = frame->height, .bits = style->bits, .curve = style->curve};
+    HdPngWriter *writer = NULL; /* stays so on failure */
     uint16_t *row = malloc((size_t)frame->width * 3 * sizeof *row);
     if (row == NULL)
         return hd_fail(error, HD_FAILED, "cannot write %s: out of memory", path);
     HdStatus status = hd_png_begin(&writer, stream, path, &facts, label, error);
-    if (status == HD_OK)
+    if (writer != NULL)
         status = write_rows(writer, frame, style, row, error);
-    if (status == HD_OK)
+    if (writer != NULL && status == HD_OK)
         status = hd_png_end(writer, label, error);
     hd_png_free(writer);
     free(row);
@@ -500,9 +500,9 @@ static HdStatus write_frame(const HdFrame *frame, const HdPictureStyle *style,
 
 static HdStatus open_rows(void **rows, FILE *file, const char *path, HdPictureFacts *facts,
                           HdError *error) {
-    PngReader *reader;
+    PngReader *reader = NULL; /* stays so on failure */
     HdStatus status = open_reader(&reader, file, path, error);
-    if (status != HD_OK)
+    if (reader == NULL)
         return status;
     if (reader->is_interlaced) {
         close_reader(reader);
@@ -510,12 +510,7 @@ static HdStatus open_rows(void **rows, FILE *file, const char *path, HdPictureFa
                        "%s is an interlaced PNG, expected one whose rows follow each other", path);
     }
     *rows = reader;
-    *facts = (HdPictureFacts){
-        .width = reader->facts.width,
-        .height = reader->facts.height,
-        .bits = reader->facts.bits,
-        .curve = reader->facts.is_srgb ? HD_CURVE_SRGB : HD_CURVE_LINEAR,
-    };
+    *facts = reader->facts;
     return HD_OK;
 }
 

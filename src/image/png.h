@@ -10,20 +10,14 @@
 
 #include "image/format.h"
 
-typedef struct HdPngFacts {
-    int width, height; /* 1..65535 each */
-    int bits;          /* of a channel: 8 or 16 */
-    bool is_srgb;      /* a chunk says so */
-} HdPngFacts;
-
 typedef struct HdPngWriter HdPngWriter;
 
 /* Writes the head of a picture that is not interlaced. `path` is for messages, and has to live as
    long as the writer; so has the stream, which remains the caller's. Speed comes before size. What
    the label says becomes texts (Software, Scene, Frame, Options); NULL: none. All errors are
    HD_FAILED. */
-HdStatus hd_png_begin(HdPngWriter **writer, FILE *stream, const char *path, const HdPngFacts *facts,
-                      const HdPictureLabel *label, HdError *error);
+HdStatus hd_png_begin(HdPngWriter **writer, FILE *stream, const char *path,
+                      const HdPictureFacts *facts, const HdPictureLabel *label, HdError *error);
 
 /* The next row from the top as the file has it: with 16 bits the high byte comes first. */
 HdStatus hd_png_write_row(HdPngWriter *writer, const unsigned char *row, HdError *error);

@@ -4,25 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-HdStatus hd_view_image_resize(HdViewImage *image, int width, int height, HdError *error) {
-    const int bytes = 4 * width * height;
-    if (bytes > image->room) {
-        uint8_t *rgba = realloc(image->rgba, (size_t)bytes);
-        if (rgba == NULL)
-            return hd_fail(error, HD_FAILED, "out of memory: no room for a picture to show");
-        image->rgba = rgba;
-        image->room = bytes;
-    }
-    image->width = width;
-    image->height = height;
-    return HD_OK;
-}
-
 void hd_view_image_describe(HdViewImage *image, const HdViewImage *facts) {
-    const HdViewImage own = *image;
+    uint8_t *rgba = image->rgba;
     *image = *facts;
-    image->rgba = own.rgba;
-    image->room = own.room;
+    image->rgba = rgba;
 }
 
 void hd_view_image_free(HdViewImage *image) {
@@ -41,19 +26,18 @@ static void copy_fitted(const HdViewImage *source, uint8_t *target, int width, i
     }
 }
 
-HdStatus hd_view_image_stretch(HdViewImage *image, int width, int height, HdError *error) {
-    HdViewImage stretched = *image;
-    stretched.rgba = NULL;
-    stretched.room = 0;
-    HdStatus status = hd_view_image_resize(&stretched, width, height, error);
-    if (status != HD_OK)
-        return status;
+HdStatus hd_view_image_resize(HdViewImage *image, int width, int height, HdError *error) {
+    if (image->width == width && image->height == height)
+        return HD_OK;
+    uint8_t *rgba = calloc(4 * (size_t)width, (size_t)height);
+    if (rgba == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a picture to show");
     if (image->width > 0)
-        copy_fitted(image, stretched.rgba, width, height, width);
-    else
-        memset(stretched.rgba, 0, 4 * (size_t)width * (size_t)height);
+        copy_fitted(image, rgba, width, height, width);
     free(image->rgba);
-    *image = stretched;
+    image->rgba = rgba;
+    image->width = width;
+    image->height = height;
     return HD_OK;
 }
 

@@ -12,7 +12,7 @@
 /* A picture and what is known of it. */
 typedef struct HdViewImage {
     uint8_t *rgba; /* owned; as the scene's curve has it */
-    int width, height, room;
+    int width, height;
     HdDetail detail; /* of its latest part */
     bool is_settled; /* it has the bytes that 'hedron render' makes */
     double share;    /* of the work on it, 0..1 */
@@ -22,15 +22,12 @@ typedef struct HdViewImage {
     double largest_bound;
 } HdViewImage;
 
-/* Room for so many pixels, whose content is left open. */
+/* Gives the image another size; its content becomes so large, roughly, or is black where there is
+   none. */
 HdStatus hd_view_image_resize(HdViewImage *image, int width, int height, HdError *error);
 
 /* Takes all of `facts` but the pixels, of which the image keeps its own. */
 void hd_view_image_describe(HdViewImage *image, const HdViewImage *facts);
-
-/* Gives the image another size; its content becomes so large, roughly, or is black where there is
-   none. */
-HdStatus hd_view_image_stretch(HdViewImage *image, int width, int height, HdError *error);
 
 void hd_view_image_free(HdViewImage *image);
 

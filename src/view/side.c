@@ -7,10 +7,366 @@
 #include <sys/stat.h>
 
 #include "base/hash.h"
-#include "choice/candidates.h"
+#include "base/minmax.h"
 #include "render/backends.h"
+#include "render/frame.h"
 #include "run/load_scene.h"
+#include "system/interrupt.h"
+#include "system/machine.h"
 #include "system/path.h"
+#include "system/thread_pool.h"
+#include "verify/trust.h"
+
+/* Seconds of a part, after which an earlier wish is given up. */
+#define PART_SECONDS 0.025
+
+/* Rows of parts are multiples of this, as the items of plain C are. */
+enum { PART_ROWS = 8 };
+
+/* ---- what others see ---- */
+
+static bool is_stale(HdViewSide *side, int serial) {
+    pthread_mutex_lock(&side->mutex);
+    const bool stale = side->serial != serial || side->must_end;
+    pthread_mutex_unlock(&side->mutex);
+    return stale;
+}
+
+static void tell(HdViewSide *side, const char *device) {
+    pthread_mutex_lock(&side->mutex);
+    snprintf(side->told, sizeof side->told, "%s", device);
+    pthread_mutex_unlock(&side->mutex);
+}
+
+/* Rows of radiance become rows of the picture, which keeps its others. */
+static HdStatus show_rows(HdViewSide *side, const HdFrame *frame, int top, int height,
+                          const HdViewImage *facts, HdError *error) {
+    pthread_mutex_lock(&side->mutex);
+    const HdCurve curve = side->file.output.style.picture.curve;
+    HdStatus status = hd_view_image_resize(&side->made, facts->width, facts->height, error);
+    if (status == HD_OK) {
+        hd_curve_encode_rgba(curve, frame->rgb, (size_t)frame->width * (size_t)height,
+                             side->made.rgba + 4 * (size_t)facts->width * (size_t)top);
+        hd_view_image_describe(&side->made, facts);
+        side->has_news = true;
+    }
+    pthread_mutex_unlock(&side->mutex);
+    return status;
+}
+
+/* ---- device and scene ---- */
+
+static HdStatus open_device(HdViewSide *side, HdError *error) {
+    HdScene plain = side->file.scene; /* what it owns stays with the other */
+    HdRenderOptions render = side->plan.devices.render;
+    const HdJob job = {.scene = &plain, .frame_count = plain.frame_count};
+    const HdDeviceWish device = {
+        .backend = side->plan.devices.backend,
+        .device = side->plan.devices.device,
+        .kind = HD_WANT_ANY,
+        .is_for_one = true,
+        .options = &render,
+        .job = &job,
+    };
+    render.has_deep_trees = hd_scene_has_deep_trees(&plain);
+    hd_scene_drop_survey(&plain);
+    tell(side, "opening the device ...");
+    hd_close_devices(&side->team);
+    side->is_opened = side->is_uploaded = false;
+    HdStatus status = hd_open_devices(&side->team, &device, error);
+    side->is_opened = status == HD_OK;
+    if (status != HD_OK)
+        tell(side, "no device");
+    return status;
+}
+
+static HdStatus upload(HdViewSide *side, const HdScene *scene, HdError *error) {
+    HdRenderer *renderer = side->team.list[0].renderer;
+    char line[HD_RENDERER_LINE], device[HD_RENDERER_LINE + 64];
+    side->is_uploaded = false;
+    if (hd_renderer_device(renderer)->backend->functions->kernels != NULL)
+        tell(side, "building kernels ...");
+    HdStatus status = hd_put_scene(renderer, scene, NULL, error);
+    if (status != HD_OK)
+        return status;
+    side->is_uploaded = true;
+    side->has_survey = hd_scene_is_surveyed(scene);
+    const HdDevice *opened = hd_renderer_device(renderer);
+    hd_renderer_describe(renderer, line, sizeof line);
+    snprintf(device, sizeof device, "%.32s:%d %s", opened->backend->name, opened->index, line);
+    tell(side, device);
+    return HD_OK;
+}
+
+static HdStatus make_ready(HdViewSide *side, const HdScene *scene, HdError *error) {
+    HdStatus status = HD_OK;
+    if (!side->is_opened)
+        status = open_device(side, error);
+    if (status == HD_OK && (!side->is_uploaded || side->has_survey != hd_scene_is_surveyed(scene)))
+        status = upload(side, scene, error);
+    return status;
+}
+
+/* ---- pictures ---- */
+
+static HdStatus fit_frame(HdFrame *frame, int width, int height, HdError *error) {
+    if (frame->width == width && frame->height == height && frame->rgb != NULL)
+        return HD_OK;
+    hd_frame_free(frame);
+    return hd_frame_create(frame, width, height, error);
+}
+
+static HdStatus render_scene(HdViewSide *side, const HdScene *scene, const HdViewWish *wish,
+                             HdFrame *frame, HdError *error) {
+    const HdFrameMaker maker = {.renderer = side->team.list[0].renderer, .scene = scene};
+    HdStatus status = fit_frame(frame, scene->width, scene->height, error);
+    return status == HD_OK ? hd_frame_render(&maker, &wish->camera, frame, error) : status;
+}
+
+/* The scene as quick pictures have it. */
+static HdScene quick_scene(const HdViewSide *side, const HdDetail *detail) {
+    HdScene scene = side->file.scene; /* what it owns stays there */
+    hd_scene_drop_survey(&scene);
+    scene.width = detail->width;
+    scene.height = detail->height;
+    scene.samples_per_side = detail->samples;
+    scene.depth = detail->depth < scene.depth ? detail->depth : scene.depth;
+    return scene;
+}
+
+static HdStatus render_moving(HdViewSide *side, const HdViewWish *wish, HdError *error) {
+    const HdScene scene = quick_scene(side, &wish->detail);
+    HdScene uploaded = side->file.scene; /* what it owns stays there */
+    hd_scene_drop_survey(&uploaded);     /* its depth is that of all quick pictures, at most */
+    HdStatus status = make_ready(side, &uploaded, error);
+    const double start = hd_monotonic_seconds();
+    if (status == HD_OK)
+        status = render_scene(side, &scene, wish, &side->part, error);
+    if (status != HD_OK)
+        return status;
+    const HdViewImage facts = {
+        .width = scene.width,
+        .height = scene.height,
+        .detail = wish->detail,
+        .share = 1.0,
+        .seconds = hd_monotonic_seconds() - start,
+        .rays = hd_frame_rays(&side->part),
+    };
+    return show_rows(side, &side->part, 0, scene.height, &facts, error);
+}
+
+static int next_rows(int rows, double seconds) {
+    const double wanted = rows * PART_SECONDS / (seconds > 1e-6 ? seconds : 1e-6);
+    const int most = wanted > 4.0 * rows ? 4 * rows : (int)wanted;
+    return most > PART_ROWS ? most - most % PART_ROWS : PART_ROWS;
+}
+
+/* All rows of a scene that is not surveyed, from the top, each as the whole picture has it. */
+static HdStatus render_rows(HdViewSide *side, const HdScene *whole, const HdViewWish *wish,
+                            int serial, HdViewImage *facts, HdError *error) {
+    HdScene scene = *whole;
+    int rows = PART_ROWS;
+    HdStatus status = HD_OK;
+    for (int top = 0; status == HD_OK && top < whole->height && !is_stale(side, serial);) {
+        const int height = rows < whole->height - top ? rows : whole->height - top;
+        const double start = hd_monotonic_seconds();
+        scene.crop = (HdCrop){whole->width, whole->height, 0, top};
+        scene.height = height;
+        status = render_scene(side, &scene, wish, &side->part, error);
+        if (status != HD_OK)
+            return status;
+        const double seconds = hd_monotonic_seconds() - start;
+        memcpy(side->frame.rgb + 3 * (size_t)whole->width * (size_t)top, side->part.rgb,
+               3 * sizeof(float) * (size_t)whole->width * (size_t)height);
+        facts->seconds += seconds;
+        facts->rays += hd_frame_rays(&side->part);
+        facts->share = (double)(top + height) / whole->height;
+        status = show_rows(side, &side->part, top, height, facts, error);
+        rows = next_rows(height, seconds);
+        top += height;
+    }
+    return status;
+}
+
+/* Adaptive samples hang on their neighbours: such a picture is made in one piece, or given up. */
+static HdStatus render_surveyed(HdViewSide *side, const HdViewWish *wish, HdViewImage *facts,
+                                HdError *error) {
+    const HdScene *scene = &side->file.scene;
+    const double start = hd_monotonic_seconds();
+    HdStatus status = make_ready(side, scene, error);
+    const HdFrameMaker maker = {.renderer = side->team.list[0].renderer,
+                                .scene = scene,
+                                .wish.curve = side->file.output.style.picture.curve,
+                                .watch = &side->watch};
+    if (status == HD_OK)
+        status = hd_frame_render(&maker, &wish->camera, &side->frame, error);
+    facts->seconds = hd_monotonic_seconds() - start;
+    facts->rays = hd_frame_rays(&side->frame);
+    facts->share = 1.0;
+    facts->has_bound = side->frame.has_bound;
+    facts->largest_bound = side->frame.largest_bound;
+    return status;
+}
+
+/* The whole picture is there: it is encoded once more, as a file is. */
+static HdStatus finish(HdViewSide *side, HdViewImage *facts, HdError *error) {
+    facts->is_settled = true;
+    HdStatus status = show_rows(side, &side->frame, 0, facts->height, facts, error);
+    pthread_mutex_lock(&side->mutex);
+    side->is_saveable = status == HD_OK;
+    side->style = side->file.output.style.picture;
+    pthread_mutex_unlock(&side->mutex);
+    return status;
+}
+
+static HdStatus settle(HdViewSide *side, const HdViewWish *wish, int serial, HdError *error) {
+    const HdScene *scene = &side->file.scene;
+    const bool is_surveyed = hd_scene_is_surveyed(scene);
+    const HdDetail full = {scene->width, scene->height, scene->samples_per_side, scene->depth};
+    const HdDetail once = {scene->width, scene->height, 1, scene->depth};
+    HdViewImage facts = {.width = scene->width, .height = scene->height, .detail = once};
+    const HdScene quick = quick_scene(side, &once);
+    HdStatus status = make_ready(side, &quick, error);
+    if (status == HD_OK)
+        status = fit_frame(&side->frame, scene->width, scene->height, error);
+    if (status == HD_OK && (is_surveyed || full.samples > 1))
+        status = render_rows(side, &quick, wish, serial, &facts, error);
+    facts = (HdViewImage){.width = scene->width, .height = scene->height, .detail = full};
+    if (status != HD_OK || is_stale(side, serial))
+        return status;
+    status = is_surveyed ? render_surveyed(side, wish, &facts, error)
+                         : render_rows(side, scene, wish, serial, &facts, error);
+    return status == HD_OK && !is_stale(side, serial) ? finish(side, &facts, error) : status;
+}
+
+/* ---- the thread ---- */
+
+static void fulfil(HdViewSide *side, const HdViewWish *wish, int serial) {
+    HdError error;
+    HdStatus status =
+        wish->is_moving ? render_moving(side, wish, &error) : settle(side, wish, serial, &error);
+    pthread_mutex_lock(&side->mutex);
+    side->is_done = side->is_done || side->serial == serial;
+    side->is_busy = false;
+    if (status == HD_INTERRUPTED && side->serial != serial)
+        status = HD_OK; /* it was given up */
+    snprintf(side->problem, sizeof side->problem, "%.4000s", status == HD_OK ? "" : error.message);
+    pthread_cond_broadcast(&side->changed);
+    pthread_mutex_unlock(&side->mutex);
+}
+
+static bool take_wish(HdViewSide *side, HdViewWish *wish, int *serial) {
+    pthread_mutex_lock(&side->mutex);
+    while (!side->must_end && (!side->has_wish || side->is_done))
+        pthread_cond_wait(&side->changed, &side->mutex);
+    const bool has_work = !side->must_end;
+    side->is_busy = has_work;
+    side->is_saveable = side->is_saveable && !has_work;
+    atomic_store(&side->watch.is_unwanted, false);
+    *wish = side->wish;
+    *serial = side->serial;
+    pthread_mutex_unlock(&side->mutex);
+    return has_work;
+}
+
+static void *work(void *argument) {
+    HdViewSide *side = argument;
+    HdViewWish wish;
+    int serial;
+    while (take_wish(side, &wish, &serial))
+        fulfil(side, &wish, serial);
+    hd_close_devices(&side->team);
+    return NULL;
+}
+
+static HdStatus start_thread(HdViewSide *side, HdError *error) {
+    pthread_mutex_init(&side->mutex, NULL);
+    pthread_cond_init(&side->changed, NULL);
+    const int reason = hd_start_thread(&side->thread, work, side);
+    side->has_thread = reason == 0;
+    return reason == 0 ? HD_OK
+                       : hd_fail(error, HD_FAILED, "cannot start a thread that renders: %s",
+                                 strerror(reason));
+}
+
+/* What is under way is for an earlier wish. */
+static void give_up(HdViewSide *side) {
+    side->serial++;
+    atomic_store(&side->watch.is_unwanted, true);
+}
+
+void hd_view_side_show(HdViewSide *side, const HdViewWish *wish) {
+    pthread_mutex_lock(&side->mutex);
+    side->wish = *wish;
+    give_up(side);
+    side->has_wish = true;
+    side->is_done = false;
+    side->is_saveable = false;
+    pthread_cond_broadcast(&side->changed);
+    pthread_mutex_unlock(&side->mutex);
+}
+
+/* Drops the wish, and waits until the thread reads nothing of plan and file any more. */
+static void rest(HdViewSide *side) {
+    pthread_mutex_lock(&side->mutex);
+    side->has_wish = false;
+    give_up(side);
+    while (side->is_busy)
+        pthread_cond_wait(&side->changed, &side->mutex);
+    pthread_mutex_unlock(&side->mutex);
+}
+
+bool hd_view_side_is_idle(HdViewSide *side) {
+    pthread_mutex_lock(&side->mutex);
+    const bool is_idle = !side->is_busy && (!side->has_wish || side->is_done);
+    pthread_mutex_unlock(&side->mutex);
+    return is_idle;
+}
+
+bool hd_view_side_fetch(HdViewSide *side) {
+    HdError ignored;
+    pthread_mutex_lock(&side->mutex);
+    const HdViewImage *made = &side->made;
+    const bool is_newer = side->has_news && hd_view_image_resize(&side->image, made->width,
+                                                                 made->height, &ignored) == HD_OK;
+    if (is_newer) {
+        memcpy(side->image.rgba, made->rgba, 4 * (size_t)made->width * (size_t)made->height);
+        hd_view_image_describe(&side->image, made);
+        side->has_news = false;
+    }
+    pthread_mutex_unlock(&side->mutex);
+    return is_newer;
+}
+
+void hd_view_side_describe(HdViewSide *side, char *device, size_t device_size, char *problem,
+                           size_t problem_size) {
+    pthread_mutex_lock(&side->mutex);
+    snprintf(device, device_size, "%s", side->told);
+    snprintf(problem, problem_size, "%s", side->problem);
+    pthread_mutex_unlock(&side->mutex);
+}
+
+HdStatus hd_view_side_save(HdViewSide *side, const char *path, HdError *error) {
+    pthread_mutex_lock(&side->mutex);
+    HdStatus status = side->is_saveable
+                          ? hd_picture_write(&side->frame, &side->style, path, error)
+                          : hd_fail(error, HD_FAILED, "the picture is not finished yet");
+    pthread_mutex_unlock(&side->mutex);
+    return status;
+}
+
+static void end_thread(HdViewSide *side) {
+    pthread_mutex_lock(&side->mutex);
+    side->must_end = true;
+    give_up(side);
+    pthread_cond_broadcast(&side->changed);
+    pthread_mutex_unlock(&side->mutex);
+    pthread_join(side->thread, NULL);
+    pthread_cond_destroy(&side->changed);
+    pthread_mutex_destroy(&side->mutex);
+}
+
+/* ---- the scene and its files ---- */
 
 static uint64_t add_file(uint64_t hash, const char *path) {
     struct stat facts;
@@ -47,20 +403,19 @@ static void take_file(HdViewSide *side, const HdSceneFile *file) {
     const bool was_deep = hd_scene_has_deep_trees(&side->file.scene);
     hd_scene_file_free(&side->file);
     side->file = *file;
-    side->scene_change++;
-    side->device_change += was_deep != hd_scene_has_deep_trees(&file->scene);
+    side->is_uploaded = false;
+    side->is_opened = side->is_opened && was_deep == hd_scene_has_deep_trees(&file->scene);
     side->files = hash_files(side->plan.scene.path, &side->file);
 }
 
-HdStatus hd_view_side_open(HdViewSide *side, const HdViewPlan *plan, void (*wake)(void *context),
-                           void *context, HdError *error) {
+HdStatus hd_view_side_open(HdViewSide *side, const HdViewPlan *plan, HdError *error) {
     HdSceneFile file;
-    *side = (HdViewSide){.plan = *plan, .device_change = 1};
+    *side = (HdViewSide){.plan = *plan};
     HdStatus status = read_file(side, &file, error);
     if (status != HD_OK)
         return status;
     take_file(side, &file);
-    status = hd_view_worker_start(&side->worker, wake, context, error);
+    status = start_thread(side, error);
     if (status != HD_OK)
         hd_view_side_close(side);
     return status;
@@ -69,7 +424,7 @@ HdStatus hd_view_side_open(HdViewSide *side, const HdViewPlan *plan, void (*wake
 static void read_again(HdViewSide *side) {
     HdSceneFile file;
     HdError error;
-    hd_view_worker_rest(side->worker);
+    rest(side);
     if (read_file(side, &file, &error) == HD_OK)
         take_file(side, &file);
 }
@@ -114,17 +469,13 @@ static void next_device(HdViewSide *side) {
     side->plan.devices.device = side->device;
 }
 
-static int within(int number, int least, int most) {
-    return number < least ? least : number > most ? most : number;
-}
-
 static void change_scene(HdViewSide *side, HdViewSetting setting, int by) {
     const HdScene *scene = &side->file.scene;
     HdScenePlan *plan = &side->plan.scene;
     if (setting == HD_VIEW_DEPTH)
-        plan->depth = within(scene->depth + by, 0, HD_MAX_DEPTH);
+        plan->depth = hd_min(hd_max(scene->depth + by, 0), HD_MAX_DEPTH);
     else if (setting == HD_VIEW_SAMPLES)
-        plan->samples = within(scene->samples_per_side + by, 1, HD_MAX_SAMPLES_PER_SIDE);
+        plan->samples = hd_min(hd_max(scene->samples_per_side + by, 1), HD_MAX_SAMPLES_PER_SIDE);
     else
         plan->sampling =
             scene->sampling == HD_SAMPLING_ADAPTIVE ? HD_SAMPLING_GRID : HD_SAMPLING_ADAPTIVE;
@@ -132,7 +483,7 @@ static void change_scene(HdViewSide *side, HdViewSetting setting, int by) {
 
 void hd_view_side_change(HdViewSide *side, HdViewSetting setting, int by) {
     HdPrecision *precision = &side->plan.devices.render.precision;
-    hd_view_worker_rest(side->worker); /* it reads the plan */
+    rest(side); /* it reads the plan */
     if (setting == HD_VIEW_BACKEND)
         next_backend(side);
     else if (setting == HD_VIEW_DEVICE)
@@ -141,13 +492,17 @@ void hd_view_side_change(HdViewSide *side, HdViewSetting setting, int by) {
         *precision = *precision == HD_PRECISION_FLOAT ? HD_PRECISION_DOUBLE : HD_PRECISION_FLOAT;
     else
         change_scene(side, setting, by);
-    side->device_change += setting <= HD_VIEW_PRECISION;
+    side->is_opened = side->is_opened && setting > HD_VIEW_PRECISION;
     read_again(side);
 }
 
 void hd_view_side_close(HdViewSide *side) {
-    hd_view_worker_end(side->worker);
+    if (side->has_thread)
+        end_thread(side);
     hd_scene_file_free(&side->file);
+    hd_frame_free(&side->frame);
+    hd_frame_free(&side->part);
+    hd_view_image_free(&side->made);
     hd_view_image_free(&side->image);
-    *side = (HdViewSide){.worker = NULL};
+    *side = (HdViewSide){.has_thread = false};
 }

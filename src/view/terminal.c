@@ -5,7 +5,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <termios.h>
@@ -18,8 +17,6 @@
 #include "view/viewer.h"
 
 enum {
-    MOVING_WAIT_MS = 4,
-    IDLE_WAIT_MS = 100,
     ANSWER_WAIT_MS = 1000,
     USUAL_CELL_WIDTH = 8, /* where the terminal does not tell */
     SYMBOL_WIDTH = 2,     /* pixels that a symbol shows beside each other */
@@ -42,36 +39,29 @@ typedef struct Terminal {
     ChafaSymbolMap *symbols; /* owned */
     ChafaPixelMode protocol; /* of pictures */
     int columns, rows, cell_width, cell_height;
-    Area area;    /* of the picture */
-    int wakes[2]; /* a pipe, by which workers wake the loop */
+    Area area; /* of the picture */
     HdViewer *viewer;
     int version; /* of the picture that is shown */
     int line_count;
     char lines[HD_VIEW_LINES][HD_VIEW_LINE];
     gchar **shown; /* owned; rows of a picture of symbols; NULL: none is on the screen */
-    char *said;    /* owned; for the end */
-    size_t said_length;
+    GString *said; /* owned; for the end */
 } Terminal;
 
 /* ---- bytes to and fro ---- */
 
-static HdStatus send_bytes(const Terminal *t, const char *bytes, size_t size, HdError *error) {
-    while (size > 0) {
-        const ssize_t sent = write(t->file, bytes, size);
+static HdStatus send_text(const Terminal *t, const char *text, HdError *error) {
+    while (*text != '\0') {
+        const ssize_t sent = write(t->file, text, strlen(text));
         if (sent < 0 && errno == EINTR && hd_interrupt_signal() == 0)
             continue;
         if (sent < 0 && hd_interrupt_signal() != 0)
             return hd_fail(error, HD_INTERRUPTED, "interrupted");
         if (sent < 0)
             return hd_fail(error, HD_FAILED, "cannot write to the terminal: %s", strerror(errno));
-        bytes += sent;
-        size -= (size_t)sent;
+        text += sent;
     }
     return HD_OK;
-}
-
-static HdStatus send_text(const Terminal *t, const char *text, HdError *error) {
-    return send_bytes(t, text, strlen(text), error);
 }
 
 /* What comes within that time; 0: nothing. */
@@ -152,25 +142,10 @@ static HdStatus find_sequences(Terminal *t, HdError *error) {
 
 /* ---- keys ---- */
 
-static int arrow(char letter) {
-    switch (letter) {
-    case 'A':
-        return HD_KEY_UP;
-    case 'B':
-        return HD_KEY_DOWN;
-    case 'C':
-        return HD_KEY_RIGHT;
-    case 'D':
-        return HD_KEY_LEFT;
-    default:
-        return 0;
-    }
-}
-
-/* An escape sequence counts as a whole; what is no arrow does nothing. */
+/* Waits for some; an escape sequence counts as a whole; what is no arrow does nothing. */
 static void take_keys(Terminal *t) {
     char bytes[256];
-    const int count = receive(t, bytes, (int)sizeof bytes, 0);
+    const int count = receive(t, bytes, (int)sizeof bytes, hd_viewer_wait_ms(t->viewer));
     const double now = hd_monotonic_seconds();
     for (int i = 0; i < count; i++) {
         int key = (unsigned char)bytes[i];
@@ -179,7 +154,7 @@ static void take_keys(Terminal *t) {
             while (i + 1 < count && (bytes[i + 1] < '@' || bytes[i + 1] > '~'))
                 i++;
             i += i + 1 < count;
-            key = arrow(bytes[i]);
+            key = bytes[i] >= 'A' && bytes[i] <= 'D' ? HD_KEY_UP + bytes[i] - 'A' : 0;
         }
         hd_viewer_key(t->viewer, key, now);
     }
@@ -187,29 +162,21 @@ static void take_keys(Terminal *t) {
 
 /* ---- drawing ---- */
 
-static int least(int a, int b) {
-    return a < b ? a : b;
-}
-
-static int most(int a, int b) {
-    return a > b ? a : b;
-}
-
 /* The largest area of the picture's shape above the lines. Sixels are as large as they are on the
    screen: so few columns that they are sent in time; and below the last row they would scroll. */
 static Area place_of_picture(const Terminal *t) {
-    int width, height, columns = t->columns, rows = most(t->rows - t->line_count, 1);
+    int width, height, columns = t->columns, rows = MAX(t->rows - t->line_count, 1);
     hd_viewer_size(t->viewer, &width, &height);
     if (t->protocol == CHAFA_PIXEL_MODE_SIXELS) {
-        columns = least(columns, most(MOST_SIXEL_WIDTH / t->cell_width, 1));
-        rows = least(rows, most(t->rows - 1, 1));
+        columns = MIN(columns, MAX(MOST_SIXEL_WIDTH / t->cell_width, 1));
+        rows = MIN(rows, MAX(t->rows - 1, 1));
     }
     const double shape = (double)width * t->cell_height / ((double)height * t->cell_width);
     Area area = {.columns = columns, .rows = rows};
     if (columns > rows * shape)
-        area.columns = most((int)(rows * shape), 1);
+        area.columns = MAX((int)(rows * shape), 1);
     else
-        area.rows = most((int)(columns / shape), 1);
+        area.rows = MAX((int)(columns / shape), 1);
     area.left = 1 + (t->columns - area.columns) / 2;
     area.top = 1 + (rows - area.rows) / 2;
     return area;
@@ -222,8 +189,8 @@ static ChafaCanvas *create_canvas(const Terminal *t, const HdViewImage *image) {
     const bool has_256 = chafa_term_info_have_seq(t->info, CHAFA_TERM_SEQ_SET_COLOR_FGBG_256);
     int width = t->cell_width, height = t->cell_height;
     if (t->protocol == CHAFA_PIXEL_MODE_KITTY) {
-        width = least(width, most(image->width / t->area.columns, 1));
-        height = least(height, most(image->height / t->area.rows, 1));
+        width = MIN(width, MAX(image->width / t->area.columns, 1));
+        height = MIN(height, MAX(image->height / t->area.rows, 1));
     }
     chafa_canvas_config_set_pixel_mode(config, t->protocol);
     chafa_canvas_config_set_canvas_mode(config, has_all || t->protocol != CHAFA_PIXEL_MODE_SYMBOLS
@@ -239,16 +206,16 @@ static ChafaCanvas *create_canvas(const Terminal *t, const HdViewImage *image) {
 }
 
 /* Sends the rows that are other than before. */
-static void write_symbols(Terminal *t, const char *text, FILE *out) {
+static void write_symbols(Terminal *t, const char *text, GString *out) {
     gchar **rows = g_strsplit(text, "\n", t->area.rows);
     for (int i = 0; rows[i] != NULL; i++)
         if (t->shown == NULL || strcmp(rows[i], t->shown[i]) != 0)
-            fprintf(out, "\033[%d;%dH%s", t->area.top + i, t->area.left, rows[i]);
+            g_string_append_printf(out, "\033[%d;%dH%s", t->area.top + i, t->area.left, rows[i]);
     g_strfreev(t->shown);
     t->shown = rows;
 }
 
-static void write_picture(Terminal *t, FILE *out) {
+static void write_picture(Terminal *t, GString *out) {
     int version = t->version;
     const HdViewImage *image = hd_viewer_picture(t->viewer, &version);
     if (version == t->version || image->width == 0)
@@ -261,38 +228,38 @@ static void write_picture(Terminal *t, FILE *out) {
     if (t->protocol == CHAFA_PIXEL_MODE_SYMBOLS)
         write_symbols(t, text->str, out);
     else
-        fprintf(out, "\033[%d;%dH%s", t->area.top, t->area.left, text->str);
+        g_string_append_printf(out, "\033[%d;%dH%s", t->area.top, t->area.left, text->str);
     g_string_free(text, TRUE);
     chafa_canvas_unref(canvas);
 }
 
 /* What was on the screen is forgotten. */
-static void clear_screen(Terminal *t, FILE *out) {
-    fputs("\033[0m\033[2J", out);
+static void clear_screen(Terminal *t, GString *out) {
+    g_string_append(out, "\033[0m\033[2J");
     if (t->protocol == CHAFA_PIXEL_MODE_KITTY)
-        fputs(kitty_clear, out);
+        g_string_append(out, kitty_clear);
     g_strfreev(t->shown);
     t->shown = NULL;
     memset(t->lines, 0, sizeof t->lines);
     t->version = -1;
 }
 
-static void write_lines(Terminal *t, char lines[HD_VIEW_LINES][HD_VIEW_LINE], FILE *out) {
+static void write_lines(Terminal *t, char lines[HD_VIEW_LINES][HD_VIEW_LINE], GString *out) {
     const int first = t->rows - t->line_count + 1;
     for (int i = 0; i < t->line_count; i++) {
         if (strcmp(lines[i], t->lines[i]) == 0)
             continue;
         memcpy(t->lines[i], lines[i], HD_VIEW_LINE);
-        fprintf(out, "\033[%d;1H\033[%sm%.*s\033[0m\033[K", first + i,
-                lines[i][0] == '!' ? "91" : "0", t->columns, lines[i]);
+        g_string_append_printf(out, "\033[%d;1H\033[%sm%.*s\033[0m\033[K", first + i,
+                               lines[i][0] == '!' ? "91" : "0", t->columns, lines[i]);
     }
 }
 
-static void fit_screen(Terminal *t, int line_count, FILE *out) {
+static void fit_screen(Terminal *t, int line_count, GString *out) {
     const int columns = t->columns, rows = t->rows, lines = t->line_count;
     const Area before = t->area;
     measure(t);
-    t->line_count = least(line_count, t->rows);
+    t->line_count = MIN(line_count, t->rows);
     t->area = place_of_picture(t);
     const bool is_text = t->protocol == CHAFA_PIXEL_MODE_SYMBOLS;
     hd_viewer_limit(t->viewer, t->area.columns * (is_text ? SYMBOL_WIDTH : t->cell_width));
@@ -303,47 +270,24 @@ static void fit_screen(Terminal *t, int line_count, FILE *out) {
 
 static HdStatus draw(Terminal *t, HdError *error) {
     char lines[HD_VIEW_LINES][HD_VIEW_LINE];
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (out == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the terminal's picture");
+    GString *out = g_string_new(NULL);
     fit_screen(t, hd_viewer_lines(t->viewer, lines), out);
     write_picture(t, out);
     write_lines(t, lines, out);
-    fclose(out);
-    HdStatus status = send_bytes(t, text, size, error);
-    free(text);
+    HdStatus status = send_text(t, out->str, error);
+    g_string_free(out, TRUE);
     return status;
 }
 
 /* ---- the loop ---- */
 
-static void wake(void *context) {
-    const Terminal *t = context;
-    (void)!write(t->wakes[1], "", 1);
-}
-
-static void wait_for_more(Terminal *t) {
-    char bytes[64];
-    const bool is_moving = hd_viewer_is_moving(t->viewer, hd_monotonic_seconds());
-    struct pollfd entries[2] = {{.fd = t->file, .events = POLLIN},
-                                {.fd = t->wakes[0], .events = POLLIN}};
-    poll(entries, 2, is_moving ? MOVING_WAIT_MS : IDLE_WAIT_MS);
-    while (read(t->wakes[0], bytes, sizeof bytes) > 0)
-        continue;
-    if ((entries[0].revents & POLLIN) != 0)
-        take_keys(t);
-}
-
 static HdStatus run(Terminal *t, HdError *error) {
     HdStatus status = HD_OK;
-    while (status == HD_OK && !hd_viewer_has_ended(t->viewer)) {
-        wait_for_more(t);
+    while (status == HD_OK && hd_viewer_tick(t->viewer, hd_monotonic_seconds())) {
+        status = draw(t, error);
+        take_keys(t);
         if (hd_interrupt_signal() != 0)
             return hd_fail(error, HD_INTERRUPTED, "interrupted");
-        hd_viewer_tick(t->viewer, hd_monotonic_seconds());
-        status = draw(t, error);
     }
     return status;
 }
@@ -351,19 +295,13 @@ static HdStatus run(Terminal *t, HdError *error) {
 /* ---- from open to close ---- */
 
 static void say(void *context, const char *lines) {
-    Terminal *t = context;
-    if (!isatty(STDOUT_FILENO)) {
-        fputs(lines, stdout);
-        fflush(stdout);
+    const Terminal *t = context;
+    if (isatty(STDOUT_FILENO)) {
+        g_string_append(t->said, lines);
         return;
     }
-    const size_t length = strlen(lines);
-    char *said = realloc(t->said, t->said_length + length + 1);
-    if (said == NULL)
-        return;
-    memcpy(said + t->said_length, lines, length + 1);
-    t->said = said;
-    t->said_length += length;
+    fputs(lines, stdout);
+    fflush(stdout);
 }
 
 static HdStatus open_terminal(Terminal *t, HdError *error) {
@@ -374,9 +312,6 @@ static HdStatus open_terminal(Terminal *t, HdError *error) {
                        strerror(errno));
     if (tcgetattr(t->file, &t->before) != 0)
         return hd_fail(error, HD_UNAVAILABLE, "--terminal needs a terminal: %s", strerror(errno));
-    if (pipe(t->wakes) != 0 || fcntl(t->wakes[0], F_SETFL, O_NONBLOCK) != 0 ||
-        fcntl(t->wakes[1], F_SETFL, O_NONBLOCK) != 0)
-        return hd_fail(error, HD_FAILED, "cannot make a pipe: %s", strerror(errno));
     return HD_OK;
 }
 
@@ -408,24 +343,20 @@ static void give_terminal_back(Terminal *t) {
 static void close_terminal(Terminal *t) {
     give_terminal_back(t);
     hd_viewer_close(t->viewer);
-    for (int i = 0; i < 2; i++)
-        if (t->wakes[i] >= 0)
-            close(t->wakes[i]);
     if (t->file >= 0)
         close(t->file);
-    if (t->said != NULL)
-        fputs(t->said, stdout);
+    fputs(t->said->str, stdout);
     if (t->info != NULL)
         chafa_term_info_unref(t->info);
     if (t->symbols != NULL)
         chafa_symbol_map_unref(t->symbols);
     g_strfreev(t->shown);
-    free(t->said);
+    g_string_free(t->said, TRUE);
 }
 
 HdStatus hd_view_in_terminal(const HdViewPlan *plan, HdError *error) {
-    Terminal t = {.file = -1, .wakes = {-1, -1}, .version = -1};
-    const HdViewHost host = {wake, say, &t};
+    Terminal t = {.file = -1, .version = -1, .said = g_string_new(NULL)};
+    const HdViewHost host = {say, &t};
     HdStatus status = open_terminal(&t, error);
     if (status == HD_OK)
         status = hd_viewer_open(&t.viewer, plan, &host, error);

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/minmax.h"
 #include "base/trigonometry.h"
 #include "view/side.h"
 
@@ -74,15 +75,10 @@ static void leave_flight(HdViewer *viewer) {
     viewer->is_playing = false;
 }
 
-static void orbit(HdViewer *viewer, double right, double up) {
+static void move_eye(HdViewer *viewer, void (*move)(HdPose *pose, double right, double up),
+                     double right, double up) {
     leave_flight(viewer);
-    hd_pose_orbit(&viewer->pose, right, up);
-    change_view(viewer);
-}
-
-static void pan(HdViewer *viewer, double right, double up) {
-    leave_flight(viewer);
-    hd_pose_pan(&viewer->pose, right, up);
+    move(&viewer->pose, right, up);
     change_view(viewer);
 }
 
@@ -110,10 +106,10 @@ static HdStatus find_camera(const HdViewer *viewer, HdCamera *camera, HdError *e
 
 /* ---- what is wished of the workers ---- */
 
-static bool all_idle(const HdViewer *viewer) {
+static bool all_idle(HdViewer *viewer) {
     bool idle = true;
     for (int i = 0; i < viewer->side_count; i++)
-        idle = idle && hd_view_worker_is_idle(viewer->sides[i].worker);
+        idle = idle && hd_view_side_is_idle(&viewer->sides[i]);
     return idle;
 }
 
@@ -128,29 +124,27 @@ static HdDetail most_detail(const HdViewer *viewer) {
     return full;
 }
 
-static void wish_for(HdViewer *viewer, bool is_moving) {
+static void wish_for(HdViewer *viewer, bool quickly) {
     HdError error;
-    HdViewWish wish = {.is_moving = is_moving};
+    HdViewWish wish = {.is_moving = quickly};
     const HdDetail full = most_detail(viewer);
     viewer->asked = viewer->change;
-    viewer->settling = is_moving ? 0 : viewer->change;
+    viewer->settling = quickly ? 0 : viewer->change;
     if (find_camera(viewer, &wish.camera, &error) != HD_OK) {
         snprintf(viewer->note, sizeof viewer->note, "%.500s", error.message);
         return;
     }
     wish.detail = hd_pace_choose(&viewer->pace, &full);
-    for (int i = 0; i < viewer->side_count; i++) {
-        HdViewSide *side = &viewer->sides[i];
-        wish.plan = &side->plan.devices;
-        wish.file = &side->file;
-        wish.device_change = side->device_change;
-        wish.scene_change = side->scene_change;
-        hd_view_worker_show(side->worker, &wish);
-    }
+    for (int i = 0; i < viewer->side_count; i++)
+        hd_view_side_show(&viewer->sides[i], &wish);
 }
 
-bool hd_viewer_is_moving(const HdViewer *viewer, double now) {
-    return viewer->is_playing || now - viewer->moved < STILL_SECONDS;
+static bool is_moving(const HdViewer *viewer) {
+    return viewer->is_playing || viewer->now - viewer->moved < STILL_SECONDS;
+}
+
+int hd_viewer_wait_ms(HdViewer *viewer) {
+    return !all_idle(viewer) ? 1 : is_moving(viewer) ? 4 : 100;
 }
 
 /* A moving picture that is under way is waited for, so that pictures come; a whole one is not. */
@@ -158,8 +152,7 @@ static void ask_workers(HdViewer *viewer) {
     const bool idle = all_idle(viewer);
     if (viewer->asked != viewer->change && (idle || viewer->settling != 0))
         wish_for(viewer, true);
-    else if (idle && viewer->settling != viewer->change &&
-             !hd_viewer_is_moving(viewer, viewer->now))
+    else if (idle && viewer->settling != viewer->change && !is_moving(viewer))
         wish_for(viewer, false);
 }
 
@@ -179,12 +172,11 @@ static void note_moving_picture(HdViewer *viewer, const HdViewImage *image) {
 
 static void fetch_pictures(HdViewer *viewer) {
     for (int i = 0; i < viewer->side_count; i++) {
-        HdViewSide *side = &viewer->sides[i];
-        if (!hd_view_worker_image(side->worker, &side->image, &side->version))
+        if (!hd_view_side_fetch(&viewer->sides[i]))
             continue;
         viewer->version++;
         if (viewer->settling == 0 && i == 0)
-            note_moving_picture(viewer, &side->image);
+            note_moving_picture(viewer, &viewer->sides[i].image);
     }
 }
 
@@ -224,23 +216,20 @@ static void free_name(const HdViewer *viewer, char path[160]) {
     }
 }
 
-static void save(HdViewer *viewer) {
+static void save_when_whole(HdViewer *viewer) {
     char path[160], line[192];
     HdError error;
+    if (!viewer->saves || viewer->settling != viewer->change || !all_idle(viewer))
+        return;
     viewer->saves = false;
     free_name(viewer, path);
-    if (hd_view_worker_save(viewer->sides[viewer->active].worker, path, &error) != HD_OK) {
+    if (hd_view_side_save(&viewer->sides[viewer->active], path, &error) != HD_OK) {
         snprintf(viewer->note, sizeof viewer->note, "%.500s", error.message);
         return;
     }
     snprintf(viewer->note, sizeof viewer->note, "saved %s", path);
     snprintf(line, sizeof line, "%s\n", path);
     viewer->host.say(viewer->host.context, line);
-}
-
-static void save_when_whole(HdViewer *viewer) {
-    if (viewer->saves && viewer->settling == viewer->change && all_idle(viewer))
-        save(viewer);
 }
 
 static void print_camera(HdViewer *viewer, int by) {
@@ -276,22 +265,6 @@ static void step(HdViewer *viewer, int by) {
     show_frame(viewer, viewer->frame + by);
 }
 
-static void orbit_sideways(HdViewer *viewer, int by) {
-    orbit(viewer, by * ORBIT_STEP, 0.0);
-}
-
-static void orbit_upwards(HdViewer *viewer, int by) {
-    orbit(viewer, 0.0, by * ORBIT_STEP);
-}
-
-static void pan_sideways(HdViewer *viewer, int by) {
-    pan(viewer, by * PAN_STEP, 0.0);
-}
-
-static void pan_upwards(HdViewer *viewer, int by) {
-    pan(viewer, 0.0, by * PAN_STEP);
-}
-
 static void dolly(HdViewer *viewer, int by) {
     leave_flight(viewer);
     hd_pose_dolly(&viewer->pose, by > 0 ? 1.0 / DOLLY_STEP : DOLLY_STEP);
@@ -306,8 +279,7 @@ static void split(HdViewer *viewer, int by) {
     if (viewer->side_count == 2)
         hd_view_side_close(&viewer->sides[1]);
     else
-        status = hd_view_side_open(&viewer->sides[1], &first->plan, viewer->host.wake,
-                                   viewer->host.context, &error);
+        status = hd_view_side_open(&viewer->sides[1], &first->plan, &error);
     if (status != HD_OK)
         snprintf(viewer->note, sizeof viewer->note, "%.500s", error.message);
     viewer->side_count = status == HD_OK && viewer->side_count == 1 ? 2 : 1;
@@ -316,12 +288,12 @@ static void split(HdViewer *viewer, int by) {
 }
 
 static void other_side(HdViewer *viewer, int by) {
-    viewer->active = (viewer->active + by) % viewer->side_count;
+    (void)by;
+    viewer->active = (viewer->active + 1) % viewer->side_count;
 }
 
 static void change_gain(HdViewer *viewer, int by) {
-    const int gain = by > 0 ? 2 * viewer->gain : viewer->gain / 2;
-    viewer->gain = gain < 1 ? 1 : gain > MOST_GAIN ? MOST_GAIN : gain;
+    viewer->gain = by > 0 ? hd_min(2 * viewer->gain, MOST_GAIN) : hd_max(viewer->gain / 2, 1);
     viewer->version++;
 }
 
@@ -345,50 +317,51 @@ static void end(HdViewer *viewer, int by) {
     viewer->has_ended = true;
 }
 
-/* What a key does, so much of it. */
-static const struct {
+/* What a key does: something of the above, a step of the eye, or else a change of a setting of the
+   active side. */
+static const struct Key {
     int key;
     void (*act)(HdViewer *viewer, int by);
-    int by;
-} keys[] = {
-    {' ', play, 1},
-    {'0', step, 0},
-    {',', step, -1},
-    {'.', step, 1},
-    {HD_KEY_LEFT, orbit_sideways, -1},
-    {HD_KEY_RIGHT, orbit_sideways, 1},
-    {HD_KEY_UP, orbit_upwards, 1},
-    {HD_KEY_DOWN, orbit_upwards, -1},
-    {'a', pan_sideways, -1},
-    {'d', pan_sideways, 1},
-    {'w', pan_upwards, 1},
-    {'s', pan_upwards, -1},
-    {'+', dolly, 1},
-    {'=', dolly, 1},
-    {'-', dolly, -1},
-    {'2', split, 1},
-    {'\t', other_side, 1},
-    {'g', change_gain, -1},
-    {'G', change_gain, 1},
-    {'p', keep_picture, 1},
-    {'c', print_camera, 1},
-    {'o', hide_figures, 1},
-    {'h', show_help, 1},
-    {'?', show_help, 1},
-    {'q', end, 1},
-    {27, end, 1},
-    {3, end, 1}, /* Ctrl-C in a terminal that sends it as a character */
-};
-
-/* Which setting of the active side a key changes. */
-static const struct {
-    int key;
+    void (*move)(HdPose *pose, double right, double up);
+    double right, up;
     HdViewSetting setting;
     int by;
-} setting_keys[] = {
-    {'b', HD_VIEW_BACKEND, 1}, {'v', HD_VIEW_DEVICE, 1},   {'f', HD_VIEW_PRECISION, 1},
-    {'[', HD_VIEW_DEPTH, -1},  {']', HD_VIEW_DEPTH, 1},    {'n', HD_VIEW_SAMPLES, -1},
-    {'m', HD_VIEW_SAMPLES, 1}, {'x', HD_VIEW_SAMPLING, 1},
+} keys[] = {
+    {.key = ' ', .act = play},
+    {.key = '0', .act = step, .by = 0},
+    {.key = ',', .act = step, .by = -1},
+    {.key = '.', .act = step, .by = 1},
+    {.key = HD_KEY_LEFT, .move = hd_pose_orbit, .right = -ORBIT_STEP},
+    {.key = HD_KEY_RIGHT, .move = hd_pose_orbit, .right = ORBIT_STEP},
+    {.key = HD_KEY_UP, .move = hd_pose_orbit, .up = ORBIT_STEP},
+    {.key = HD_KEY_DOWN, .move = hd_pose_orbit, .up = -ORBIT_STEP},
+    {.key = 'a', .move = hd_pose_pan, .right = -PAN_STEP},
+    {.key = 'd', .move = hd_pose_pan, .right = PAN_STEP},
+    {.key = 'w', .move = hd_pose_pan, .up = PAN_STEP},
+    {.key = 's', .move = hd_pose_pan, .up = -PAN_STEP},
+    {.key = '+', .act = dolly, .by = 1},
+    {.key = '=', .act = dolly, .by = 1},
+    {.key = '-', .act = dolly, .by = -1},
+    {.key = 'b', .setting = HD_VIEW_BACKEND, .by = 1},
+    {.key = 'v', .setting = HD_VIEW_DEVICE, .by = 1},
+    {.key = 'f', .setting = HD_VIEW_PRECISION, .by = 1},
+    {.key = '[', .setting = HD_VIEW_DEPTH, .by = -1},
+    {.key = ']', .setting = HD_VIEW_DEPTH, .by = 1},
+    {.key = 'n', .setting = HD_VIEW_SAMPLES, .by = -1},
+    {.key = 'm', .setting = HD_VIEW_SAMPLES, .by = 1},
+    {.key = 'x', .setting = HD_VIEW_SAMPLING, .by = 1},
+    {.key = '2', .act = split},
+    {.key = '\t', .act = other_side},
+    {.key = 'g', .act = change_gain, .by = -1},
+    {.key = 'G', .act = change_gain, .by = 1},
+    {.key = 'p', .act = keep_picture},
+    {.key = 'c', .act = print_camera},
+    {.key = 'o', .act = hide_figures},
+    {.key = 'h', .act = show_help},
+    {.key = '?', .act = show_help},
+    {.key = 'q', .act = end},
+    {.key = 27, .act = end},
+    {.key = 3, .act = end}, /* Ctrl-C in a terminal that sends it as a character */
 };
 
 /* What keys do, for people; each line below 64 characters. */
@@ -418,20 +391,20 @@ static void settings_changed(HdViewer *viewer) {
     change_view(viewer);
 }
 
-void hd_viewer_key(HdViewer *viewer, int key, double now) {
+void hd_viewer_key(HdViewer *viewer, int code, double now) {
+    const struct Key *key = keys, *end_of_keys = keys + sizeof keys / sizeof keys[0];
+    while (key < end_of_keys && key->key != code)
+        key++;
+    if (key == end_of_keys)
+        return;
     viewer->now = now;
-    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
-        if (keys[i].key != key)
-            continue;
-        viewer->note[0] = '\0';
-        keys[i].act(viewer, keys[i].by);
-    }
-    for (size_t i = 0; i < sizeof setting_keys / sizeof setting_keys[0]; i++) {
-        if (setting_keys[i].key != key)
-            continue;
-        viewer->note[0] = '\0';
-        hd_view_side_change(&viewer->sides[viewer->active], setting_keys[i].setting,
-                            setting_keys[i].by);
+    viewer->note[0] = '\0';
+    if (key->act != NULL) {
+        key->act(viewer, key->by);
+    } else if (key->move != NULL) {
+        move_eye(viewer, key->move, key->right, key->up);
+    } else {
+        hd_view_side_change(&viewer->sides[viewer->active], key->setting, key->by);
         settings_changed(viewer);
     }
 }
@@ -439,9 +412,9 @@ void hd_viewer_key(HdViewer *viewer, int key, double now) {
 void hd_viewer_drag(HdViewer *viewer, bool moves, double right, double down, double now) {
     viewer->now = now;
     if (moves)
-        pan(viewer, -right, down);
+        move_eye(viewer, hd_pose_pan, -right, down);
     else
-        orbit(viewer, -HD_PI * right, HD_PI * down);
+        move_eye(viewer, hd_pose_orbit, -HD_PI * right, HD_PI * down);
 }
 
 /* ---- what is told ---- */
@@ -479,12 +452,12 @@ add(Lines *lines, const char *format, ...) {
     add_text(lines, text);
 }
 
-static void add_settings(Lines *lines, const HdViewer *viewer, int number) {
-    const HdViewSide *side = &viewer->sides[number];
+static void add_settings(Lines *lines, HdViewer *viewer, int number) {
+    HdViewSide *side = &viewer->sides[number];
     const HdScene *scene = &side->file.scene;
     const bool is_split = viewer->side_count > 1;
     char device[512], problem[4096], prefix[24] = "";
-    hd_view_worker_describe(side->worker, device, sizeof device, problem, sizeof problem);
+    hd_view_side_describe(side, device, sizeof device, problem, sizeof problem);
     if (is_split)
         snprintf(prefix, sizeof prefix, "%s%s: ", number == 0 ? "left" : "right",
                  viewer->active == number ? " *" : "");
@@ -572,17 +545,14 @@ static void watch_files(HdViewer *viewer) {
             settings_changed(viewer);
 }
 
-void hd_viewer_tick(HdViewer *viewer, double now) {
+bool hd_viewer_tick(HdViewer *viewer, double now) {
     viewer->now = now;
     fetch_pictures(viewer);
     watch_files(viewer);
     fly_on(viewer);
     ask_workers(viewer);
     save_when_whole(viewer);
-}
-
-bool hd_viewer_has_ended(const HdViewer *viewer) {
-    return viewer->has_ended;
+    return !viewer->has_ended;
 }
 
 bool hd_viewer_is_split(const HdViewer *viewer) {
@@ -607,7 +577,7 @@ HdStatus hd_viewer_open(HdViewer **viewer, const HdViewPlan *plan, const HdViewH
     v->gain = FIRST_GAIN;
     v->change = 1;
     v->side_count = 1;
-    HdStatus status = hd_view_side_open(&v->sides[0], plan, host->wake, host->context, error);
+    HdStatus status = hd_view_side_open(&v->sides[0], plan, error);
     if (status == HD_OK)
         *viewer = v;
     else

@@ -10,13 +10,12 @@
 
 enum { HD_VIEW_LINE = 80, HD_VIEW_LINES = 40 };
 
-/* Keys that are no characters. */
-enum { HD_KEY_UP = 256, HD_KEY_DOWN, HD_KEY_LEFT, HD_KEY_RIGHT };
+/* Keys that are no characters, in the order of terminals. */
+enum { HD_KEY_UP = 256, HD_KEY_DOWN, HD_KEY_RIGHT, HD_KEY_LEFT };
 
-/* What the viewer asks of who shows it. */
+/* Who shows it takes lines for standard output. */
 typedef struct HdViewHost {
-    void (*wake)(void *context);                   /* on any thread: there is something new */
-    void (*say)(void *context, const char *lines); /* for standard output */
+    void (*say)(void *context, const char *lines);
     void *context;
 } HdViewHost;
 
@@ -33,15 +32,12 @@ void hd_viewer_key(HdViewer *viewer, int key, double now);
 /* The mouse was dragged by such shares of the picture's width, to turn or to move the view. */
 void hd_viewer_drag(HdViewer *viewer, bool moves, double right, double down, double now);
 
-/* To be called when woken, after keys, and 60 times a second while something moves: flies on, looks
-   after the files, gives wishes to the workers. */
-void hd_viewer_tick(HdViewer *viewer, double now);
+/* To be called after keys, and when the wait below is over: flies on, looks after the files, gives
+   wishes to the sides. False once the user wants to end. */
+bool hd_viewer_tick(HdViewer *viewer, double now);
 
-/* False where nothing will change by itself before a key or a wake. */
-bool hd_viewer_is_moving(const HdViewer *viewer, double now);
-
-/* The user wants to end. */
-bool hd_viewer_has_ended(const HdViewer *viewer);
+/* For so long at most a key may be waited for: little while a side renders or something moves. */
+int hd_viewer_wait_ms(HdViewer *viewer);
 
 /* The picture; `version` is set to its number, which changes with the picture. Until the first one
    is there its width is 0. */

@@ -33,7 +33,7 @@ static uint64_t pixels_of_jpeg(const unsigned char *bytes, size_t size) {
 
 static bool is_small(unsigned char *bytes, size_t size) {
     return (hd_format_png.begins(bytes, size) ? fuzz_mend_png(bytes, size)
-                                         : pixels_of_jpeg(bytes, size)) <= MOST_PIXELS;
+                                              : pixels_of_jpeg(bytes, size)) <= MOST_PIXELS;
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
