@@ -31,6 +31,13 @@ static inline uint64_t hd_watched_worth(const HdWatched *watched, int first, int
            watched->worth * (uint64_t)first / (uint64_t)count;
 }
 
+/* Takes a share, up to 1, of the work that is left. */
+static inline HdWatched hd_watched_take(HdWatched *left, double share) {
+    const HdWatched taken = {left->watch, (uint64_t)((double)left->worth * share)};
+    left->worth -= taken.worth;
+    return taken;
+}
+
 /* These items are done. Each is told once, in any order. */
 static inline void hd_watched_add(const HdWatched *watched, int first, int end, int count) {
     if (watched->watch != NULL)

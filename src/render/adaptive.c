@@ -27,7 +27,10 @@
 
 /* How often samples spread to neighbours, and to which share of the picture at least: a pass of
    fewer pixels keeps a GPU waiting as long as one of many. */
-enum { MOST_SPREADS = 4, LEAST_SPREAD = 1000, MOST_THREADS = 16 };
+enum { MOST_SPREADS = 4, LEAST_SPREAD = 1000 };
+
+/* More would wait for one another longer than they have work. */
+enum { MOST_THREADS = 16 };
 
 typedef struct Codes {
     uint8_t rgb[3];
@@ -92,12 +95,6 @@ static HdStatus reserve_requests(HdRefinement *r, int count, HdError *error) {
     return HD_OK;
 }
 
-/* More threads would wait for one another longer than they have work. */
-static int count_threads(void) {
-    int count = hd_processor_count();
-    return count < MOST_THREADS ? count : MOST_THREADS;
-}
-
 HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, HdRenderer *renderer,
                               HdCurve curve, HdError *error) {
     HdRefinement *r = calloc(1, sizeof *r);
@@ -107,13 +104,14 @@ HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, H
     r->width = scene->width;
     r->height = scene->height;
     r->curve = curve;
+    const int processors = hd_processor_count();
     HdStatus status = scene->sampling == HD_SAMPLING_REFERENCE
                           ? hd_sample_set_dense(&r->samples, scene->samples_per_side, error)
                           : hd_sample_set_grid(&r->samples, scene->samples_per_side, error);
     if (status == HD_OK)
-        status = hd_thread_pool_create(&r->threads, count_threads(), error);
+        status = hd_thread_pool_create(
+            &r->threads, processors < MOST_THREADS ? processors : MOST_THREADS, error);
     r->surveyor = (HdSurveyor){.scene = scene,
-                               .precision = hd_renderer_options(renderer)->precision,
                                .renderer = renderer,
                                .samples = &r->samples,
                                .budget = hd_error_budget(curve),
@@ -230,13 +228,6 @@ static void add_samples(void *context, int first, int end) {
     }
 }
 
-/* The pass to come gets its share of what is left of the frame. */
-static void give_worth(HdRefinement *r, double own, double later) {
-    r->surveyor.pass = r->left;
-    r->surveyor.pass.worth = (uint64_t)((double)r->left.worth * own / (own + later));
-    r->left.worth -= r->surveyor.pass.worth;
-}
-
 /* The chosen pixels, in order, get the samples up to `samples` in `parts` equal parts. About
    `later` samples follow in other passes. */
 static HdStatus sample_chosen(HdRefinement *r, const HdCamera *camera, int count, int from,
@@ -250,9 +241,14 @@ static HdStatus sample_chosen(HdRefinement *r, const HdCamera *camera, int count
     if (status != HD_OK)
         return status;
     hd_chunks_run(r->threads, count, request_samples, &pass);
-    give_worth(r, (double)count * (samples - from), later);
-    status = hd_survey_pass(&r->surveyor, camera, r->requests, count * parts, pass.each, r->surveys,
-                            error);
+    const double own = (double)count * (samples - from);
+    const HdSurveyPass asked = {.camera = camera,
+                                .requests = r->requests,
+                                .count = count * parts,
+                                .samples = pass.each,
+                                .surveys = r->surveys,
+                                .watched = hd_watched_take(&r->left, own / (own + later))};
+    status = hd_survey_pass(&r->surveyor, &asked, error);
     if (status == HD_OK)
         hd_chunks_run(r->threads, count, add_samples, &pass);
     return status;
@@ -314,11 +310,6 @@ static int choose(HdRefinement *r, int samples, Judge *judge, double contrast) {
     return hd_chunks_choose(r->threads, r->width * r->height, choose_pixels, &choice, r->chosen);
 }
 
-static int choose_first(HdRefinement *r, int samples) {
-    return samples == 1 ? choose(r, 1, differs, FIRST_CONTRAST)
-                        : choose(r, samples, is_uneven_or_differs, NEIGHBOUR_CONTRAST);
-}
-
 /* Pixels of so many samples next to uneven ones that have more: none where they are too few. */
 static int choose_next(HdRefinement *r, int samples) {
     int count = choose(r, samples, is_next_to_uneven, NEIGHBOUR_CONTRAST);
@@ -369,7 +360,8 @@ static HdStatus refine(HdRefinement *r, const HdCamera *camera, HdError *error) 
     HdStatus status = sample_all(r, camera, 1, error);
     for (int samples = 1; status == HD_OK && samples < r->samples.count;) {
         int level = next_level(r, samples);
-        int count = choose_first(r, samples);
+        int count = samples == 1 ? choose(r, 1, differs, FIRST_CONTRAST)
+                                 : choose(r, samples, is_uneven_or_differs, NEIGHBOUR_CONTRAST);
         status = refine_chosen(r, camera, count, samples, level, error);
         samples = level;
     }
@@ -427,13 +419,13 @@ static void fill_counts(const HdFrame *sums, HdFrame *frame) {
 /* The grid's samples tell what is covered, however many of them a pixel took. */
 static HdStatus find_first_hits(const HdRefinement *r, const HdCamera *camera, HdFrame *frame,
                                 HdError *error) {
-    const HdSurveyor *surveyor = &r->surveyor;
+    HdRenderer *renderer = r->surveyor.renderer;
     HdFrameTables tables;
-    HdStatus status =
-        hd_compile_frame(&tables, surveyor->scene, camera, surveyor->precision, error);
+    HdStatus status = hd_compile_frame(&tables, r->surveyor.scene, camera,
+                                       hd_renderer_options(renderer)->precision, error);
     tables.watched = (HdWatched){.watch = r->left.watch}; /* worth nothing more to it */
     if (status == HD_OK)
-        status = hd_renderer_first_hits(surveyor->renderer, &tables, frame, error);
+        status = hd_renderer_first_hits(renderer, &tables, frame, error);
     hd_frame_tables_free(&tables);
     return status;
 }

@@ -95,30 +95,6 @@ static void add_counts(HdSurveyor *surveyor, int count, int samples, double seco
     surveyor->sums.trace_seconds += seconds;
 }
 
-static HdStatus submit(HdSurveyor *surveyor, const HdCamera *camera, int count, int samples,
-                       double cutoff, HdWatched watched, HdError *error) {
-    HdFrameTables tables;
-    const HdSampleList list = {
-        .entries = surveyor->entries,
-        .entry_count = count,
-        .places = surveyor->samples->places,
-        .place_count = surveyor->samples->count,
-        .grid_side = surveyor->samples->grid_side,
-        .samples = samples,
-        .bound_cutoff = cutoff,
-        .most_left_out = surveyor->most_left_out,
-    };
-    HdStatus status = hd_compile_listed_frame(&tables, surveyor->scene, camera, surveyor->precision,
-                                              &list, error);
-    if (status != HD_OK)
-        return status;
-    tables.watched = watched;
-    surveyor->frame.height = tables.height;
-    status = hd_renderer_render(surveyor->renderer, &tables, &surveyor->frame, error);
-    hd_frame_tables_free(&tables);
-    return status;
-}
-
 static float darkest(const float rgb[3]) {
     float least = rgb[0] < rgb[1] ? rgb[0] : rgb[1];
     return least < rgb[2] ? least : rgb[2];
@@ -134,11 +110,11 @@ static bool is_within(const HdSurveyor *surveyor, const HdSurvey *survey) {
 /* Requests of one submission. */
 typedef struct Part {
     HdSurveyor *surveyor;
-    const HdSurveyRequest *requests;
-    HdSurvey *surveys;
-    const int *open; /* numbers of the requests; in the first pass they are from, from + 1, ... */
+    const HdSurveyPass *pass;
+    double cutoff;
+    bool is_first; /* of several cut-offs */
+    int *open;     /* numbers of the requests; at first they are from, from + 1, ... */
     int from, count;
-    bool is_first; /* of several passes */
 } Part;
 
 static int request_number(const Part *part, int i) {
@@ -157,7 +133,7 @@ static int place_of(int i, int count) {
 static void list_entries(void *context, int first, int end) {
     const Part *part = context;
     for (int i = first; i < end; i++) {
-        const HdSurveyRequest *request = &part->requests[request_number(part, i)];
+        const HdSurveyRequest *request = &part->pass->requests[request_number(part, i)];
         size_t place = (size_t)place_of(i, part->count);
         part->surveyor->entries[2 * place] = request->pixel;
         part->surveyor->entries[2 * place + 1] = request->first;
@@ -171,7 +147,7 @@ static int take_surveys(void *context, int first, int end, int *still_open) {
     int left = 0;
     for (int i = first; i < end; i++) {
         int number = request_number(part, i);
-        HdSurvey *survey = &part->surveys[number];
+        HdSurvey *survey = &part->pass->surveys[number];
         float before = survey->bound;
         size_t place = (size_t)place_of(i, part->count);
         memcpy(survey, values + HD_SURVEY_FLOATS * place, sizeof *survey);
@@ -182,37 +158,58 @@ static int take_surveys(void *context, int first, int end, int *still_open) {
     return left;
 }
 
-/* What one of the passes with smaller and smaller cut-offs is worth: most of what is left, for few
-   samples need another one; without a limit there is one. */
-static HdWatched take_worth(HdSurveyor *surveyor) {
-    HdWatched taken = surveyor->pass;
-    if (surveyor->scene->max_error > 0.0)
-        taken.worth -= taken.worth / 8;
-    surveyor->pass.worth -= taken.worth;
-    return taken;
+static HdStatus submit(const Part *part, HdWatched watched, HdError *error) {
+    HdSurveyor *surveyor = part->surveyor;
+    HdFrameTables tables;
+    const HdSampleList list = {
+        .entries = surveyor->entries,
+        .entry_count = part->count,
+        .places = surveyor->samples->places,
+        .place_count = surveyor->samples->count,
+        .grid_side = surveyor->samples->grid_side,
+        .samples = part->pass->samples,
+        .bound_cutoff = part->cutoff,
+        .most_left_out = surveyor->most_left_out,
+    };
+    HdStatus status =
+        hd_compile_listed_frame(&tables, surveyor->scene, part->pass->camera,
+                                hd_renderer_options(surveyor->renderer)->precision, &list, error);
+    if (status != HD_OK)
+        return status;
+    tables.watched = watched;
+    surveyor->frame.height = tables.height;
+    status = hd_renderer_render(surveyor->renderer, &tables, &surveyor->frame, error);
+    hd_frame_tables_free(&tables);
+    return status;
 }
 
-/* Of the requests that are open, in place: those that are not within the limit stay. First, all
-   are. */
-static HdStatus survey_open(HdSurveyor *surveyor, const HdCamera *camera,
-                            const HdSurveyRequest *requests, int *open_count, int samples,
-                            double cutoff, bool is_first, HdSurvey *surveys, HdError *error) {
+/* Surveys the requests of a part, of which those that are not within the limit stay, in place. */
+static HdStatus survey_part(Part *part, HdWatched watched, HdError *error) {
+    HdSurveyor *surveyor = part->surveyor;
+    double start = hd_monotonic_seconds();
+    hd_chunks_run(surveyor->threads, part->count, list_entries, part);
+    HdStatus status = submit(part, watched, error);
+    if (status != HD_OK)
+        return status;
+    add_counts(surveyor, part->count, part->pass->samples, hd_monotonic_seconds() - start);
+    part->count = hd_chunks_choose(surveyor->threads, part->count, take_surveys, part, part->open);
+    return HD_OK;
+}
+
+/* Of the requests that are open, at first all. */
+static HdStatus survey_open(HdSurveyor *surveyor, const HdSurveyPass *pass, double cutoff,
+                            bool is_first, HdWatched watched, int *open_count, HdError *error) {
     int left = 0;
-    const HdWatched all = take_worth(surveyor);
     for (int from = 0; from < *open_count; from += MOST_ENTRIES) {
-        int count = *open_count - from < MOST_ENTRIES ? *open_count - from : MOST_ENTRIES;
+        int rest = *open_count - from, count = rest < MOST_ENTRIES ? rest : MOST_ENTRIES;
         int *open = surveyor->open + from;
-        Part part = {surveyor, requests, surveys, open, from, count, is_first};
-        double start = hd_monotonic_seconds();
-        hd_chunks_run(surveyor->threads, count, list_entries, &part);
-        const HdWatched own = {all.watch, hd_watched_worth(&all, from, from + count, *open_count)};
-        HdStatus status = submit(surveyor, camera, count, samples, cutoff, own, error);
+        Part part = {surveyor, pass, cutoff, is_first, open, from, count};
+        HdStatus status =
+            survey_part(&part, hd_watched_take(&watched, (double)count / rest), error);
         if (status != HD_OK)
             return status;
-        add_counts(surveyor, count, samples, hd_monotonic_seconds() - start);
-        int open_still = hd_chunks_choose(surveyor->threads, count, take_surveys, &part, open);
-        memmove(surveyor->open + left, open, sizeof *open * (size_t)open_still);
-        left += open_still;
+        memmove(surveyor->open + left, open, sizeof *open * (size_t)part.count);
+        left += part.count;
     }
     *open_count = left;
     return HD_OK;
@@ -223,38 +220,27 @@ static double rays_so_far(const HdSurveyor *surveyor) {
     return (double)(sums->primary_rays + sums->mirrored_rays + sums->transmitted_rays);
 }
 
-/* Passes with smaller and smaller cut-offs, until none of the `count` requests is open. */
-static HdStatus close_requests(HdSurveyor *surveyor, const HdCamera *camera,
-                               const HdSurveyRequest *requests, int count, int samples,
-                               HdSurvey *surveys, HdError *error) {
+/* Smaller and smaller cut-offs, until no request is open. The first one is worth most of what is
+   left, for few samples need another one; without a limit there is one. */
+HdStatus hd_survey_pass(HdSurveyor *surveyor, const HdSurveyPass *pass, HdError *error) {
     double limit = surveyor->scene->max_error;
     double easy = limit > 0.0 && limit < EASY_LIMIT ? EASY_LIMIT : limit;
     double cutoff = FIRST_CUTOFF * hd_error_budget_radiance(&surveyor->budget, easy, 0.0);
     double last = LAST_CUTOFF * hd_error_budget_radiance(&surveyor->budget, limit, 0.0);
     bool is_first = true;
-    while (count > 0) {
-        double before = rays_so_far(surveyor), tried = (double)count * samples;
-        HdStatus status = survey_open(surveyor, camera, requests, &count, samples, cutoff, is_first,
-                                      surveys, error);
-        if (status != HD_OK)
-            return status;
+    int open = pass->count;
+    HdWatched watched = pass->watched;
+    HdStatus status = reserve(surveyor, open, error);
+    while (status == HD_OK && open > 0) {
+        double before = rays_so_far(surveyor), tried = (double)open * pass->samples;
+        const HdWatched own = hd_watched_take(&watched, limit > 0.0 ? 0.875 : 1.0);
+        status = survey_open(surveyor, pass, cutoff, is_first, own, &open, error);
         if (cutoff <= last || rays_so_far(surveyor) - before > tried * MOST_RAYS * NEXT_CUTOFF)
             break;
         cutoff = cutoff * NEXT_CUTOFF > last ? cutoff * NEXT_CUTOFF : last;
         is_first = false;
     }
-    return HD_OK;
-}
-
-HdStatus hd_survey_pass(HdSurveyor *surveyor, const HdCamera *camera,
-                        const HdSurveyRequest *requests, int count, int samples, HdSurvey *surveys,
-                        HdError *error) {
-    if (count == 0)
-        return HD_OK;
-    HdStatus status = reserve(surveyor, count, error);
-    if (status != HD_OK)
-        return status;
-    status = close_requests(surveyor, camera, requests, count, samples, surveys, error);
-    hd_watched_add(&surveyor->pass, 0, 1, 1);
+    if (status == HD_OK)
+        hd_watched_add(&watched, 0, 1, 1);
     return status;
 }

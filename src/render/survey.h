@@ -52,13 +52,11 @@ static inline int hd_z_order_y(int z) {
 
 typedef struct HdSurveyor {
     const HdScene *scene; /* uploaded; surveyed */
-    HdPrecision precision;
     HdRenderer *renderer; /* no frame is under way */
     const HdSampleSet *samples;
     HdErrorBudget budget;
     double most_left_out;  /* hd_most_left_out of the scene */
     HdThreadPool *threads; /* for the host's work */
-    HdWatched pass;        /* what the pass to come is worth */
     HdFrame sums;          /* counts and time of all passes so far; without pixels */
     int *entries, *open;   /* the surveyor's own from here on */
     int entry_room, open_room;
@@ -73,12 +71,20 @@ void hd_surveyor_free(HdSurveyor *surveyor);
    cut-off, and a depth so large that what lies beyond is worth little of the limit. */
 void hd_survey_end_rays(HdScene *scene);
 
+/* Samples that are asked for at a time. */
+typedef struct HdSurveyPass {
+    const HdCamera *camera;
+    const HdSurveyRequest *requests;
+    int count;         /* of them, 1 or more */
+    int samples;       /* of each */
+    HdSurvey *surveys; /* what comes of each */
+    HdWatched watched; /* what all of it is worth */
+} HdSurveyPass;
+
 /* Fills surveys[i] with the mean of the samples [first, first + samples) of request i. With a limit
    (HdScene.max_error) each bound is within it, unless depth or cut-off of the scene end rays
    before, or so many rays of a sample are needed that they come to no end: then it says by how
    much. */
-HdStatus hd_survey_pass(HdSurveyor *surveyor, const HdCamera *camera,
-                        const HdSurveyRequest *requests, int count, int samples, HdSurvey *surveys,
-                        HdError *error);
+HdStatus hd_survey_pass(HdSurveyor *surveyor, const HdSurveyPass *pass, HdError *error);
 
 #endif

@@ -88,12 +88,19 @@ static HdStatus compare(Search *search, int depth, bool splits, bool *differs, H
     return status;
 }
 
-/* The number of the first value that differs in the last comparison, row by row, bit by bit: a NaN
-   is the same as itself. */
+/* Bit by bit: a NaN is the same as itself. */
+static bool is_same_value(float a, float b) {
+    uint32_t bits[2];
+    memcpy(&bits[0], &a, sizeof a);
+    memcpy(&bits[1], &b, sizeof b);
+    return bits[0] == bits[1];
+}
+
+/* The number of the first value that differs in the last comparison, row by row. */
 static int first_value(const Search *search) {
     const HdFrame *found = &search->frames[DEVICE], *expected = &search->frames[PLAIN_C];
     for (int i = 0; i < found->width * found->height * found->floats; i++)
-        if (memcmp(&found->rgb[i], &expected->rgb[i], sizeof *found->rgb) != 0)
+        if (!is_same_value(found->rgb[i], expected->rgb[i]))
             return i;
     return NOWHERE;
 }
@@ -143,6 +150,7 @@ static void tell(const Search *search, int depth, bool is_split, char *text, siz
 static HdStatus search_frame(Search *search, char *text, size_t capacity, HdError *error) {
     bool differs, is_split = false;
     int depth = 0;
+    snprintf(text, capacity, "asked again it renders as plain C does");
     HdStatus status = compare(search, AS_IT_IS, false, &differs, error);
     if (status != HD_OK || !differs)
         return status;
@@ -165,10 +173,11 @@ static HdStatus search_frame(Search *search, char *text, size_t capacity, HdErro
 HdStatus hd_first_difference(const HdDispute *dispute, char *text, size_t capacity,
                              HdError *error) {
     Search search = {.dispute = dispute};
-    text[0] = '\0';
     HdStatus status = open_sides(&search, error);
     if (status == HD_OK)
         status = search_frame(&search, text, capacity, error);
+    if (status != HD_OK)
+        snprintf(text, capacity, "where it differs could not be found out: %s", error->message);
     forget_frames(&search);
     for (int side = 0; side < SIDES; side++)
         hd_renderer_close(search.renderers[side]);

@@ -16,9 +16,9 @@ typedef struct HdDispute {
 } HdDispute;
 
 /* Writes in words the first pixel that differs, its sample, the least depth of the ray at which the
-   frame does, and the values, rendered by the kernels that failed; "" where the device renders the
-   frame as plain C does. Depths count from 0, what the eye sees; pixels and samples from 0 on, as
-   in the frame that was given. */
+   frame does, and the values, rendered by the kernels that failed; or that the device renders the
+   frame as plain C does; or why that could not be found out. Depths count from 0, what the eye
+   sees; pixels and samples from 0 on, as in the frame that was given. */
 HdStatus hd_first_difference(const HdDispute *dispute, char *text, size_t capacity, HdError *error);
 
 #endif

@@ -17,7 +17,6 @@ enum {
 typedef struct HdProbeReport {
     int tuples;           /* that were compared */
     uint64_t hash;        /* of all results */
-    uint64_t expected;    /* likewise of plain C's */
     bool rounds_by_fma;   /* division and roots are right only if they are made of fma */
     char difference[512]; /* the first one, in words; empty: there is none */
 } HdProbeReport;

@@ -5,7 +5,6 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "input/check.h"
 #include "render/backends.h"
@@ -316,7 +315,7 @@ typedef struct Worker {
 typedef struct Run {
     const HdRandomTest *test;
     HdDevice plain;
-    Worker *workers;
+    Worker workers[MOST_WORKERS];
     int worker_count;
     pthread_mutex_t mutex; /* of what follows, and so that kernels are compiled once */
     HdRandomResult *result;
@@ -465,18 +464,13 @@ static HdStatus build(const void *what, HdScene *scene, HdCamera *camera, HdErro
     return build_random(result->first_seed, scene, camera, error);
 }
 
-/* Where the search fails, that a scene differs is told all the same. */
 static HdStatus tell_difference(const HdRandomTest *test, HdRandomResult *result, HdError *error) {
     char text[sizeof result->text / 2];
     int kind = kind_of(result->first_seed);
     const HdDispute dispute = {test->device, &test->options, needs_of(test, kind), build, result};
     HdStatus status = hd_first_difference(&dispute, text, sizeof text, error);
-    snprintf(result->text, sizeof result->text, "the scene of seed %" PRIu64 " (%s): %s%.400s",
-             result->first_seed, kinds[kind].name,
-             status != HD_OK   ? "where it differs could not be found out: "
-             : text[0] != '\0' ? ""
-                               : "asked again it renders as plain C does",
-             status != HD_OK ? error->message : text);
+    snprintf(result->text, sizeof result->text, "the scene of seed %" PRIu64 " (%s): %s",
+             result->first_seed, kinds[kind].name, text);
     return status == HD_INTERRUPTED ? status : HD_OK;
 }
 
@@ -490,13 +484,9 @@ HdStatus hd_random_test(const HdRandomTest *test, HdRandomResult *result, HdErro
     run.worker_count = test->threads > 0 ? test->threads : hd_processor_count();
     if (run.worker_count > MOST_WORKERS)
         run.worker_count = MOST_WORKERS;
-    run.workers = calloc((size_t)run.worker_count, sizeof *run.workers);
-    if (run.workers == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for %d threads", run.worker_count);
     pthread_mutex_init(&run.mutex, NULL);
     status = run_workers(&run, error);
     pthread_mutex_destroy(&run.mutex);
-    free(run.workers);
     if (status == HD_INTERRUPTED || result->different == 0)
         return status;
     HdError later; /* the first failure is told */

@@ -109,14 +109,14 @@ static HdProbeReport probe(Fault of, HdPrecision precision) {
     return report;
 }
 
+static const uint64_t hashes[] = {0x98b531570775fa8d, 0x9aa55f0c416093c4};
+
 /* Plain C's results on every processor; they change with the operands, on purpose only. */
 TEST(expectations_are_known) {
-    static const uint64_t hashes[] = {0x98b531570775fa8d, 0x9aa55f0c416093c4};
     for (int precision = 0; precision < 2; precision++) {
         const HdProbeReport report = probe(NONE, (HdPrecision)precision);
         assert_string_equal(report.difference, "");
         assert_false(report.rounds_by_fma);
-        assert_true(report.hash == report.expected);
         if (report.hash != hashes[precision])
             fail_msg("precision %d has the hash %016" PRIx64, precision, report.hash);
     }
@@ -152,6 +152,6 @@ TEST(faults_are_told_or_healed) {
         }
         assert_int_equal(report.rounds_by_fma, list[i].fault == DIVISION);
         if (list[i].fault != LOST_ADDITION)
-            assert_int_equal(report.hash != report.expected, list[i].primitive != NULL);
+            assert_int_equal(report.hash != hashes[0], list[i].primitive != NULL);
     }
 }
