@@ -19,7 +19,7 @@ HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
 
 /* Kernels that were compiled anew for the scene must first pass the self-test (self_test.h), with
    strict arithmetic. Where those of the megakernel fail it, the wavefront takes over, and a note
-   tells (warnings.h); HD_UNAVAILABLE where it fails too. Kernels that pass are kept on disk. */
+   tells (machine.h); HD_UNAVAILABLE where it fails too. Kernels that pass are kept on disk. */
 HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, HdError *error);
 
 /* Begins a frame, so that the device works on it while the caller does other things; at most

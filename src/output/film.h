@@ -60,9 +60,8 @@ HdStatus hd_film_open(HdFilm **film, HdSegments *segments, const HdOutputPlan *p
                       int height, HdError *error);
 
 /* Takes the frame at that place of the list, in their order; not one of a segment that was whole
-   when the film was opened. Blocks while FFmpeg is busy, while the segment before
-   this one is still being ended, and after the last frame until all of them have their names. By
-   one thread, which lives that long: FFmpeg ends with the thread that started it. */
+   when the film was opened. By one thread. Blocks while FFmpeg is busy, while the segment before
+   this one is still being ended, and after the last frame until all of them have their names. */
 HdStatus hd_film_add(HdFilm *film, int item, const HdFrame *frame, HdError *error);
 
 /* Ends the film, which gets its name, and removes the segments. Frees `film` in every case; on

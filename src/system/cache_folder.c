@@ -6,9 +6,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,20 +15,10 @@
 
 #include "base/hash.h"
 #include "system/atomic_file.h"
-#include "system/path.h"
 
-/* Then follow the key and the payload. Folders are not shared among machines of different byte
-   order, and if they were, the magic number would differ. */
-typedef struct Header {
-    uint64_t magic;
-    uint32_t version;
-    uint32_t key_bytes;
-    uint64_t payload_bytes;
-    uint64_t checksum; /* of the header with this field 0, the key and the payload */
-} Header;
-
-enum { VERSION = 3 };
-static const uint64_t magic = UINT64_C(0x0a68636163446865);
+/* An entry's file: the checksum of what follows it, the key with its zero byte, the payload. Where
+   the format changes, or on a machine of another byte order, the checksum is wrong. */
+enum { CHECKSUM_BYTES = sizeof(uint64_t) };
 
 /* Entries' names end so. */
 #define ENDING ".entry"
@@ -81,12 +68,6 @@ static HdStatus entry_path(char path[HD_MAX_PATH], char folder[HD_MAX_PATH], con
 
 /* ---- reading ---- */
 
-/* Of a whole entry, whose field for it becomes 0. */
-static uint64_t checksum(unsigned char *file, size_t size) {
-    memset(file + offsetof(Header, checksum), 0, sizeof(uint64_t));
-    return hd_hash_bytes(HD_HASH_START, file, size);
-}
-
 /* Why a file or folder is not this user's alone to write, in words that follow its name; NULL: it
  * is. */
 static const char *find_owner_fault(const struct stat *found) {
@@ -115,7 +96,7 @@ static const char *find_stat_fault(const struct stat *found) {
     const char *fault = find_owner_fault(found);
     if (fault != NULL)
         return fault;
-    if (found->st_size < (off_t)sizeof(Header) || found->st_size > HD_CACHE_MAX_ENTRY_BYTES)
+    if (found->st_size < CHECKSUM_BYTES || found->st_size > HD_CACHE_MAX_ENTRY_BYTES)
         return "its size is wrong";
     return NULL;
 }
@@ -136,27 +117,20 @@ static const char *read_file(int descriptor, unsigned char **file, size_t *size)
     return done == (ssize_t)*size ? NULL : "it cannot be read";
 }
 
-static const char *find_fault(unsigned char *file, size_t whole_size, const char *key) {
-    Header header;
-    const size_t size = whole_size - sizeof header;
-    memcpy(&header, file, sizeof header);
-    if (header.magic != magic)
-        return "it is no entry of hedron's";
-    if (header.version != VERSION)
-        return "it is in another format";
-    if (header.key_bytes > size || header.payload_bytes != size - header.key_bytes)
-        return "it is cut short or too long";
-    const unsigned char *stored = file + sizeof header;
-    if (header.checksum != checksum(file, whole_size))
+static const char *find_fault(const unsigned char *file, size_t size, const char *key) {
+    const size_t key_bytes = strlen(key) + 1;
+    uint64_t checksum;
+    memcpy(&checksum, file, CHECKSUM_BYTES);
+    if (checksum != hd_hash_bytes(HD_HASH_START, file + CHECKSUM_BYTES, size - CHECKSUM_BYTES))
         return "its checksum is wrong";
-    if (header.key_bytes != strlen(key) || memcmp(stored, key, header.key_bytes) != 0)
+    if (size - CHECKSUM_BYTES < key_bytes || memcmp(file + CHECKSUM_BYTES, key, key_bytes) != 0)
         return "it is of another key";
     return NULL;
 }
 
 /* Moves the payload to the front. */
 static void keep_payload(unsigned char *file, size_t *size, const char *key) {
-    size_t skipped = sizeof(Header) + strlen(key);
+    const size_t skipped = CHECKSUM_BYTES + strlen(key) + 1;
     *size -= skipped;
     memmove(file, file + skipped, *size);
 }
@@ -200,42 +174,32 @@ enum { STALE_SECONDS = 3600 };
 typedef struct Usage {
     int64_t bytes;
     char oldest[256];
-    struct timespec used, stuck;
+    int64_t used, stuck; /* nanoseconds */
 } Usage;
 
-static bool ends_in(const char *name, const char *ending) {
-    size_t length = strlen(name), tail = strlen(ending);
-    return length >= tail && strcmp(name + length - tail, ending) == 0;
-}
-
-static bool is_later(const struct timespec *a, const struct timespec *b) {
-    return a->tv_sec != b->tv_sec ? a->tv_sec > b->tv_sec : a->tv_nsec > b->tv_nsec;
-}
-
 static void add_entry(Usage *usage, const char *name, const struct stat *found) {
-    const struct timespec *used = &found->st_mtim;
+    const int64_t used = (int64_t)found->st_mtim.tv_sec * 1000000000 + found->st_mtim.tv_nsec;
     if (strlen(name) >= sizeof usage->oldest)
         return;
     usage->bytes += (int64_t)found->st_size;
-    if (!is_later(used, &usage->stuck) ||
-        (usage->oldest[0] != '\0' && !is_later(&usage->used, used)))
+    if (used <= usage->stuck || (usage->oldest[0] != '\0' && used >= usage->used))
         return;
     memcpy(usage->oldest, name, strlen(name) + 1);
-    usage->used = *used;
+    usage->used = used;
 }
 
 static void look_at(Usage *usage, int folder, const char *name) {
     struct stat found;
     if (fstatat(folder, name, &found, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(found.st_mode))
         return;
-    if (ends_in(name, ENDING))
+    if (hd_path_has_ending(name, ENDING))
         add_entry(usage, name, &found);
     else if (strstr(name, ENDING ".tmp-") != NULL &&
              time(NULL) - found.st_mtim.tv_sec > STALE_SECONDS)
         unlinkat(folder, name, 0);
 }
 
-static Usage usage_of(DIR *stream, struct timespec stuck) {
+static Usage usage_of(DIR *stream, int64_t stuck) {
     Usage usage = {.stuck = stuck};
     rewinddir(stream);
     for (const struct dirent *found = readdir(stream); found != NULL; found = readdir(stream))
@@ -247,7 +211,7 @@ void hd_cache_limit(const char *folder, int64_t most) {
     DIR *stream = opendir(folder);
     if (stream == NULL)
         return;
-    Usage usage = usage_of(stream, (struct timespec){0});
+    Usage usage = usage_of(stream, 0);
     while (usage.bytes > most && usage.oldest[0] != '\0') {
         if (unlinkat(dirfd(stream), usage.oldest, 0) != 0 && errno != ENOENT)
             usage.stuck = usage.used;
@@ -259,7 +223,7 @@ void hd_cache_limit(const char *folder, int64_t most) {
 /* ---- writing ---- */
 
 static HdStatus make_folder(const char *folder, HdError *error) {
-    char below[HD_MAX_PATH + 2];
+    char below[HD_MAX_PATH];
     snprintf(below, sizeof below, "%s", folder);
     for (char *slash = strchr(below + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
         *slash = '\0';
@@ -271,44 +235,19 @@ static HdStatus make_folder(const char *folder, HdError *error) {
     return HD_OK;
 }
 
-/* All of an entry's file; free() it. */
-static unsigned char *make_entry(const char *key, const void *bytes, size_t size,
-                                 size_t *whole_size) {
-    Header header = {.magic = magic,
-                     .version = VERSION,
-                     .key_bytes = (uint32_t)strlen(key),
-                     .payload_bytes = size};
-    *whole_size = sizeof header + header.key_bytes + size;
-    unsigned char *file = malloc(*whole_size);
-    if (file == NULL)
-        return NULL;
-    memcpy(file, &header, sizeof header);
-    memcpy(file + sizeof header, key, header.key_bytes);
-    memcpy(file + sizeof header + header.key_bytes, bytes, size);
-    header.checksum = checksum(file, *whole_size);
-    memcpy(file, &header, sizeof header);
-    return file;
-}
-
-static HdStatus write_entry(const char *path, const unsigned char *entry, size_t size,
+static HdStatus write_entry(const char *path, const char *key, const void *bytes, size_t size,
                             HdError *error) {
+    const size_t key_bytes = strlen(key) + 1;
+    const uint64_t checksum =
+        hd_hash_bytes(hd_hash_bytes(HD_HASH_START, key, key_bytes), bytes, size);
     HdAtomicFile file;
     HdStatus status = hd_atomic_file_open_private(&file, path, error);
     if (status != HD_OK)
         return status;
-    fwrite(entry, 1, size, file.stream); /* committing finds what fails */
+    fwrite(&checksum, 1, CHECKSUM_BYTES, file.stream); /* committing finds what fails */
+    fwrite(key, 1, key_bytes, file.stream);
+    fwrite(bytes, 1, size, file.stream);
     return hd_atomic_file_commit(&file, HD_FLEETING, error);
-}
-
-static HdStatus put_entry(const char *path, const char *key, const void *bytes, size_t size,
-                          HdError *error) {
-    size_t whole_size;
-    unsigned char *entry = make_entry(key, bytes, size, &whole_size);
-    HdStatus status = entry != NULL
-                          ? write_entry(path, entry, whole_size, error)
-                          : hd_fail(error, HD_FAILED, "out of memory: no room for an entry");
-    free(entry);
-    return status;
 }
 
 HdStatus hd_cache_put(const char *kind, const char *key, const void *bytes, size_t size,
@@ -317,14 +256,14 @@ HdStatus hd_cache_put(const char *kind, const char *key, const void *bytes, size
     HdStatus status = entry_path(path, folder, kind, key, error);
     if (status != HD_OK)
         return status;
-    if (size > HD_CACHE_MAX_ENTRY_BYTES - sizeof(Header) - strlen(key))
+    if (size > HD_CACHE_MAX_ENTRY_BYTES - CHECKSUM_BYTES - strlen(key) - 1)
         return hd_fail(error, HD_FAILED, "an entry of %zu bytes is too large for the cache: %d",
                        size, (int)HD_CACHE_MAX_ENTRY_BYTES);
     status = make_folder(folder, error);
     if (status == HD_OK)
         status = check_folder(folder, error);
     if (status == HD_OK)
-        status = put_entry(path, key, bytes, size, error);
+        status = write_entry(path, key, bytes, size, error);
     if (status == HD_OK)
         hd_cache_limit(folder, HD_CACHE_MAX_BYTES);
     return status;

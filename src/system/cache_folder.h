@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* A folder that outlives the program, for what takes long to make: compiled kernels, measurements.
-   Nothing in it is needed. An entry is trusted only if nobody but this user may write to it or
-   to the folder and its checksum is right; whatever is wrong with the folder, the program goes on
-   without. Entries
-   are found by a key of another kind, a text of everything they depend on, which is stored whole
+   Nothing in it is needed. An entry is trusted only if nobody but this user may write to it or to
+   the folder and its checksum is right; whatever is wrong with the folder, the program goes on
+   without. Entries are found by a key, a text of everything they depend on, which is stored whole
    and compared.
 
    The folder is the one that HEDRON_CACHE names; else $XDG_CACHE_HOME/hedron; else

@@ -12,7 +12,7 @@
 typedef struct HdThreadPool HdThreadPool;
 
 /* Starts `threads` threads (at least 1), each in the default floating-point environment. Where the
-   system refuses some, those that it did not refuse do the work, and a note tells (warnings.h). */
+   system refuses some, those that it did not refuse do the work, and a note tells (machine.h). */
 HdStatus hd_thread_pool_create(HdThreadPool **pool, int threads, HdError *error);
 
 /* How many threads there are. */
