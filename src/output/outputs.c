@@ -130,8 +130,7 @@ HdStatus hd_outputs_add_layers(HdOutputPlan *plan, unsigned layers, bool is_surv
 }
 
 void hd_outputs_mark(HdOutputPlan *plan, uint64_t fingerprint, bool resumes) {
-    plan->is_marked = plan->can_mark;
-    plan->keeps_films = true;
+    plan->is_marked = true;
     plan->fingerprint = fingerprint;
     plan->resumes = resumes && plan->can_resume;
 }

@@ -25,12 +25,12 @@ typedef struct HdOutputPlan {
     int count;
     int film_count;
     HdOutputStyle style;
-    HdFrameWish wish;     /* what a frame must hold for all of them */
-    bool can_mark;        /* some are pictures of a format that bears marks (mark.h) */
-    bool can_resume;      /* frames can be finished before the run (resume.h), once marked */
-    bool is_marked;       /* those pictures get a mark */
-    bool keeps_films;     /* films are made by segments that stay when the run is ended */
-    uint64_t fingerprint; /* of the run (fingerprint.h), where they do, or films are kept */
+    HdFrameWish wish; /* what a frame must hold for all of them */
+    bool can_mark;    /* some are pictures of a format that bears marks (mark.h) */
+    bool can_resume;  /* frames can be finished before the run (resume.h), once marked */
+    bool is_marked;   /* those pictures get a mark, and films are made by segments that stay when
+                         the run is ended */
+    uint64_t fingerprint; /* of the run (fingerprint.h), where it is marked */
     const char *scene;    /* what pictures say of the run (HdPictureLabel): the caller sets both */
     const char *options;
     bool resumes;            /* frames that are there are finished (resume.h) */
