@@ -73,16 +73,31 @@ TEST(that_of_a_process_that_is_gone_is_to_be_tried_again) {
     remove_locked(getpid(), true);
 }
 
+/* What had the final name when the file, and when its folder, was synced; and the file's size. */
+static bool was_there[2];
+static off_t synced_size;
+static int syncs;
+
+static int note_sync(int descriptor) {
+    struct stat found;
+    was_there[syncs % 2] = access("lasting", F_OK) == 0;
+    if (syncs++ == 0 && fstat(descriptor, &found) == 0)
+        synced_size = found.st_size;
+    return real_fsync(descriptor);
+}
+REPLACE(fsync, note_sync)
+
 /* Another program may put a file in the place of one that was made for it. */
 TEST(a_reserved_one_is_named_as_another_program_left_it) {
     HdAtomicFile file;
     struct stat found;
     assert_int_equal(hd_atomic_file_reserve(&file, "3.mkv", &error), HD_OK);
     assert_true(file.stream == NULL && file.lock >= 0);
+    syncs = 0;
     write_bytes("theirs", "film", 4);
     assert_int_equal(rename("theirs", file.temporary), 0);
     assert_int_equal(hd_atomic_file_commit(&file, HD_DURABLE, &error), HD_OK);
-    assert_true(stat("3.mkv", &found) == 0 && found.st_size == 4);
+    assert_true(stat("3.mkv", &found) == 0 && found.st_size == 4 && synced_size == 4);
     assert_int_equal(file.lock, -1);
 }
 
@@ -96,16 +111,6 @@ static void expect_failure(HdAtomicFile *file, const char *message) {
     expect_contains(error.message, message);
     hd_atomic_file_discard(file);
 }
-
-static bool
-    was_there[2]; /* what had the final name when the file, and when its folder, was synced */
-static int syncs;
-
-static int note_sync(int descriptor) {
-    was_there[syncs++ % 2] = access("lasting", F_OK) == 0;
-    return real_fsync(descriptor);
-}
-REPLACE(fsync, note_sync)
 
 /* The bytes are on the disk before the name is. */
 TEST(only_what_is_to_last_is_synced) {
@@ -162,8 +167,10 @@ TEST(names_that_do_not_fit_are_refused) {
     name[255] = '\0';
     open_for(&file, name);
     assert_int_equal(hd_atomic_file_commit(&file, HD_FLEETING, &error), HD_OK);
-    static const char *const no_files[] = {"folder/", "", "."};
-    for (int i = 0; i < 3; i++)
+    static char longest[HD_MAX_PATH + 1];
+    memset(longest, 'n', HD_MAX_PATH);
+    static const char *const no_files[] = {"folder/", "", ".", longest};
+    for (int i = 0; i < 4; i++)
         assert_int_equal(hd_atomic_file_open(&file, no_files[i], &error), HD_BAD_INPUT);
 }
 
