@@ -7,7 +7,7 @@
 #include "cli/commands.h"
 #include "cli/load_scene.h"
 #include "input/json/json_device_text.h"
-#include "input/schema.h"
+#include "input/write.h"
 
 static void print_meshes(const HdScene *scene) {
     if (scene->mesh_count > 0)
