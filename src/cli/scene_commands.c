@@ -12,7 +12,6 @@
 #include "image/picture.h"
 #include "input/builtin.h"
 #include "input/json/json_device_text.h"
-#include "input/schema.h"
 #include "input/write.h"
 #include "run/load_scene.h"
 #include "system/atomic_file.h"
