@@ -130,8 +130,7 @@ HdStatus hd_outputs_add_layers(HdOutputPlan *plan, unsigned layers, bool is_surv
 }
 
 void hd_outputs_set_fingerprint(HdOutputPlan *plan, uint64_t fingerprint, bool resumes) {
-    plan->has_fingerprint = plan->bears_fingerprints;
-    plan->keeps_films = true;
+    plan->has_fingerprint = true;
     plan->fingerprint = fingerprint;
     plan->resumes = resumes && plan->can_resume;
 }

@@ -28,10 +28,10 @@ typedef struct HdOutputPlan {
     HdFrameWish wish;        /* what a frame must hold for all of them */
     bool bears_fingerprints; /* some are pictures of a format that can */
     bool can_resume;         /* frames can be finished before the run (resume.h) */
-    bool has_fingerprint;    /* those pictures bear their frame's */
-    bool keeps_films;        /* films are made by segments that stay when the run is ended */
-    uint64_t fingerprint;    /* of the run (fingerprint.h), where they do, or films are kept */
-    const char *scene; /* what pictures say of the run (HdPictureLabel): the caller sets both */
+    bool has_fingerprint; /* those pictures bear their frame's, and films are made by segments that
+                             stay when the run is ended */
+    uint64_t fingerprint; /* of the run (fingerprint.h), where it has one */
+    const char *scene;    /* what pictures say of the run (HdPictureLabel): the caller sets both */
     const char *options;
     bool resumes;            /* frames that are there are finished (resume.h) */
     HdDurability durability; /* of pictures and films; durable, unless the caller says otherwise */

@@ -16,10 +16,12 @@ typedef struct Worker {
     pthread_t thread;
 } Worker;
 
-/* Of an item under way. */
+/* What has become of an item. Those that are ready are given from the start. */
+typedef enum State { FREE, TAKEN, GIVEN } State;
+
+/* Of an item under way, a bit for each stage. */
 typedef struct Slot {
-    bool given;
-    unsigned taken, done; /* by stage */
+    unsigned taken, done;
 } Slot;
 
 struct HdStages {
@@ -30,15 +32,13 @@ struct HdStages {
     int next[HD_MAX_STAGES]; /* the first item that the stage has not taken */
     int count;
     int room;
-    Slot *slots;          /* by item modulo room */
-    bool *is_back;        /* by item: taken and given back */
-    const bool *is_ready; /* by item: given from the start; NULL: none */
-    int item_count;       /* at the end only those before the first that was not given */
-    int first_fresh;      /* the first item that was never taken */
-    int back_count;
-    int given_until; /* the items before it are given */
-    int gone;        /* items that went through all stages, and so did those before them */
-    int limit;       /* the first item that failed; INT_MAX: none */
+    Slot *slots;           /* by item modulo room */
+    unsigned char *states; /* by item */
+    int item_count;        /* at the end only those before the first that was not given */
+    int first_free;        /* no item before it is free */
+    int given_until;       /* the items before it are given */
+    int gone;              /* items that went through all stages, and so did those before them */
+    int limit;             /* the first item that failed; INT_MAX: none */
     bool stopped;
     bool ended; /* no more items come */
     HdStatus status;
@@ -55,8 +55,8 @@ static Slot *slot_of(const HdStages *stages, int item) {
     return &stages->slots[item % stages->room];
 }
 
-static bool is_ready(const HdStages *stages, int item) {
-    return stages->is_ready != NULL && item < stages->item_count && stages->is_ready[item];
+static bool is_given(const HdStages *stages, int item) {
+    return item < stages->item_count && stages->states[item] == GIVEN;
 }
 
 /* The end of the items that are wanted. */
@@ -65,11 +65,9 @@ static int wanted_end(const HdStages *stages) {
 }
 
 static int first_not_given(HdStages *stages) {
-    int item = stages->given_until, end = stages->gone + stages->room;
-    while (is_ready(stages, item) || (item < end && slot_of(stages, item)->given))
-        item++;
-    stages->given_until = item;
-    return item;
+    while (is_given(stages, stages->given_until))
+        stages->given_until++;
+    return stages->given_until;
 }
 
 /* What the stage can take: the next item, or with several threads, which keep no order, the first
@@ -80,7 +78,7 @@ static int find_work(const HdStages *stages, int stage) {
     int end = least(stages->gone + stages->room, wanted_end(stages));
     for (int item = first; item < (what->threads == 1 ? least(end, first + 1) : end); item++) {
         const Slot *slot = slot_of(stages, item);
-        if ((slot->given || is_ready(stages, item)) && (slot->taken >> stage & 1) == 0 &&
+        if (is_given(stages, item) && (slot->taken >> stage & 1) == 0 &&
             (slot->done & what->after) == what->after)
             return item;
     }
@@ -131,10 +129,8 @@ static void note_success(HdStages *stages, int stage, int item) {
     while (slot_of(stages, stages->gone)->done == all) {
         *slot_of(stages, stages->gone) = (Slot){0};
         stages->gone++;
-        if (stages->given_until < stages->gone)
-            stages->given_until = stages->gone;
         pthread_cond_broadcast(&stages->room_made);
-        if (is_ready(stages, stages->gone + stages->room - 1))
+        if (is_given(stages, stages->gone + stages->room - 1))
             wake_first_stages(stages);
     }
 }
@@ -187,11 +183,6 @@ static void *worker_main(void *argument) {
     return NULL;
 }
 
-static void skip_ready(HdStages *stages) {
-    while (is_ready(stages, stages->first_fresh))
-        stages->first_fresh++;
-}
-
 static HdStages *create(const HdStage *list, int count, int item_count, const bool *is_ready,
                         int room) {
     int threads = list[0].threads;
@@ -201,12 +192,12 @@ static HdStages *create(const HdStage *list, int count, int item_count, const bo
     if (stages == NULL)
         return NULL;
     stages->slots = calloc((size_t)room, sizeof *stages->slots);
-    stages->is_back = calloc((size_t)item_count + 1, sizeof *stages->is_back);
+    stages->states = calloc((size_t)item_count + 1, sizeof *stages->states);
     stages->workers = calloc((size_t)threads, sizeof *stages->workers);
     stages->count = count;
     stages->item_count = item_count;
-    stages->is_ready = is_ready;
-    skip_ready(stages);
+    for (int i = 0; i < item_count && is_ready != NULL && stages->states != NULL; i++)
+        stages->states[i] = is_ready[i] ? GIVEN : FREE;
     stages->room = room;
     stages->limit = INT_MAX;
     memcpy(stages->list, list, (size_t)count * sizeof *list);
@@ -224,7 +215,7 @@ static void destroy(HdStages *stages) {
     pthread_mutex_destroy(&stages->mutex);
     free(stages->workers);
     free(stages->slots);
-    free(stages->is_back);
+    free(stages->states);
     free(stages);
 }
 
@@ -266,7 +257,7 @@ HdStatus hd_stages_start(HdStages **out, const HdStage *list, int count, int ite
     HdStages *stages = create(list, count, item_count, is_ready, room);
     int reason = 0;
     *out = NULL;
-    if (stages == NULL || stages->slots == NULL || stages->is_back == NULL ||
+    if (stages == NULL || stages->slots == NULL || stages->states == NULL ||
         stages->workers == NULL) {
         if (stages != NULL)
             destroy(stages);
@@ -292,49 +283,36 @@ HdStatus hd_stages_start(HdStages **out, const HdStage *list, int count, int ite
         started + 1, count, strerror(reason));
 }
 
-/* The first item that is there to be taken. */
-static int first_to_take(const HdStages *stages) {
-    for (int item = stages->gone; stages->back_count > 0 && item < stages->first_fresh; item++)
-        if (stages->is_back[item])
-            return item;
-    return stages->first_fresh;
+/* The first item that is free; the end where none is. */
+static int find_free(HdStages *stages) {
+    const int end = wanted_end(stages);
+    while (stages->first_free < end && stages->states[stages->first_free] != FREE)
+        stages->first_free++;
+    return stages->first_free;
 }
 
-/* Items that were never taken; no more than there is room for need be counted. */
-static int count_fresh(const HdStages *stages) {
+/* No more than there is room for need be counted. */
+static int count_free(HdStages *stages) {
     int count = 0, end = wanted_end(stages);
-    for (int item = stages->first_fresh; item < end && count < stages->room; item++)
-        count += !is_ready(stages, item);
+    for (int item = find_free(stages); item < end && count < stages->room; item++)
+        count += stages->states[item] == FREE;
     return count;
 }
 
-static bool can_take(const HdStages *stages, const HdTaker *taker, int item) {
-    int end = wanted_end(stages);
-    if (item >= end || item >= stages->gone + stages->room + taker->ahead)
+static bool can_take(HdStages *stages, const HdTaker *taker, int item) {
+    if (item >= wanted_end(stages) || item >= stages->gone + stages->room + taker->ahead)
         return false;
-    return taker->wants == NULL ||
-           taker->wants(taker->context,
-                        least(count_fresh(stages) + stages->back_count, stages->room));
-}
-
-static int take(HdStages *stages, int item) {
-    if (item == stages->first_fresh) {
-        stages->first_fresh++;
-        skip_ready(stages);
-    } else {
-        stages->is_back[item] = false;
-        stages->back_count--;
-    }
-    return item;
+    return taker->wants == NULL || taker->wants(taker->context, count_free(stages));
 }
 
 int hd_stages_take(HdStages *stages, const HdTaker *taker, bool waits) {
     int taken = -1;
     pthread_mutex_lock(&stages->mutex);
     while (!stages->stopped && first_not_given(stages) < wanted_end(stages)) {
-        int item = first_to_take(stages);
+        int item = find_free(stages);
         if (can_take(stages, taker, item)) {
-            taken = take(stages, item);
+            stages->states[item] = TAKEN;
+            taken = item;
             break;
         }
         if (!waits)
@@ -356,7 +334,7 @@ bool hd_stages_wait(HdStages *stages, int item) {
 
 void hd_stages_give(HdStages *stages, int item) {
     pthread_mutex_lock(&stages->mutex);
-    *slot_of(stages, item) = (Slot){.given = true};
+    stages->states[item] = GIVEN;
     wake_first_stages(stages);
     pthread_cond_broadcast(&stages->room_made);
     pthread_mutex_unlock(&stages->mutex);
@@ -364,8 +342,8 @@ void hd_stages_give(HdStages *stages, int item) {
 
 void hd_stages_give_back(HdStages *stages, int item) {
     pthread_mutex_lock(&stages->mutex);
-    stages->is_back[item] = true;
-    stages->back_count++;
+    stages->states[item] = FREE;
+    stages->first_free = least(stages->first_free, item);
     pthread_cond_broadcast(&stages->room_made);
     pthread_mutex_unlock(&stages->mutex);
 }

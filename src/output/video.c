@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/limits.h"
-#include "image/picture.h"
 #include "system/atomic_file.h"
 #include "system/child.h"
 #include "system/interrupt.h"
@@ -29,21 +27,6 @@ struct HdVideo {
     HdAtomicFile file; /* which FFmpeg writes */
     char ffprobe[HD_MAX_PATH];
 };
-
-static HdStatus check_plan(const char *path, const HdVideoPlan *plan, HdError *error) {
-    const int width = plan->width, height = plan->height;
-    if (width < 1 || width > HD_MAX_IMAGE_SIDE || height < 1 || height > HD_MAX_IMAGE_SIDE)
-        return hd_fail(error, HD_BAD_INPUT, "the film %s has %d x %d pixels, expected 1..%d each",
-                       path, width, height, HD_MAX_IMAGE_SIDE);
-    if (!hd_format_is_film(plan->format))
-        return hd_fail(error, HD_BAD_INPUT,
-                       "the film %s has another ending, expected " HD_FILM_ENDINGS, path);
-    if (plan->style.frames_per_second < 1)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "the film %s has %d frames a second, expected at least 1", path,
-                       plan->style.frames_per_second);
-    return hd_format_check_style(path, &plan->style.picture, error);
-}
 
 enum { MAX_ARGUMENTS = 64, MAX_EXCUSE = 600 };
 
@@ -123,15 +106,12 @@ static HdStatus open_film(HdVideo *video, const char *path, HdError *error) {
 }
 
 HdStatus hd_video_open(HdVideo **out, const char *path, const HdVideoPlan *plan, HdError *error) {
-    *out = NULL;
-    HdStatus status = check_plan(path, plan, error);
-    if (status != HD_OK)
-        return status;
     HdVideo *video = malloc(sizeof *video);
+    *out = NULL;
     if (video == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to make the film %s", path);
     *video = (HdVideo){.plan = *plan, .ffmpeg = {.input = -1, .output = -1}, .file = {.lock = -1}};
-    status = open_film(video, path, error);
+    const HdStatus status = open_film(video, path, error);
     if (status == HD_OK)
         *out = video;
     else

@@ -11,6 +11,7 @@
 
 typedef struct HdVideo HdVideo;
 
+/* As the outputs were settled. */
 typedef struct HdVideoPlan {
     const HdFormat *format; /* of a film */
     int width, height;

@@ -222,6 +222,19 @@ void hd_cache_limit(const char *folder, int64_t most) {
 
 /* ---- writing ---- */
 
+static HdStatus make_folder(const char *folder, HdError *error) {
+    char below[HD_MAX_PATH];
+    snprintf(below, sizeof below, "%s", folder);
+    for (char *slash = strchr(below + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        mkdir(below, 0700);
+        *slash = '/';
+    }
+    if (mkdir(folder, 0700) != 0 && errno != EEXIST)
+        return hd_fail(error, HD_FAILED, "cannot make the folder %s: %s", folder, strerror(errno));
+    return HD_OK;
+}
+
 static HdStatus write_entry(const char *path, const char *key, const void *bytes, size_t size,
                             HdError *error) {
     const size_t key_bytes = strlen(key) + 1;
@@ -246,7 +259,7 @@ HdStatus hd_cache_put(const char *kind, const char *key, const void *bytes, size
     if (size > HD_CACHE_MAX_ENTRY_BYTES - CHECKSUM_BYTES - strlen(key) - 1)
         return hd_fail(error, HD_FAILED, "an entry of %zu bytes is too large for the cache: %d",
                        size, (int)HD_CACHE_MAX_ENTRY_BYTES);
-    status = hd_path_make_parents(path, 0700, error);
+    status = make_folder(folder, error);
     if (status == HD_OK)
         status = check_folder(folder, error);
     if (status == HD_OK)

@@ -129,7 +129,8 @@ bool hd_fallback_take(char text[HD_FALLBACK_LENGTH]) {
     bool found = notes.count > 0;
     if (found) {
         memcpy(text, notes.sentences[0], HD_FALLBACK_LENGTH);
-        memmove(notes.sentences[0], notes.sentences[1], sizeof notes.sentences - sizeof notes.sentences[0]);
+        memmove(notes.sentences[0], notes.sentences[1],
+                sizeof notes.sentences - sizeof notes.sentences[0]);
         notes.count--;
     }
     pthread_mutex_unlock(&notes.mutex);

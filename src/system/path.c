@@ -222,77 +222,66 @@ static bool has_directive(const char *path) {
     return has_number(path, false);
 }
 
-static HdStatus count_numbers(const char *pattern, int *numbers, HdError *error) {
-    const bool takes_marks = !has_directive(pattern);
-    const char *text = pattern;
-    int digits;
-    *numbers = 0;
-    while (*text != '\0') {
-        Part part = read_part(&text, takes_marks, &digits);
-        if (part == PART_WRONG)
-            return hd_fail(error, HD_BAD_INPUT,
-                           "the pattern \"%s\" has \"%.*s\", expected %%d, %%0Nd with N from 1 to "
-                           "%d, 1 to %d #, or %%%% for a percent sign",
-                           pattern, *text == '#' ? (int)strspn(text, "#") : 4, text, MAX_DIGITS,
-                           MAX_DIGITS);
-        *numbers += part == PART_NUMBER;
-    }
-    return HD_OK;
+static HdStatus fail_part(const char *pattern, const char *part, HdError *error) {
+    return hd_fail(error, HD_BAD_INPUT,
+                   "the pattern \"%s\" has \"%.*s\", expected %%d, %%0Nd with N from 1 to %d, 1 to "
+                   "%d #, or %%%% for a percent sign",
+                   pattern, *part == '#' ? (int)strspn(part, "#") : 4, part, MAX_DIGITS,
+                   MAX_DIGITS);
 }
 
-HdStatus hd_pattern_check(const char *pattern, HdError *error) {
-    int numbers;
-    HdStatus status = count_numbers(pattern, &numbers, error);
-    if (status == HD_OK && numbers != 1)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "the pattern \"%s\" has %d frame numbers, expected exactly one %%d, %%0Nd "
-                       "or run of #",
-                       pattern, numbers);
-    return status;
-}
-
-/* Writes what stands for the next part and moves past it. */
-static void expand_next(const char **text, bool takes_marks, int frame, char piece[16]) {
-    int digits;
-    if (read_part(text, takes_marks, &digits) == PART_NUMBER)
-        snprintf(piece, 16, "%0*d", digits, frame);
-    else
-        snprintf(piece, 16, "%c", (*text)[-1]);
-}
-
-static HdStatus expand(const char *pattern, int frame, char out[HD_MAX_PATH], HdError *error) {
+/* Also counts the numbers that it has. */
+static HdStatus expand(const char *pattern, int frame, char out[HD_MAX_PATH], int *numbers,
+                       HdError *error) {
     const bool takes_marks = !has_directive(pattern);
     size_t length = 0;
+    int digits;
+    *numbers = 0;
     for (const char *text = pattern; *text != '\0';) {
         char piece[16];
-        expand_next(&text, takes_marks, frame, piece);
-        size_t piece_length = strlen(piece);
-        if (length + piece_length >= HD_MAX_PATH)
+        const Part part = read_part(&text, takes_marks, &digits);
+        if (part == PART_WRONG)
+            return fail_part(pattern, text, error);
+        const int size = part == PART_NUMBER ? snprintf(piece, sizeof piece, "%0*d", digits, frame)
+                                             : snprintf(piece, sizeof piece, "%c", text[-1]);
+        if (length + (size_t)size >= HD_MAX_PATH)
             return fail_too_long(pattern, error);
-        memcpy(out + length, piece, piece_length);
-        length += piece_length;
+        memcpy(out + length, piece, (size_t)size);
+        length += (size_t)size;
+        *numbers += part == PART_NUMBER;
     }
     out[length] = '\0';
     return HD_OK;
 }
 
 HdStatus hd_pattern_format(const char *pattern, int frame, char out[HD_MAX_PATH], HdError *error) {
-    HdStatus status = hd_pattern_check(pattern, error);
+    int numbers;
+    HdStatus status = expand(pattern, frame, out, &numbers, error);
     if (status != HD_OK)
         return status;
+    if (numbers != 1)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the pattern \"%s\" has %d frame numbers, expected exactly one %%d, %%0Nd "
+                       "or run of #",
+                       pattern, numbers);
     if (frame < 0)
         return hd_fail(error, HD_BAD_INPUT,
                        "the frame %d of \"%s\" is negative, expected 0 or more", frame, pattern);
-    return expand(pattern, frame, out, error);
+    return HD_OK;
+}
+
+HdStatus hd_pattern_check(const char *pattern, HdError *error) {
+    char name[HD_MAX_PATH];
+    return hd_pattern_format(pattern, 0, name, error);
 }
 
 HdStatus hd_pattern_format_single(const char *name, char out[HD_MAX_PATH], HdError *error) {
     int numbers;
-    HdStatus status = count_numbers(name, &numbers, error);
+    HdStatus status = expand(name, 0, out, &numbers, error);
     if (status == HD_OK && numbers > 0)
         return hd_fail(error, HD_BAD_INPUT, "the name \"%s\" has a frame number, expected none",
                        name);
-    return status == HD_OK ? expand(name, 0, out, error) : status;
+    return status;
 }
 
 /* ---- bytes ---- */

@@ -252,33 +252,6 @@ TEST(an_older_film_stays_until_there_is_another) {
     hd_frame_free(&wrong);
 }
 
-TEST(wrong_settings_are_refused) {
-    static char longest[HD_MAX_PATH + 1];
-    static const HdOutputStyle none = {{HD_CURVE_SRGB, 8}, 0};
-    static const struct {
-        const char *path;
-        int width, height;
-        const HdOutputStyle *style;
-        const char *why;
-    } cases[] = {
-        {"out/a.mp4", 0, 16, &STYLE, "0 x 16 pixels, expected 1..65535"},
-        {"out/a.mp4", 16, 65536, &STYLE, "16 x 65536 pixels, expected 1..65535"},
-        {"out/a.mp4", 16, 16, &none, "0 frames a second"},
-        {"out/a.png", 16, 16, &STYLE, "out/a.png has another ending, expected .mp4, .mkv or .gif"},
-        {longest, 16, 16, &STYLE, "has 4096 bytes, expected fewer than 4096"}};
-    HdVideo *video;
-    memset(longest, '/', HD_MAX_PATH);
-    memcpy(longest, "out", 3);
-    memcpy(longest + HD_MAX_PATH - 5, "a.mp4", 5);
-    fake_films(1, 0);
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        assert_int_equal(
-            open_film(&video, cases[i].path, cases[i].width, cases[i].height, cases[i].style),
-            HD_BAD_INPUT);
-        expect_contains(error.message, cases[i].why);
-    }
-}
-
 TEST(the_patience_is_whole_seconds) {
     static const char *const wrong[] = {"0", "86401", "1.5", "1s"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {

@@ -162,8 +162,10 @@ TEST(names_that_do_not_fit_are_refused) {
     name[255] = '\0';
     open_for(&file, name);
     assert_int_equal(hd_atomic_file_commit(&file, HD_FLEETING, &error), HD_OK);
-    static const char *const no_files[] = {"folder/", "", "."};
-    for (int i = 0; i < 3; i++)
+    static char longest[HD_MAX_PATH + 1];
+    memset(longest, 'n', HD_MAX_PATH);
+    static const char *const no_files[] = {"folder/", "", ".", longest};
+    for (int i = 0; i < 4; i++)
         assert_int_equal(hd_atomic_file_open(&file, no_files[i], &error), HD_BAD_INPUT);
 }
 
