@@ -185,7 +185,7 @@ HdStatus hd_command_convert(const HdOptions *options, HdError *error) {
     const char *source = options->operand_count > 0 ? options->operands[0] : NULL;
     const char *output = options->store.count > 0 ? options->store.names[0] : NULL;
     HdSceneFile file;
-    HdStatus status = hd_read_classic(&file, source, options->variant, error);
+    HdStatus status = hd_read_classic(&file, source, options->scene.variant, error);
     if (status != HD_OK)
         return status;
     status = keep_texture(&file, output, error);

@@ -206,7 +206,7 @@ TEST(wrong_lines_are_refused) {
 TEST(nothing_is_the_classic_mode) {
     expect_parsed("hedron");
     assert_int_equal(options.command, HD_COMMAND_CLASSIC);
-    assert_int_equal(options.variant, 4);
+    assert_int_equal(options.scene.variant, 4);
     assert_int_equal(options.scene.size.width, 0);
     assert_true(options.scene.cutoff == -1.0);
     assert_int_equal(options.operand_count, 0);
@@ -329,5 +329,5 @@ TEST(values_reach_their_members) {
     expect_parsed("hedron --default --backend auto --variant 7");
     assert_true(options.prints_default && !options.cpu && !options.gpu);
     assert_null(options.devices.backend);
-    assert_int_equal(options.variant, 7);
+    assert_int_equal(options.scene.variant, 7);
 }
