@@ -21,8 +21,10 @@ static int begin(void **state) {
     remove_folder("out");
     hd_known_folders_forget();
     fake_films(4, 0);
-    plan = (HdOutputPlan){
-        .style = {{HD_CURVE_SRGB, 8}, RATE}, .has_fingerprint = true, .resumes = true, .fingerprint = 7};
+    plan = (HdOutputPlan){.style = {{HD_CURVE_SRGB, 8}, RATE},
+                          .has_fingerprint = true,
+                          .resumes = true,
+                          .fingerprint = 7};
     output = (HdOutput){.name = "out/it's.mkv", .format = &hd_format_mkv, .is_film = true};
     for (int i = 0; i < FRAMES; i++)
         numbers[i] = 100 + i;
