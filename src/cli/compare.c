@@ -90,12 +90,6 @@ static bool is_identical(const Comparison *comparison) {
 
 /* ---- text ---- */
 
-static void print_picture(const Comparison *comparison, int i) {
-    const HdPictureFacts *facts = &comparison->facts[i];
-    printf("%-7s %s: %s, %d bits, %d x %d pixels\n", i == 0 ? "first" : "second",
-           comparison->names[i], facts->format->name, facts->bits, facts->width, facts->height);
-}
-
 static void print_figures(const char *name, const char *unit, double display, double linear) {
     const double values[] = {display, linear};
     printf("%-20s", name);
@@ -160,8 +154,11 @@ static void print_further(const Comparison *comparison) {
 static void print_text(const Comparison *comparison) {
     const HdPictureFigures *figures = &comparison->figures;
     const HdDifferenceFigures *display = &figures->display, *linear = &figures->linear;
-    for (int i = 0; i < PICTURES; i++)
-        print_picture(comparison, i);
+    for (int i = 0; i < PICTURES; i++) {
+        const HdPictureFacts *facts = &comparison->facts[i];
+        printf("%-7s %s: %s, %d bits, %d x %d pixels\n", i == 0 ? "first" : "second",
+               comparison->names[i], facts->format->name, facts->bits, facts->width, facts->height);
+    }
     printf("%-7s %s\n\n", "curve", hd_curve_names[comparison->curve]);
     printf("%-20s%*s%*s\n", "", FIGURE_WIDTH, "display, 0..255", FIGURE_WIDTH, "linear, 0..1");
     print_figures("RMSE", "", display->rmse, linear->rmse);

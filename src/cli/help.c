@@ -211,22 +211,14 @@ static void man_entry(const char *term, const char *meaning) {
     man_line(meaning);
 }
 
-static void man_usage(const HdCommandSpec *spec) {
-    printf("\\fBhedron%s%s\\fR [\\fIOPTIONS\\fR]", spec->name ? " " : "",
-           spec->name ? spec->name : "");
-    if (spec->operands[0] != '\0') {
-        printf(" ");
-        man_text(spec->operands);
-    }
-    printf("\n");
-}
-
 static void man_synopsis(void) {
     printf(".SH SYNOPSIS\n");
     for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++) {
-        if (i > 0)
-            printf(".br\n");
-        man_usage(&hd_command_specs[i]);
+        const HdCommandSpec *spec = &hd_command_specs[i];
+        printf("%s\\fBhedron%s%s\\fR [\\fIOPTIONS\\fR]%s", i > 0 ? ".br\n" : "",
+               spec->name ? " " : "", spec->name ? spec->name : "",
+               spec->operands[0] != '\0' ? " " : "");
+        man_line(spec->operands);
     }
 }
 

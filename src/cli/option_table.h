@@ -11,10 +11,10 @@ OPTION(bool cpu, "--cpu", NULL, NULL, "trace on the CPU only", HD_COMMAND_CLASSI
 OPTION(bool prints_default, "--default", NULL, NULL,
        "print the most colourful configuration in the input format, and exit", HD_COMMAND_CLASSIC,
        FLAG(prints_default), .only_one_of = modes)
-OPTION(int variant, "--variant", NULL, "1..10",
-       "which three solids the input means (default 4: tetrahedron, octahedron, dodecahedron)",
-       HD_COMMAND_CLASSIC | HD_COMMAND_CONVERT, INTEGER(variant, 1, HD_CLASSIC_VARIANTS),
-       .unset = HD_CLASSIC_DEFAULT_VARIANT, .role = HD_DECIDES_PIXELS)
+ROW("--variant", NULL, "1..10",
+    "which three solids the input means (default 4: tetrahedron, octahedron, dodecahedron)",
+    HD_COMMAND_CLASSIC | HD_COMMAND_CONVERT, INTEGER(scene.variant, 1, HD_CLASSIC_VARIANTS),
+    .unset = HD_CLASSIC_DEFAULT_VARIANT, .role = HD_DECIDES_PIXELS)
 ROW("--output", "-o", "OUT",
     "film.mp4, picture.png or a sequence such as out/%04d.png; up to 8 times", HD_COMMAND_RENDER,
     TEXTS(HD_OPTION_TEXTS, store.names, store.count, HD_MAX_OUTPUTS), .check = hd_output_check_name,

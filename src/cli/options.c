@@ -565,7 +565,6 @@ static HdStatus check_together(HdOptions *options, HdError *error) {
 /* What the command and several options together decide. */
 static void complete_plan(HdOptions *options) {
     HdScenePlan *scene = &options->scene;
-    const bool is_classic = options->command == HD_COMMAND_CLASSIC;
     if (options->reference)
         options->devices.render.precision = HD_PRECISION_DOUBLE;
     hd_options_spell(options, false, scene->given, sizeof scene->given);
@@ -575,10 +574,12 @@ static void complete_plan(HdOptions *options) {
         scene->samples = scene->samples > 0 ? scene->samples : REFERENCE_SAMPLES;
         scene->max_error = scene->max_error > 0.0 ? scene->max_error : REFERENCE_ERROR;
     }
-    scene->path = is_classic ? "-" : options->operand_count > 0 ? options->operands[0] : NULL;
-    if (is_classic)
+    scene->path = options->operand_count > 0 ? options->operands[0] : NULL;
+    if (options->command == HD_COMMAND_CLASSIC) {
+        scene->is_classic = options->store.again = true;
+        scene->path = "-";
         options->devices.kind = options->cpu ? HD_ONLY_CPU : HD_PREFER_GPU;
-    options->store.again |= is_classic;
+    }
     options->telling.wants_lines = options->command == HD_COMMAND_RENDER;
 }
 

@@ -12,8 +12,7 @@
 
 /* What the command line said: the parts of the plan, each for its reader, and what belongs to a
    single command. Where an option is not given, its member is 0, false or NULL, or what its row
-   says
-   (`unset`). */
+   says (`unset`). */
 struct HdOptions {
     HdCommand command;
     const char *topic; /* of HD_COMMAND_HELP: a command or a topic; NULL: the program */

@@ -180,7 +180,6 @@ static HdStatus render_frames(Run *run, const HdOptions *options, HdError *error
                                  run->outputs, run->frames->frames[0], error);
     if (status != HD_OK)
         return status;
-    hd_console_open(&run->console, &options->telling);
     hd_console_tell_run(&run->console, name, &run->file->scene, run->outputs, run->frames->count);
     hd_escape(slash != NULL ? slash + 1 : name, told, sizeof told);
     run->outputs->scene = told;
@@ -223,6 +222,7 @@ static HdStatus render_file(const HdSceneFile *file, const HdOptions *options, S
     HdFrameList frames;
     HdOutputPlan outputs;
     Run run = {.file = file, .frames = &frames, .outputs = &outputs, .stored = stored};
+    hd_console_open(&run.console, &options->telling);
     HdStatus status = hd_frame_list_parse(&frames, options->frames, file->scene.frame_count, error);
     if (status != HD_OK)
         return status;
@@ -233,7 +233,7 @@ static HdStatus render_file(const HdSceneFile *file, const HdOptions *options, S
     return status;
 }
 
-HdStatus hd_command_render(const HdOptions *options, HdError *error) {
+static HdStatus render(const HdOptions *options, Stored *stored, HdError *error) {
     HdSceneFile file;
     HdProblems notes = {.count = 0};
     HdStatus status = hd_load_scene(&file, &options->scene, &notes, error);
@@ -241,29 +241,28 @@ HdStatus hd_command_render(const HdOptions *options, HdError *error) {
         hd_problems_print(&notes, stderr, "hedron", ": ");
     if (status != HD_OK)
         return status;
-    status = render_file(&file, options, NULL, error);
+    status = render_file(&file, options, stored, error);
     hd_scene_file_free(&file);
     return status;
 }
 
-static HdStatus render_classic(HdSceneFile *file, const HdOptions *options, HdError *error) {
-    HdStatus status = hd_scene_file_load_texture(file, error);
+HdStatus hd_command_render(const HdOptions *options, HdError *error) {
+    return render(options, NULL, error);
+}
+
+static HdStatus print_default(const HdScenePlan *plan, HdError *error) {
+    HdSceneFile file;
+    HdStatus status = hd_default_input(&file, error);
+    if (status != HD_OK)
+        return status;
+    status = hd_scene_apply_numbers(&file.scene, plan, error);
     if (status == HD_OK)
-        status = hd_scene_apply_geometry(&file->scene, &options->scene, error);
-    return status == HD_OK ? render_file(file, options, print_frame_line, error) : status;
+        status = hd_classic_print(stdout, &file, error);
+    hd_scene_file_free(&file);
+    return status;
 }
 
 HdStatus hd_command_classic(const HdOptions *options, HdError *error) {
-    HdSceneFile file;
-    HdStatus status = options->prints_default
-                          ? hd_default_input(&file, error)
-                          : hd_read_classic(&file, NULL, options->variant, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_scene_apply_numbers(&file.scene, &options->scene, error);
-    if (status == HD_OK)
-        status = options->prints_default ? hd_classic_print(stdout, &file, error)
-                                         : render_classic(&file, options, error);
-    hd_scene_file_free(&file);
-    return status;
+    return options->prints_default ? print_default(&options->scene, error)
+                                   : render(options, print_frame_line, error);
 }

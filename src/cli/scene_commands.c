@@ -12,19 +12,11 @@
 #include "image/picture.h"
 #include "input/builtin.h"
 #include "input/json/json_device_text.h"
-#include "input/schema.h"
 #include "input/write.h"
 #include "run/load_scene.h"
 #include "system/atomic_file.h"
 
 /* ---- check ---- */
-
-static void print_meshes(const HdScene *scene) {
-    if (scene->mesh_count > 0)
-        printf("%d mesh%s of %" PRId64 " triangles in %d place%s, ", scene->mesh_count,
-               scene->mesh_count == 1 ? "" : "es", hd_scene_triangle_count(scene),
-               scene->instance_count, hd_plural(scene->instance_count));
-}
 
 /* The lines of a text, each without what it is indented by. */
 static json_t *list_lines(const char *text) {
@@ -71,7 +63,10 @@ static json_t *describe_scene(const char *name, HdStatus status, const HdProblem
 static void print_fine(const char *name, const HdScene *scene, const HdProblems *notes) {
     int lights = hd_scene_light_count(scene);
     printf("%s: fine, %d solid%s, ", name, scene->solid_count, hd_plural(scene->solid_count));
-    print_meshes(scene);
+    if (scene->mesh_count > 0)
+        printf("%d mesh%s of %" PRId64 " triangles in %d place%s, ", scene->mesh_count,
+               scene->mesh_count == 1 ? "" : "es", hd_scene_triangle_count(scene),
+               scene->instance_count, hd_plural(scene->instance_count));
     printf("%d light%s, %d frame%s\n", lights, hd_plural(lights), scene->frame_count,
            hd_plural(scene->frame_count));
     hd_problems_print(notes, stdout, name, ": note: ");
@@ -190,7 +185,7 @@ HdStatus hd_command_convert(const HdOptions *options, HdError *error) {
     const char *source = options->operand_count > 0 ? options->operands[0] : NULL;
     const char *output = options->store.count > 0 ? options->store.names[0] : NULL;
     HdSceneFile file;
-    HdStatus status = hd_read_classic(&file, source, options->variant, error);
+    HdStatus status = hd_read_classic(&file, source, options->scene.variant, error);
     if (status != HD_OK)
         return status;
     status = keep_texture(&file, output, error);

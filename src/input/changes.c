@@ -8,7 +8,7 @@
 
 #include "base/text.h"
 #include "input/fields.h"
-#include "input/json/words.h"
+#include "input/json/text.h"
 
 /* One step of a path: a key, or, where that is empty, an index. */
 typedef struct Step {

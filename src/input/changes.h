@@ -19,7 +19,7 @@
    itself. Whether the scene knows such a key is checked later, with the rest of the file. */
 void hd_scene_change_apply(json_t *root, HdSceneChange change, HdProblems *problems);
 
-/* Whether the value at `path`, spelled as in words.h, comes from the change. */
+/* Whether the value at `path`, spelled as in json/text.h, comes from the change. */
 bool hd_scene_change_made(HdSceneChange change, const char *path);
 
 /* How messages begin that are about a change: "--set image.width=0: ". */

@@ -49,9 +49,8 @@ static const HdChoice curves[] = {{"srgb", HD_CURVE_SRGB}, {"linear", HD_CURVE_L
 static const HdChoice bits[] = {{"8", 8}, {"16", 16}, {"32", 32}, {NULL, 0}};
 static const HdChoice normals[] = {
     {"file", HD_NORMALS_FILE}, {"flat", HD_NORMALS_FLAT}, {"smooth", HD_NORMALS_SMOOTH}, {NULL, 0}};
-static const HdChoice kinds[] = {{"tetrahedron", HD_TETRAHEDRON}, {"cube", HD_HEXAHEDRON},
-                                 {"octahedron", HD_OCTAHEDRON},   {"dodecahedron", HD_DODECAHEDRON},
-                                 {"icosahedron", HD_ICOSAHEDRON}, {NULL, 0}};
+#define KIND_CHOICE(kind, name) {name, kind},
+static const HdChoice kinds[] = {HD_SOLID_KINDS(KIND_CHOICE){NULL, 0}};
 
 static const HdChoice samplings[] = {
     {"grid", HD_SAMPLING_GRID}, {"adaptive", HD_SAMPLING_ADAPTIVE}, {NULL, 0}};

@@ -1,19 +1,502 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
 #include "input/load.h"
 
 #include <jansson.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/text.h"
+#include "image/picture.h"
 #include "input/builtin.h"
 #include "input/changes.h"
 #include "input/classic.h"
+#include "input/fields.h"
 #include "input/json/text.h"
 #include "input/meshes.h"
-#include "input/notes.h"
-#include "input/read.h"
+#include "input/report.h"
+#include "scene/check.h"
+#include "scene/notes.h"
 #include "system/path.h"
+
+typedef struct NamedMaterial {
+    const char *name; /* of the tree */
+    HdMaterial material;
+    bool is_used;
+} NamedMaterial;
+
+typedef struct Reader {
+    HdSceneReport report;
+    HdError *error;
+    HdStatus status;
+    NamedMaterial *materials;
+    json_t *numbers; /* of the materials, by their names, once all are read */
+    int material_count;
+    bool knows_materials; /* otherwise no name of one can be checked */
+} Reader;
+
+static void leave_to(Reader *reader, size_t length) {
+    reader->report.path[length] = '\0';
+}
+
+static void *place_of(const HdField *field, void *owner) {
+    return (char *)owner + field->offset;
+}
+
+static void read_object(Reader *reader, const HdObjectType *type, const json_t *json, void *owner);
+
+/* Numbers */
+
+/* Each reads what the value says to `out`. False, and `out` as it was, where it is not what the
+   field expects, which it then tells. */
+typedef bool ReadNumbers(Reader *reader, const HdField *field, const json_t *value, double *out);
+
+static bool refuse(Reader *reader, const HdField *field, const json_t *value, int parts) {
+    hd_report_field(&reader->report, field, value, parts);
+    return false;
+}
+
+static bool is_in_range(const HdField *field, const json_t *value) {
+    return json_is_number(value) && hd_field_holds(field, json_number_value(value));
+}
+
+static bool read_boolean(Reader *reader, const HdField *field, const json_t *value, double *out) {
+    if (!json_is_boolean(value))
+        return refuse(reader, field, value, 0);
+    *out = json_is_true(value) ? 1.0 : 0.0;
+    return true;
+}
+
+static bool read_number(Reader *reader, const HdField *field, const json_t *value, double *out) {
+    const double number = json_number_value(value);
+    /* As in JSON Schema, 3.0 is an integer too. */
+    const bool is_whole = field->type != HD_FIELD_INTEGER || floor(number) == number;
+    if (!is_in_range(field, value) || !is_whole)
+        return refuse(reader, field, value, 0);
+    *out = number;
+    return true;
+}
+
+static bool read_vector(Reader *reader, const HdField *field, const json_t *value, double *out) {
+    double parts[3];
+    bool is_read = true;
+    if (json_array_size(value) != 3)
+        return refuse(reader, field, value, 3);
+    for (size_t i = 0; i < 3; i++) {
+        const size_t length = hd_json_path_index(reader->report.path, i);
+        const json_t *part = json_array_get(value, i);
+        parts[i] = json_number_value(part);
+        if (!is_in_range(field, part))
+            is_read = refuse(reader, field, part, 1);
+        leave_to(reader, length);
+    }
+    if (is_read)
+        memcpy(out, parts, sizeof parts);
+    return is_read;
+}
+
+/* One number is the same for every axis. */
+static bool read_scale(Reader *reader, const HdField *field, const json_t *value, double *out) {
+    if (json_array_size(value) == 3)
+        return read_vector(reader, field, value, out);
+    if (!is_in_range(field, value))
+        return refuse(reader, field, value, json_is_number(value) ? 1 : 0);
+    out[0] = out[1] = out[2] = json_number_value(value);
+    return true;
+}
+
+/* Numbers by their value: 16.0 is 16. */
+static bool is_choice(const char *choice, const json_t *value) {
+    const char *word = json_string_value(value);
+    if (hd_choice_is_number(choice))
+        return json_is_number(value) && strtod(choice, NULL) == json_number_value(value);
+    return word != NULL && strcmp(word, choice) == 0;
+}
+
+static bool read_choice(Reader *reader, const HdField *field, const json_t *value, double *out) {
+    const HdChoice *choice = field->choices;
+    while (choice->word != NULL && !is_choice(choice->word, value))
+        choice++;
+    if (choice->word == NULL)
+        hd_report_choice(&reader->report, field, value);
+    else
+        *out = choice->value;
+    return choice->word != NULL;
+}
+
+static void read_numbers(Reader *reader, const HdField *field, const json_t *value, void *owner) {
+    static ReadNumbers *const of_type[] = {
+        [HD_FIELD_BOOLEAN] = read_boolean, [HD_FIELD_INTEGER] = read_number,
+        [HD_FIELD_NUMBER] = read_number,   [HD_FIELD_FACTOR] = read_number,
+        [HD_FIELD_VECTOR] = read_vector,   [HD_FIELD_UNSCALED] = read_vector,
+        [HD_FIELD_PATH] = read_vector,     [HD_FIELD_SCALE] = read_scale,
+        [HD_FIELD_CHOICE] = read_choice};
+    double numbers[3] = {0.0, 0.0, 0.0};
+    if (of_type[field->type](reader, field, value, numbers))
+        hd_field_set(field, owner, numbers);
+}
+
+/* Lists */
+
+/* Whether the value is an array with as many elements as the field may have. */
+static bool check_count(Reader *reader, const HdField *field, const json_t *value) {
+    char expected[HD_EXPECTED_SIZE];
+    const size_t count = json_array_size(value);
+    if (!json_is_array(value))
+        return refuse(reader, field, value, 0);
+    if (count >= (size_t)field->least && count <= (size_t)field->most)
+        return true;
+    hd_field_expected_count(field, expected);
+    hd_report(&reader->report, "has %zu elements, expected %s", count, expected);
+    return false;
+}
+
+static void read_vectors(Reader *reader, const HdField *field, const json_t *value, void *owner) {
+    HdVec3 *vectors = place_of(field, owner);
+    const size_t count = json_array_size(value);
+    if (!check_count(reader, field, value))
+        return;
+    for (size_t i = 0; i < count; i++) {
+        const size_t length = hd_json_path_index(reader->report.path, i);
+        double parts[3] = {vectors[0].x, vectors[0].y, vectors[0].z}; /* should it be refused */
+        read_vector(reader, field, json_array_get(value, i), parts);
+        vectors[i] = hd_vec3(parts[0], parts[1], parts[2]);
+        leave_to(reader, length);
+    }
+    if (field->count_offset != 0)
+        *(int *)(void *)((char *)owner + field->count_offset) = (int)count;
+}
+
+/* Words */
+
+/* Fewer than HD_MAX_PATH bytes, and no control characters, which no name of a file has by intent.
+ */
+static bool check_file_name(HdSceneReport *report, const json_t *value) {
+    const size_t length = json_string_length(value);
+    if (length >= HD_MAX_PATH) {
+        hd_report(report, "has %zu bytes, expected fewer than %d", length, HD_MAX_PATH);
+        return false;
+    }
+    for (const char *c = json_string_value(value); *c != '\0'; c++)
+        if (hd_control_bytes(c) > 0) {
+            hd_report_value(report, value, "a name without control characters");
+            return false;
+        }
+    return true;
+}
+
+static void copy_text(Reader *reader, const HdField *field, const json_t *value,
+                      char out[HD_MAX_PATH]) {
+    if (json_string_length(value) == 0)
+        refuse(reader, field, value, 0);
+    else if (check_file_name(&reader->report, value))
+        memcpy(out, json_string_value(value), json_string_length(value) + 1);
+}
+
+static void read_text(Reader *reader, const HdField *field, const json_t *value, void *owner) {
+    copy_text(reader, field, value, place_of(field, owner));
+}
+
+/* A relative path counts from the folder of the scene. False where there is no room for it. */
+static bool place_file(Reader *reader, char path[HD_MAX_PATH]) {
+    const char *folder = reader->report.source->folder;
+    if (folder[0] == '\0' || !hd_texture_path_is_relative(path))
+        return true;
+    const bool has_slash = folder[strlen(folder) - 1] == '/';
+    const size_t before = strlen(folder) + !has_slash, length = before + strlen(path);
+    if (length >= HD_MAX_PATH) {
+        hd_report(&reader->report, "has %zu bytes with the scene's folder, expected fewer than %d",
+                  length, HD_MAX_PATH);
+        return false;
+    }
+    memmove(path + before, path, strlen(path) + 1);
+    memcpy(path, folder, strlen(folder));
+    path[before - 1] = '/';
+    return true;
+}
+
+static void fail_memory(Reader *reader) {
+    reader->status = hd_fail(reader->error, HD_FAILED, "out of memory: no room for the scene");
+}
+
+static void *allocate(Reader *reader, size_t count, size_t size) {
+    void *memory = calloc(count, size);
+    if (memory == NULL)
+        fail_memory(reader);
+    return memory;
+}
+
+static void read_file(Reader *reader, const HdField *field, const json_t *value, void *owner) {
+    char path[HD_MAX_PATH] = "", **out = place_of(field, owner);
+    copy_text(reader, field, value, path);
+    if (path[0] == '\0' || !place_file(reader, path))
+        return;
+    *out = strdup(path);
+    if (*out == NULL)
+        fail_memory(reader);
+}
+
+/* Its number; -1: there is none. */
+static int find_material(const Reader *reader, const char *name) {
+    const json_t *number = json_object_get(reader->numbers, name);
+    return number != NULL ? (int)json_integer_value(number) : -1;
+}
+
+/* Looking for what may be meant takes long among many names, and is for readers. */
+static void report_unknown_material(Reader *reader, const HdField *field, const json_t *value) {
+    HdNearest nearest = {.word = json_string_value(value)};
+    for (int i = 0; i < reader->material_count; i++)
+        if (!hd_problems_are_full(reader->report.problems))
+            hd_nearest_offer(&nearest, reader->materials[i].name);
+    if (nearest.name == NULL)
+        refuse(reader, field, value, 0);
+    else
+        hd_report_mistaken(&reader->report, value, nearest.name);
+}
+
+static void read_material(Reader *reader, const HdField *field, const json_t *value, void *owner) {
+    const char *name = json_string_value(value);
+    const int number = name != NULL ? find_material(reader, name) : -1;
+    if (number >= 0) {
+        *(HdMaterial *)place_of(field, owner) = reader->materials[number].material;
+        reader->materials[number].is_used = true;
+    } else if (name == NULL) {
+        refuse(reader, field, value, 0);
+    } else if (reader->knows_materials) {
+        report_unknown_material(reader, field, value);
+    }
+}
+
+/* Objects */
+
+static void read_part(Reader *reader, const HdField *field, const json_t *value, void *owner) {
+    read_object(reader, field->object, value, place_of(field, owner));
+}
+
+static void read_path(Reader *reader, const HdField *field, const json_t *value, void *owner) {
+    if (json_is_object(value)) {
+        *(HdPath *)place_of(field, owner) = (HdPath){.is_fixed = false};
+        read_part(reader, field, value, owner);
+    } else if (json_is_array(value)) {
+        read_numbers(reader, field, value, owner);
+    } else {
+        refuse(reader, field, value, 0);
+    }
+}
+
+static void read_list(Reader *reader, const HdField *field, const json_t *value, void *owner) {
+    const size_t count = json_array_size(value), size = field->object->size;
+    if (!check_count(reader, field, value) || count == 0)
+        return;
+    char *elements = allocate(reader, count, size);
+    if (elements == NULL)
+        return;
+    *(int *)(void *)((char *)owner + field->count_offset) = (int)count;
+    memcpy((char *)owner + field->offset, &elements, sizeof elements);
+    for (size_t i = 0; i < count; i++) {
+        const size_t length = hd_json_path_index(reader->report.path, i);
+        read_object(reader, field->object, json_array_get(value, i), elements + i * size);
+        leave_to(reader, length);
+    }
+}
+
+/* With one of the two given there is an inner side; the other is as outside. */
+static void settle_inner_side(HdMaterial *material, const json_t *json) {
+    const bool reflects = json_object_get(json, "inner_reflection") != NULL;
+    const bool transmits = json_object_get(json, "inner_transmission") != NULL;
+    if (transmits && !reflects)
+        material->inner_reflection = material->reflection;
+    if (reflects && !transmits)
+        material->inner_transmission = material->transmission;
+}
+
+/* Here, so that the message names the material and comes once; what is wrong is set aside, lest the
+   check of the scene tells it again for each solid. */
+static void check_shares(Reader *reader, HdMaterial *material) {
+    HdSceneChecker checker = {.problems = reader->report.problems};
+    const int before = checker.problems->count;
+    hd_check_enter(&checker, reader->report.path, "");
+    hd_check_material(&checker, material, true);
+    if (checker.problems->count != before)
+        material->reflection = material->inner_reflection = 0.0;
+}
+
+static bool number_materials(Reader *reader) {
+    reader->numbers = json_object();
+    for (int i = 0; i < reader->material_count; i++)
+        if (json_object_set_new(reader->numbers, reader->materials[i].name, json_integer(i)) != 0)
+            return false;
+    return reader->numbers != NULL;
+}
+
+static void read_materials(Reader *reader, const HdField *field, const json_t *value,
+                           void *unused) {
+    const size_t count = json_object_size(value);
+    const char *name;
+    json_t *json;
+    (void)unused;
+    if (!json_is_object(value)) {
+        refuse(reader, field, value, 0);
+        return;
+    }
+    if (count > (size_t)field->most) {
+        hd_report(&reader->report, "has %zu materials, expected at most %d", count, field->most);
+        return;
+    }
+    reader->knows_materials = true;
+    reader->materials = allocate(reader, count + 1, sizeof *reader->materials);
+    if (reader->materials == NULL)
+        return;
+    json_object_foreach((json_t *)value, name, json) {
+        NamedMaterial *named = &reader->materials[reader->material_count++];
+        named->name = name;
+        const size_t length = hd_json_path_key(reader->report.path, name);
+        read_object(reader, field->object, json, &named->material);
+        settle_inner_side(&named->material, json);
+        check_shares(reader, &named->material);
+        leave_to(reader, length);
+    }
+    if (!number_materials(reader))
+        fail_memory(reader);
+}
+
+typedef void ReadField(Reader *reader, const HdField *field, const json_t *value, void *owner);
+
+static void read_field(Reader *reader, const HdField *field, const json_t *value, void *owner) {
+    static ReadField *const of_type[HD_FIELD_MATERIALS + 1] = {
+        [HD_FIELD_VECTORS] = read_vectors, [HD_FIELD_TEXT] = read_text,
+        [HD_FIELD_FILE] = read_file,       [HD_FIELD_MATERIAL] = read_material,
+        [HD_FIELD_PATH] = read_path,       [HD_FIELD_OBJECT] = read_part,
+        [HD_FIELD_LIST] = read_list,       [HD_FIELD_MATERIALS] = read_materials};
+    ReadField *read = of_type[field->type];
+    (read != NULL ? read : read_numbers)(reader, field, value, owner);
+}
+
+static void reset_object(const HdObjectType *type, void *owner) {
+    for (int i = 0; i < type->field_count; i++) {
+        const HdField *field = &type->fields[i];
+        hd_field_set(field, owner, field->standard);
+        if (field->type == HD_FIELD_OBJECT && !hd_field_may_be_absent(field))
+            reset_object(field->object, (char *)owner + field->offset);
+        if (field->type == HD_FIELD_MATERIAL)
+            reset_object(&hd_material_fields, (char *)owner + field->offset);
+    }
+}
+
+/* The value of the field, if it is there and may be. */
+static const json_t *find_value(Reader *reader, const HdField *field, const json_t *json) {
+    char expected[HD_EXPECTED_SIZE];
+    const json_t *value = json_object_get(json, field->key);
+    if (value == NULL && field->required) {
+        hd_field_expected(field, 0, expected);
+        hd_report(&reader->report, "is missing, expected %s", expected);
+    }
+    if (value != NULL && field->instead_of != NULL &&
+        json_object_get(json, field->instead_of) != NULL) {
+        hd_report(&reader->report, "is given beside \"%s\", expected only one of them",
+                  field->instead_of);
+        return NULL;
+    }
+    return value;
+}
+
+static void read_object(Reader *reader, const HdObjectType *type, const json_t *json, void *owner) {
+    reset_object(type, owner);
+    if (!json_is_object(json)) {
+        hd_report_value(&reader->report, json, "an object");
+        return;
+    }
+    for (int i = 0; i < type->field_count && reader->status == HD_OK; i++) {
+        const HdField *field = &type->fields[i];
+        const size_t length = hd_json_path_key(reader->report.path, field->key);
+        const json_t *value = find_value(reader, field, json);
+        if (value != NULL && field->flag_offset != 0)
+            *(bool *)(void *)((char *)owner + field->flag_offset) = true;
+        if (value != NULL)
+            read_field(reader, field, value, owner);
+        leave_to(reader, length);
+    }
+    hd_report_unknown_keys(&reader->report, type, json);
+}
+
+/* The scene */
+
+/* The path of an output, which may be empty, has an ending that says what to write, and a number
+   only where it may. */
+static void check_output_path(HdSceneReport *report, const char *path) {
+    char quoted[HD_WORDS_SIZE];
+    HdError error;
+    const HdFormat *format = hd_format_of(path);
+    hd_quoted(path, quoted);
+    if (path[0] == '\0')
+        return;
+    if (format == NULL)
+        hd_report(report,
+                  "is %s, expected the name of a film (" HD_FILM_ENDINGS
+                  ") or of a picture (" HD_PICTURE_ENDINGS ")",
+                  quoted);
+    else if (hd_format_is_film(format) && hd_pattern_has_number(path))
+        hd_report(report,
+                  "is %s, expected a film without a number (%%d or #) in its name, or pictures "
+                  "(" HD_PICTURE_ENDINGS ")",
+                  quoted);
+    else if (!hd_format_is_film(format) && strpbrk(path, "%#") != NULL &&
+             hd_pattern_check(path, &error) != HD_OK)
+        hd_report(report, "cannot be used: %s", error.message);
+}
+
+/* The path of a texture, which may be empty, names no part that the program lacks. */
+static bool check_texture_path(HdSceneReport *report, const char *path) {
+    static const char built_in[] = "builtin:";
+    char quoted[HD_WORDS_SIZE];
+    if (strncmp(path, built_in, strlen(built_in)) != 0 || strcmp(path, HD_BUILTIN_TEXTURE) == 0)
+        return true;
+    hd_quoted(path, quoted);
+    hd_report(report, "is %s, which is unknown, expected \"" HD_BUILTIN_TEXTURE "\" or a file",
+              quoted);
+    return false;
+}
+
+static void note_unused_materials(const Reader *reader, HdProblems *notes) {
+    char path[HD_JSON_PATH_SIZE];
+    for (int i = 0; i < reader->material_count; i++) {
+        snprintf(path, sizeof path, "materials");
+        hd_json_path_key(path, reader->materials[i].name);
+        if (!reader->materials[i].is_used)
+            hd_problem(notes, "%s is used nowhere", path);
+    }
+}
+
+static void read_scene(Reader *reader, HdSceneFile *file, const json_t *root) {
+    HdSceneReport *report = &reader->report;
+    reader->knows_materials = json_object_get(root, "materials") == NULL;
+    read_object(reader, &hd_scene_fields, root, file);
+    snprintf(report->path, sizeof report->path, "floor.texture.file");
+    if (!check_texture_path(report, file->texture_path) || !place_file(reader, file->texture_path))
+        file->texture_path[0] = '\0';
+    snprintf(report->path, sizeof report->path, "output.path");
+    check_output_path(report, file->output.path);
+    if (report->source->notes != NULL)
+        note_unused_materials(reader, report->source->notes);
+    json_decref(reader->numbers);
+    free(reader->materials);
+}
+
+/* Fills `file`, which must be empty, and adds everything that is wrong to `problems`: what the
+   table of fields refuses, which is left at its default, and then what is wrong in the rest as a
+   whole. Fails only for lack of memory. */
+static HdStatus read_and_check(HdSceneFile *file, const json_t *root, const HdSceneSource *source,
+                               HdProblems *problems, HdError *error) {
+    HdSceneChecker checker = {.problems = problems, .naming = HD_NAMING_JSON};
+    Reader reader = {.report = {.source = source, .problems = problems, .checker = &checker},
+                     .error = error};
+    read_scene(&reader, file, root);
+    if (reader.status == HD_OK && json_is_object(root))
+        hd_check_scene(&checker, &file->scene);
+    return reader.status;
+}
 
 static HdStatus fail_syntax(const json_error_t *found, const char *text_read, size_t size,
                             const char *name, HdError *error) {
@@ -73,7 +556,7 @@ static HdStatus check_text(const char *text, size_t size, const char *name, HdEr
         return hd_fail(error, HD_BAD_INPUT,
                        "%s is no scene: neither has it the ending .json nor does it begin with {",
                        name);
-    return hd_json_check_limits(text, size, name, error);
+    return hd_json_check_count(text, size, name, error);
 }
 
 static HdStatus parse_json(json_t **root, const char *text, size_t size, const char *name,
@@ -102,20 +585,45 @@ static HdStatus load_files(HdSceneFile *file, const HdSceneSource *source, HdPro
     return hd_scene_file_load_meshes(file, problems, source->file_notes, error);
 }
 
+/* What the whole sequence asks of the output: a rendering may choose one frame, or another output.
+ */
+static void check_output(const HdSceneFile *file, HdProblems *problems) {
+    const char *path = file->output.path;
+    HdError error;
+    if (hd_format_check_style(path, &file->output.style.picture, &error) != HD_OK)
+        hd_problem(problems, "output.path: %s", error.message);
+    if (path[0] == '\0' || file->scene.frame_count == 1 || hd_format_is_film(hd_format_of(path)) ||
+        hd_pattern_has_number(path))
+        return;
+    hd_problem(problems,
+               "output.path is \"%s\", which names one picture, but camera.frames is %d, expected "
+               "#### in the name, or a film",
+               path, file->scene.frame_count);
+}
+
+static void note_seldom_meant(const HdSceneFile *file, HdProblems *notes) {
+    const int bits = file->output.style.picture.bits;
+    hd_scene_notes(&file->scene, notes);
+    if (bits > 8 && hd_format_is_film(hd_format_of(file->output.path)))
+        hd_problem(notes,
+                   "output.bits is %d, but output.path is a film, which has 8 bits a channel",
+                   bits);
+}
+
 static HdStatus build(HdSceneFile *file, json_t *root, const HdSceneSource *source,
                       HdError *error) {
     HdProblems problems = {.count = 0};
     for (int i = 0; i < source->change_count; i++)
         hd_scene_change_apply(root, source->changes[i], &problems);
-    HdStatus status = hd_scene_from_json(file, root, source, &problems, error);
+    HdStatus status = read_and_check(file, root, source, &problems, error);
     if (status == HD_OK && source->loads_files)
         status = load_files(file, source, &problems, error);
     if (status == HD_OK && source->notes != NULL)
-        hd_scene_check_output(file, &problems);
+        check_output(file, &problems);
     if (status == HD_OK)
         status = hd_problems_status(&problems, source->name, error);
     if (status == HD_OK && source->notes != NULL)
-        hd_scene_notes(file, source->notes);
+        note_seldom_meant(file, source->notes);
     return status;
 }
 

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "image/picture.h"
-#include "input/check.h"
 #include "mesh/obj/read.h"
+#include "scene/check.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 
@@ -244,8 +244,9 @@ static HdStatus load(Loader *loader) {
         status = load_pictures(loader);
     if (status == HD_OK && loader->problems->count == 0)
         status = build(loader);
+    HdSceneChecker checker = {.problems = loader->problems, .naming = HD_NAMING_JSON};
     if (status == HD_OK && loader->problems->count == 0)
-        hd_scene_check_instances(loader->scene, HD_NAMING_JSON, loader->problems);
+        hd_check_instances(&checker, loader->scene);
     return status;
 }
 

@@ -9,8 +9,6 @@
 #include <strings.h>
 
 #include "base/text.h"
-#include "image/picture.h"
-#include "input/builtin.h"
 #include "input/changes.h"
 
 static bool begins_with(const char *text, const char *beginning) {
@@ -21,13 +19,13 @@ static void note_place(HdSceneReport *report) {
     const char *path = report->path;
     if (strcmp(path, "camera") == 0 || begins_with(path, "camera.eye") ||
         begins_with(path, "camera.target"))
-        report->is_view_wrong = true;
+        report->checker->is_view_wrong = true;
     if (begins_with(path, "floor"))
-        report->is_floor_wrong = true;
+        report->checker->is_floor_wrong = true;
     if (begins_with(path, "solids[")) {
         const unsigned long index = strtoul(path + strlen("solids["), NULL, 10);
         if (index < HD_MAX_SOLIDS)
-            report->is_solid_wrong[index] = true;
+            report->checker->is_solid_wrong[index] = report->checker->is_any_solid_wrong = true;
     }
 }
 
@@ -210,53 +208,4 @@ void hd_report_unknown_keys(HdSceneReport *report, const HdObjectType *type, con
         else
             report_unknown_key(report, type, key);
     }
-}
-
-/* Names of files */
-
-bool hd_check_file_name(HdSceneReport *report, const json_t *value) {
-    const size_t length = json_string_length(value);
-    if (length >= HD_MAX_PATH) {
-        hd_report(report, "has %zu bytes, expected fewer than %d", length, HD_MAX_PATH);
-        return false;
-    }
-    for (const char *c = json_string_value(value); *c != '\0'; c++)
-        if (hd_control_bytes(c) > 0) {
-            hd_report_value(report, value, "a name without control characters");
-            return false;
-        }
-    return true;
-}
-
-void hd_check_output_path(HdSceneReport *report, const char *path) {
-    char quoted[HD_WORDS_SIZE];
-    HdError error;
-    const HdFormat *format = hd_format_of(path);
-    hd_quoted(path, quoted);
-    if (path[0] == '\0')
-        return;
-    if (format == NULL)
-        hd_report(report,
-                  "is %s, expected the name of a film (" HD_FILM_ENDINGS
-                  ") or of a picture (" HD_PICTURE_ENDINGS ")",
-                  quoted);
-    else if (hd_format_is_film(format) && hd_pattern_has_number(path))
-        hd_report(report,
-                  "is %s, expected a film without a number (%%d or #) in its name, or pictures "
-                  "(" HD_PICTURE_ENDINGS ")",
-                  quoted);
-    else if (!hd_format_is_film(format) && strpbrk(path, "%#") != NULL &&
-             hd_pattern_check(path, &error) != HD_OK)
-        hd_report(report, "cannot be used: %s", error.message);
-}
-
-bool hd_check_texture_path(HdSceneReport *report, const char *path) {
-    static const char built_in[] = "builtin:";
-    char quoted[HD_WORDS_SIZE];
-    if (strncmp(path, built_in, strlen(built_in)) != 0 || strcmp(path, HD_BUILTIN_TEXTURE) == 0)
-        return true;
-    hd_quoted(path, quoted);
-    hd_report(report, "is %s, which is unknown, expected \"" HD_BUILTIN_TEXTURE "\" or a file",
-              quoted);
-    return false;
 }

@@ -8,14 +8,14 @@
 
 #include "base/error.h"
 #include "input/fields.h"
-#include "input/json/words.h"
+#include "input/json/text.h"
+#include "scene/check.h"
 
 typedef struct HdSceneReport {
     const HdSceneSource *source;
     HdProblems *problems;
     char path[HD_JSON_PATH_SIZE]; /* of the value that is read */
-    /* What is wrong in these places makes the checks of the whole scene meaningless for them. */
-    bool is_view_wrong, is_floor_wrong, is_solid_wrong[HD_MAX_SOLIDS];
+    HdSceneChecker *checker;      /* of the whole scene, to which no part is known that is wrong */
 } HdSceneReport;
 
 /* The problem of the value at the path, as "is -1, expected ..."; what comes from a change says so.
@@ -39,17 +39,5 @@ void hd_report_choice(HdSceneReport *report, const HdField *field, const json_t 
 
 /* Tells every key of the object at the path that its type does not know. */
 void hd_report_unknown_keys(HdSceneReport *report, const HdObjectType *type, const json_t *json);
-
-/* Checks the string at the report's path: fewer than HD_MAX_PATH bytes, and no control characters,
-   which no name of a file has by intent. False where it tells a problem. */
-bool hd_check_file_name(HdSceneReport *report, const json_t *value);
-
-/* Checks that the path of an output, which may be empty, has an ending that says what to write, and
-   a number only where it may. */
-void hd_check_output_path(HdSceneReport *report, const char *path);
-
-/* Checks that the path of a texture, which may be empty, names no part that the program lacks.
-   False where it tells a problem. */
-bool hd_check_texture_path(HdSceneReport *report, const char *path);
 
 #endif

@@ -52,7 +52,7 @@ HdStatus hd_segments_find(HdSegments *segments, const HdOutputPlan *plan, const 
                           const HdFrameList *frames, HdError *error) {
     *segments = (HdSegments){.frame_count = frames->count, .length = frames->count, .count = 1};
     HdStatus status = output->is_film ? hd_output_file(output, 0, segments->film, error) : HD_OK;
-    if (status != HD_OK || !output->is_film || !plan->is_marked)
+    if (status != HD_OK || !output->is_film || !plan->has_fingerprint)
         return status;
     const int length = length_of(plan->style.frames_per_second);
     if (frames->count <= length)

@@ -548,7 +548,7 @@ static HdStatus close_films(HdFrameStore *store, HdError *error) {
 static int kept_count(const HdFrameStore *store) {
     const HdOutputPlan *outputs = store->plan.outputs;
     int kept = 0;
-    if (!outputs->can_resume || !outputs->is_marked)
+    if (!outputs->can_resume || !outputs->has_fingerprint)
         return 0;
     for (int i = 0; i < store->stored; i++)
         kept += hd_resume_keeps(store->plan.resume, outputs, i);

@@ -126,7 +126,7 @@ HdStatus hd_scene_apply_numbers(HdScene *scene, const HdScenePlan *plan, HdError
     return HD_OK;
 }
 
-HdStatus hd_scene_apply_geometry(HdScene *scene, const HdScenePlan *plan, HdError *error) {
+static HdStatus apply_geometry(HdScene *scene, const HdScenePlan *plan, HdError *error) {
     scene->accel = plan->accel;
     if (plan->geometry == HD_GEOMETRY_SOLIDS && plan->divisions > 0)
         return hd_fail(error, HD_BAD_INPUT, "--divisions needs --geometry triangles");
@@ -137,22 +137,29 @@ HdStatus hd_scene_apply_geometry(HdScene *scene, const HdScenePlan *plan, HdErro
                                 error);
 }
 
-HdStatus hd_load_scene(HdSceneFile *file, const HdScenePlan *plan, HdProblems *notes,
-                       HdError *error) {
+static HdStatus read_planned(HdSceneFile *file, const HdScenePlan *plan, HdProblems *notes,
+                             HdError *error) {
     const HdSceneSource source = {.folder = "",
                                   .changes = plan->changes,
                                   .change_count = plan->change_count,
                                   .loads_files = true,
                                   .file_notes = notes};
-    HdStatus status = hd_read_scene(file, plan->path, &source, error);
-    if (status != HD_OK) {
-        if (notes != NULL)
-            *notes = (HdProblems){.count = 0};
+    return plan->is_classic ? hd_read_classic(file, NULL, plan->variant, error)
+                            : hd_read_scene(file, plan->path, &source, error);
+}
+
+HdStatus hd_load_scene(HdSceneFile *file, const HdScenePlan *plan, HdProblems *notes,
+                       HdError *error) {
+    HdStatus status = read_planned(file, plan, notes, error);
+    if (status != HD_OK && notes != NULL)
+        *notes = (HdProblems){.count = 0};
+    if (status != HD_OK)
         return status;
-    }
     status = hd_scene_apply_numbers(&file->scene, plan, error);
+    if (status == HD_OK && plan->is_classic)
+        status = hd_scene_file_load_texture(file, error);
     if (status == HD_OK)
-        status = hd_scene_apply_geometry(&file->scene, plan, error);
+        status = apply_geometry(&file->scene, plan, error);
     if (status != HD_OK)
         hd_scene_file_free(file);
     return status;

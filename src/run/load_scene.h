@@ -22,12 +22,9 @@ HdStatus hd_read_scene(HdSceneFile *file, const char *path, const HdSceneSource 
    what was given, as "--size 60000x60000: ". */
 HdStatus hd_scene_apply_numbers(HdScene *scene, const HdScenePlan *plan, HdError *error);
 
-/* Makes the scene, whose textures are loaded, out of what the plan says: solids or triangles, and
-   how these are searched. */
-HdStatus hd_scene_apply_geometry(HdScene *scene, const HdScenePlan *plan, HdError *error);
-
-/* Reads the planned scene with its texture and its meshes, and lays the plan over it. `notes`, NULL
-   or empty, gets what of the meshes' files is not used, where they were read. */
+/* Reads the planned scene with its texture and its meshes, and lays the plan over it: its numbers,
+   solids or triangles, and how these are searched. `notes`, NULL or empty, gets what of the meshes'
+   files is not used, where they were read. */
 HdStatus hd_load_scene(HdSceneFile *file, const HdScenePlan *plan, HdProblems *notes,
                        HdError *error);
 

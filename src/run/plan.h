@@ -25,6 +25,8 @@ typedef struct HdPlannedCrop {
    stays as the scene has it. */
 typedef struct HdScenePlan {
     const char *path; /* "-": standard input; NULL: the built-in scene */
+    bool is_classic;  /* it is a classic input, on standard input, of that variant */
+    int variant;
     HdSceneChange changes[HD_MAX_CHANGES];
     int change_count;
     HdPlannedSize size;

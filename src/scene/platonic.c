@@ -196,3 +196,10 @@ void hd_platonic_rotate(HdPlatonic *solid, HdVec3 degrees) {
     hd_rotate_points(solid->vertex, solid->vertex_count, degrees);
     hd_rotate_points(solid->face_normal, solid->face_count, degrees);
 }
+
+#define NAME_OF(kind, name) name,
+
+const char *hd_solid_kind_name(HdSolidKind kind) {
+    static const char *const names[] = {HD_SOLID_KINDS(NAME_OF)};
+    return names[kind];
+}

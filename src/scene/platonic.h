@@ -11,14 +11,16 @@
 
 #include "base/vector.h"
 
-typedef enum HdSolidKind {
-    HD_TETRAHEDRON,
-    HD_HEXAHEDRON,
-    HD_OCTAHEDRON,
-    HD_DODECAHEDRON,
-    HD_ICOSAHEDRON,
-    HD_SOLID_KIND_COUNT
-} HdSolidKind;
+/* Each kind, and its name in scene files. */
+#define HD_SOLID_KINDS(X)                                                                          \
+    X(HD_TETRAHEDRON, "tetrahedron")                                                               \
+    X(HD_HEXAHEDRON, "cube")                                                                       \
+    X(HD_OCTAHEDRON, "octahedron")                                                                 \
+    X(HD_DODECAHEDRON, "dodecahedron")                                                             \
+    X(HD_ICOSAHEDRON, "icosahedron")
+
+#define HD_KIND_OF(kind, name) kind,
+typedef enum HdSolidKind { HD_SOLID_KINDS(HD_KIND_OF) HD_SOLID_KIND_COUNT } HdSolidKind;
 
 enum { HD_MAX_FACES = 20, HD_MAX_VERTICES = 20, HD_MAX_EDGES = 30 };
 
@@ -38,6 +40,8 @@ typedef struct HdPlatonic {
     double edge_length;      /* likewise */
     double sine_of_dihedral; /* sine of the angle between two neighbouring faces */
 } HdPlatonic;
+
+const char *hd_solid_kind_name(HdSolidKind kind);
 
 /* Fills `solid`. Every value follows from square roots alone, so it is the same on every system. */
 void hd_platonic(HdSolidKind kind, HdPlatonic *solid);

@@ -75,7 +75,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static int numbers[2 * HD_LEAST_SEGMENT];
     const HdFrameList frames = {.frames = numbers, .count = 2 * HD_LEAST_SEGMENT};
     const char *film = fuzz_file("film.mkv", "", 0), *names[MOST_NAMES];
-    HdOutputPlan plan = {.style = {.frames_per_second = 1}, .is_marked = true, .resumes = true};
+    HdOutputPlan plan = {
+        .style = {.frames_per_second = 1}, .has_fingerprint = true, .resumes = true};
     plan.list[plan.count++] =
         (HdOutput){.name = film, .format = hd_format_of(film), .is_film = true};
     HdSegments segments;

@@ -2,38 +2,12 @@
 #include "input/json/text.h"
 
 #include <ctype.h>
-#include <jansson.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct Counter {
-    int values, depth;
-    bool is_in_string, is_escaped;
-} Counter;
-
-static void take_in_string(Counter *counter, char c) {
-    if (counter->is_escaped)
-        counter->is_escaped = false;
-    else if (c == '\\')
-        counter->is_escaped = true;
-    else if (c == '"')
-        counter->is_in_string = false;
-}
-
-/* What opens has a first value at most, and each comma stands before another one. */
-static void take(Counter *counter, char c) {
-    if (counter->is_in_string) {
-        take_in_string(counter, c);
-        return;
-    }
-    const bool opens = c == '[' || c == '{';
-    counter->is_in_string = c == '"';
-    counter->values += opens || c == ',';
-    counter->depth += opens;
-    counter->depth -= (c == ']' || c == '}') && counter->depth > 0;
-}
+#include "base/text.h"
 
 HdStatus hd_json_fail_at(const char *text, size_t position, const char *name, const char *what,
                          HdError *error) {
@@ -45,20 +19,16 @@ HdStatus hd_json_fail_at(const char *text, size_t position, const char *name, co
     return hd_fail(error, HD_BAD_INPUT, "%s:%d:%d: %s", name, line, column, what);
 }
 
-HdStatus hd_json_check_limits(const char *text, size_t size, const char *name, HdError *error) {
-    Counter counter = {.values = 1};
-    char what[96] = "";
+HdStatus hd_json_check_count(const char *text, size_t size, const char *name, HdError *error) {
+    char what[96];
+    int values = 1;
     for (size_t i = 0; i < size; i++) {
-        take(&counter, text[i]);
-        if (counter.values > HD_MAX_JSON_VALUES)
-            snprintf(what, sizeof what, "there are too many values, expected at most %d",
-                     (int)HD_MAX_JSON_VALUES);
-        else if (counter.depth > HD_MAX_JSON_DEPTH)
-            snprintf(what, sizeof what,
-                     "there are too many arrays and objects in each other, expected at most %d",
-                     (int)HD_MAX_JSON_DEPTH);
-        if (what[0] != '\0')
-            return hd_json_fail_at(text, i, name, what, error);
+        values += text[i] == '[' || text[i] == '{' || text[i] == ',';
+        if (values <= HD_MAX_JSON_VALUES)
+            continue;
+        snprintf(what, sizeof what, "there are too many values, expected at most %d",
+                 (int)HD_MAX_JSON_VALUES);
+        return hd_json_fail_at(text, i, name, what, error);
     }
     return HD_OK;
 }
@@ -107,6 +77,61 @@ const char *hd_json_hint(const char *text, size_t position) {
         return "use double quotes";
     return hint_of_word(text, position);
 }
+
+/* Words */
+
+void hd_quoted(const char *text, char out[HD_WORDS_SIZE]) {
+    char start[108];
+    const size_t taken = hd_escape(text, start, sizeof start);
+    snprintf(out, HD_WORDS_SIZE, "\"%s%s\"", start, text[taken] != '\0' ? "..." : "");
+}
+
+void hd_json_words(const json_t *value, char out[HD_WORDS_SIZE]) {
+    const size_t count = json_array_size(value);
+    char text[HD_WORDS_SIZE];
+    if (json_is_string(value)) {
+        hd_quoted(json_string_value(value), text);
+        snprintf(out, HD_WORDS_SIZE, "a string, %.120s", text);
+    } else if (json_is_number(value)) {
+        hd_short_number(json_number_value(value), out);
+    } else if (json_is_array(value)) {
+        snprintf(out, HD_WORDS_SIZE, "an array of %zu element%s", count, count == 1 ? "" : "s");
+    } else {
+        snprintf(out, HD_WORDS_SIZE, "%s",
+                 json_is_object(value)  ? "an object"
+                 : json_is_true(value)  ? "true"
+                 : json_is_false(value) ? "false"
+                                        : "null");
+    }
+}
+
+static bool is_plain(const char *key) {
+    static const char letters[] =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+    const size_t length = strlen(key);
+    return length > 0 && length <= 64 && strspn(key, letters) == length;
+}
+
+size_t hd_json_path_key(char path[HD_JSON_PATH_SIZE], const char *key) {
+    char quoted[HD_WORDS_SIZE];
+    const size_t length = strlen(path);
+    const size_t room = HD_JSON_PATH_SIZE - length;
+    if (is_plain(key)) {
+        snprintf(path + length, room, "%s%s", length > 0 ? "." : "", key);
+    } else {
+        hd_quoted(key, quoted);
+        snprintf(path + length, room, "[%s]", quoted);
+    }
+    return length;
+}
+
+size_t hd_json_path_index(char path[HD_JSON_PATH_SIZE], size_t index) {
+    const size_t length = strlen(path);
+    snprintf(path + length, HD_JSON_PATH_SIZE - length, "[%zu]", index);
+    return length;
+}
+
+/* Memory */
 
 static atomic_bool failed;
 

@@ -206,7 +206,7 @@ TEST(wrong_lines_are_refused) {
 TEST(nothing_is_the_classic_mode) {
     expect_parsed("hedron");
     assert_int_equal(options.command, HD_COMMAND_CLASSIC);
-    assert_int_equal(options.variant, 4);
+    assert_int_equal(options.scene.variant, 4);
     assert_int_equal(options.scene.size.width, 0);
     assert_true(options.scene.cutoff == -1.0);
     assert_int_equal(options.operand_count, 0);
@@ -329,5 +329,24 @@ TEST(values_reach_their_members) {
     expect_parsed("hedron --default --backend auto --variant 7");
     assert_true(options.prints_default && !options.cpu && !options.gpu);
     assert_null(options.devices.backend);
-    assert_int_equal(options.variant, 7);
+    assert_int_equal(options.scene.variant, 7);
+}
+
+/* What follows from several options, or from the command, is settled once they are read; what was
+   given is told as it was given. */
+TEST(the_plan_is_complete) {
+    const HdScenePlan *scene = &options.scene;
+    expect_parsed("hedron render a.json --reference --size 6x7 --set a=b");
+    assert_string_equal(scene->path, "a.json");
+    assert_true(scene->sampling == HD_SAMPLING_REFERENCE && scene->samples == 32);
+    assert_true(scene->max_error == 1.0 / 64.0 && !scene->is_classic);
+    assert_int_equal(options.devices.render.precision, HD_PRECISION_DOUBLE);
+    assert_string_equal(scene->given, "--size 6x7");
+    assert_string_equal(options.store.given, "--set a=b --size 6x7 --reference --precision double");
+    assert_true(options.telling.wants_lines && !options.store.again);
+    expect_parsed("hedron render --reference --samples 2 --max-error 2");
+    assert_true(scene->path == NULL && scene->samples == 2 && scene->max_error == 2.0);
+    expect_parsed("hedron --cpu");
+    assert_true(scene->is_classic && options.store.again && !options.telling.wants_lines);
+    assert_int_equal(options.devices.kind, HD_ONLY_CPU);
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Scene files that are wrong: each is refused, with a message that says what and where, in the
    words of people who are used to other programs, too. */
-#include "input/notes.h"
 #include "scene_text.h"
 
 static HdSceneFile file;
@@ -296,15 +295,20 @@ TEST(test_outputs) {
         {"\xc2\xa0\xc3\xa9%d.png", NULL},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        HdProblems problems = {.count = 0};
+        HdProblems notes = {.count = 0};
         char change[64];
+        const HdSceneChange changes[] = {change};
+        const HdSceneSource source = {
+            .name = "a.json", .folder = "", .changes = changes, .change_count = 1, .notes = &notes};
         snprintf(change, sizeof change, "output.path=%s", cases[i][0]);
         expect_scene(&file, rich_text, change);
         assert_string_equal(file.output.path, cases[i][0]);
-        hd_scene_check_output(&file, &problems);
-        assert_int_equal(problems.count, cases[i][1] != NULL);
+        hd_scene_file_free(&file);
+        const HdStatus status =
+            hd_scene_file_parse(&file, rich_text, strlen(rich_text), &source, &error);
+        assert_int_equal(status, cases[i][1] != NULL ? HD_BAD_INPUT : HD_OK);
         if (cases[i][1] != NULL)
-            expect_contains(problems.text, cases[i][1]);
+            expect_contains(error.message, cases[i][1]);
         hd_scene_file_free(&file);
     }
 }

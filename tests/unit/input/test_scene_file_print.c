@@ -2,7 +2,6 @@
 /* What is written reads back as the same scene, and the schema is the committed one. */
 #define _XOPEN_SOURCE 700
 
-#include "input/schema.h"
 #include "input/write.h"
 #include "same_scene.h"
 #include "scene_text.h"

@@ -21,8 +21,10 @@ static int begin(void **state) {
     remove_folder("out");
     hd_known_folders_forget();
     fake_films(4, 0);
-    plan = (HdOutputPlan){
-        .style = {{HD_CURVE_SRGB, 8}, RATE}, .is_marked = true, .resumes = true, .fingerprint = 7};
+    plan = (HdOutputPlan){.style = {{HD_CURVE_SRGB, 8}, RATE},
+                          .has_fingerprint = true,
+                          .resumes = true,
+                          .fingerprint = 7};
     output = (HdOutput){.name = "out/it's.mkv", .format = &hd_format_mkv, .is_film = true};
     for (int i = 0; i < FRAMES; i++)
         numbers[i] = 100 + i;
@@ -125,11 +127,11 @@ TEST(only_whole_files_are_taken_and_only_where_a_run_goes_on) {
     plan.resumes = false;
     find();
     assert_false(hd_segments_have(&segments, 0));
-    plan.is_marked = false; /* then there is none but the film */
+    plan.has_fingerprint = false; /* then there is none but the film */
     find();
     assert_int_equal(segments.count, 1);
     assert_string_equal(segments.film, "out/it's.mkv");
-    plan.is_marked = true;
+    plan.has_fingerprint = true;
     output = (HdOutput){.name = "out/a.png", .format = &hd_format_png};
     find();
     assert_true(segments.count == 1 && segments.film[0] == '\0');

@@ -51,7 +51,9 @@ static void make(void) {
 static const char *found(HdNaming naming) {
     static HdProblems problems;
     problems = (HdProblems){0};
-    hd_scene_check(&scene, naming, &problems);
+    HdSceneChecker checker = {
+        .problems = &problems, .naming = naming, .check_values = hd_check_values};
+    hd_check_scene(&checker, &scene);
     return problems.text;
 }
 
@@ -312,7 +314,9 @@ TEST(test_no_problem_hides_another) {
     solids[0].rim.reflection = -1.0;
     solids[1].face.transmission = 0.5;
     hd_problem(&problems, "an earlier one");
-    hd_scene_check(&scene, HD_NAMING_JSON, &problems);
+    HdSceneChecker checker = {
+        .problems = &problems, .naming = HD_NAMING_JSON, .check_values = hd_check_values};
+    hd_check_scene(&checker, &scene);
     assert_int_equal(problems.count, 9);
     assert_string_equal(
         problems.text,

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-#include "input/notes.h"
+#include "scene/notes.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "image/picture.h"
 #include "scene/camera.h"
 #include "scene/contact.h"
 
@@ -145,8 +144,7 @@ static void note_contacts(const HdScene *scene, HdProblems *notes) {
                    overlapping.solid, overlapping.other, others_of(&overlapping, others));
 }
 
-void hd_scene_notes(const HdSceneFile *file, HdProblems *notes) {
-    const HdScene *scene = &file->scene;
+void hd_scene_notes(const HdScene *scene, HdProblems *notes) {
     if (!gives_light(scene))
         hd_problem(notes, "every picture is black: there is no light, no ambient material, no disc "
                           "of an edge light, and the background is black");
@@ -157,22 +155,4 @@ void hd_scene_notes(const HdSceneFile *file, HdProblems *notes) {
     for (int i = 0; i < scene->solid_count; i++)
         note_edge_lights(&scene->solids[i], i, notes);
     note_contacts(scene, notes);
-    if (file->output.style.picture.bits > 8 && hd_format_is_film(hd_format_of(file->output.path)))
-        hd_problem(notes,
-                   "output.bits is %d, but output.path is a film, which has 8 bits a channel",
-                   file->output.style.picture.bits);
-}
-
-void hd_scene_check_output(const HdSceneFile *file, HdProblems *problems) {
-    const char *path = file->output.path;
-    HdError error;
-    if (hd_format_check_style(path, &file->output.style.picture, &error) != HD_OK)
-        hd_problem(problems, "output.path: %s", error.message);
-    if (path[0] == '\0' || file->scene.frame_count == 1 || hd_format_is_film(hd_format_of(path)) ||
-        hd_pattern_has_number(path))
-        return;
-    hd_problem(problems,
-               "output.path is \"%s\", which names one picture, but camera.frames is %d, expected "
-               "#### in the name, or a film",
-               path, file->scene.frame_count);
 }
