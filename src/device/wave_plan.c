@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include "system/interrupt.h"
-#include "tables/room.h"
+#include "tables/table.h"
 
 enum { MAX_STRIDE = INT_MAX / 4 };
 

@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-#include "tables/room.h"
+#include "tables/table.h"
 
 enum { LEAST_TABLE_BYTES = 16 };
 

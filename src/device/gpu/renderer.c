@@ -13,7 +13,7 @@
 #include "kernels/host/shared.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
-#include "tables/room.h"
+#include "tables/table.h"
 
 /* Of the wavefront on CPUs: work items that strive to be even, each with a queue of its own. */
 enum { WORKERS_PER_UNIT = 8, CPU_QUEUE_BYTES = 512 << 10 };

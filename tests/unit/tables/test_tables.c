@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L /* setenv */
-#include "tables/room.h"
+#include "tables/table.h"
 
 #include <limits.h>
 #include <stdlib.h>
