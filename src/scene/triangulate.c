@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/triangulate_solid.h"
 #include "system/machine.h"
 
 /* In `made` is what the scene gets in front of its own meshes and instances, and behind its

@@ -8,7 +8,7 @@
 #include "base/trigonometry.h"
 #include "mesh/divide.h"
 #include "scene/facets.h"
-#include "scene/triangulate.h"
+#include "scene/triangulate_solid.h"
 
 /* In circumradii: the least rim and the least side of a disc or of what a rim leaves of a face.
    Smaller ones could hardly be told from points that are one. */
