@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "scene/overlap.h"
+#include "scene/contact.h"
 
 /* From the unrounded normals of a solid; a light is exactly on its own two faces. */
 static void fill_solid_coordinates(const HdBuilder *builder, int light, int solid,

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "scene/triangulate_solid.h"
+#include "scene/triangulate.h"
 #include "unit_test.h"
 
 /* Of what is drawn on a face, in circumradii. */
