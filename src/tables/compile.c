@@ -77,9 +77,9 @@ static HdStatus allocate_builder(HdBuilder *builder, HdSceneTables *tables, HdEr
         return hd_fail(error, HD_FAILED, "out of memory: the scene has %d lights",
                        builder->light_count);
     size_tables(builder, tables);
-    const HdRoom machine = {.name = "this machine",
-                            .advice = "fewer triangles need less",
-                            .memory = hd_physical_memory()};
+    const HdMemoryRoom machine = {.name = "this machine",
+                                  .advice = "fewer triangles need less",
+                                  .memory = hd_physical_memory()};
     HdStatus status = hd_check_room(tables, &machine, error);
     for (int i = 0; status == HD_OK && i < HD_SCENE_TABLE_COUNT; i++) {
         char what[64];

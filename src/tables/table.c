@@ -86,7 +86,7 @@ void hd_byte_text(double bytes, char out[HD_BYTE_TEXT_SIZE]) {
     snprintf(out, HD_BYTE_TEXT_SIZE, "%.*f %s", decimals, bytes, units[unit]);
 }
 
-static HdStatus fail_table(const HdSceneTables *tables, int largest, const HdRoom *room,
+static HdStatus fail_table(const HdSceneTables *tables, int largest, const HdMemoryRoom *room,
                            HdError *error) {
     char need[HD_BYTE_TEXT_SIZE], at_once[HD_BYTE_TEXT_SIZE], memory[HD_BYTE_TEXT_SIZE];
     hd_byte_text((double)tables->table[largest].bytes, need);
@@ -97,8 +97,8 @@ static HdStatus fail_table(const HdSceneTables *tables, int largest, const HdRoo
         hd_scene_table_content(largest), need, room->name, at_once, memory, room->advice);
 }
 
-static HdStatus fail_all(const HdSceneTables *tables, int largest, double all, const HdRoom *room,
-                         HdError *error) {
+static HdStatus fail_all(const HdSceneTables *tables, int largest, double all,
+                         const HdMemoryRoom *room, HdError *error) {
     char need[HD_BYTE_TEXT_SIZE], most[HD_BYTE_TEXT_SIZE], memory[HD_BYTE_TEXT_SIZE];
     hd_byte_text(all, need);
     hd_byte_text((double)tables->table[largest].bytes, most);
@@ -108,7 +108,7 @@ static HdStatus fail_all(const HdSceneTables *tables, int largest, double all, c
                    hd_scene_table_content(largest), room->name, memory, room->advice);
 }
 
-HdStatus hd_check_room(const HdSceneTables *tables, const HdRoom *room, HdError *error) {
+HdStatus hd_check_room(const HdSceneTables *tables, const HdMemoryRoom *room, HdError *error) {
     double all = 0.0;
     int largest = 0;
     for (int i = 0; i < tables->table_count; i++) {

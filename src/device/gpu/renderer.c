@@ -166,7 +166,7 @@ static HdStatus write_scene(Renderer *renderer, const HdSceneTables *tables, HdE
 static HdStatus upload(Renderer *renderer, const HdSceneTables *tables, HdError *error) {
     const HdGpu *gpu = &renderer->gpu;
     HdKernelNeeds needs = hd_kernel_needs(tables);
-    const HdRoom room = {.name = gpu->name,
+    const HdMemoryRoom room = {.name = gpu->name,
                          .advice = hd_room_advice,
                          .memory = (double)gpu->facts.memory,
                          .at_once = (double)gpu->facts.at_once};
