@@ -15,7 +15,7 @@
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
-#include "tables/room.h"
+#include "tables/table.h"
 
 /* A thread's rays should stay in its processor's own cache. */
 enum { QUEUE_BYTES = 512 << 10 };

@@ -82,6 +82,9 @@ typedef struct ALIGNED_16 {
     int shininess, lit_from_behind, unused_int[2];
 } Material;
 
+/* What a material has as the scene does; the rest follows from several of its values. */
+#define HD_PLAIN_TERMS(X) X(ambient) X(diffuse) X(specular) X(reflection) X(transmission)
+
 typedef struct ALIGNED_16 {
     real intensity[3];
     /* 1 over the square of the falloff's length; negative: at which nothing is left; 0: none */

@@ -7,7 +7,7 @@
 
 #include "base/minmax.h"
 #include "system/interrupt.h"
-#include "tables/room.h"
+#include "tables/table.h"
 
 enum { MAX_STRIDE = INT_MAX / 4 };
 

@@ -428,10 +428,10 @@ static void read_object(Reader *reader, const HdObjectType *type, const json_t *
 static void check_output_path(HdSceneReport *report, const char *path) {
     char quoted[HD_WORDS_SIZE];
     HdError error;
-    const HdFormat *format = hd_format_of(path);
-    hd_quoted(path, quoted);
     if (path[0] == '\0')
         return;
+    hd_quoted(path, quoted);
+    const HdFormat *format = hd_format_of(path);
     if (format == NULL)
         hd_report(report,
                   "is %s, expected the name of a film (" HD_FILM_ENDINGS

@@ -5,11 +5,125 @@
 #include <errno.h>
 #include <jansson.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/hash.h"
-#include "input/json/print.h"
+#include "base/text.h"
+
+/* JSON for people: an indent of 2, and three numbers that belong together on one line. jansson,
+   which prints what programs read (statistics, devices), would give every number of a vector a line
+   of its own. */
+
+/* Start with the stream alone, or with the hash alone, which then goes on with the text. */
+typedef struct Printer {
+    FILE *out; /* NULL: nothing is printed */
+    uint64_t hash;
+    int depth;
+    bool has_elements; /* the innermost object or array has */
+    bool has_key;      /* the next value's key is written */
+} Printer;
+
+static void put_text(Printer *printer, const char *text) {
+    if (printer->out != NULL)
+        fputs(text, printer->out);
+    else
+        printer->hash = hd_hash_bytes(printer->hash, text, strlen(text));
+}
+
+static void start_line(Printer *printer) {
+    put_text(printer, "\n");
+    for (int i = 0; i < printer->depth; i++)
+        put_text(printer, "  ");
+}
+
+/* What stands between the value before and the key or value that comes now. */
+static void separate(Printer *printer) {
+    if (printer->has_key) {
+        printer->has_key = false;
+        return;
+    }
+    if (printer->has_elements)
+        put_text(printer, ",");
+    if (printer->depth > 0)
+        start_line(printer);
+    printer->has_elements = true;
+}
+
+static void put_quoted(Printer *printer, const char *text) {
+    char piece[8];
+    put_text(printer, "\"");
+    for (; *text != '\0'; text++) {
+        const unsigned char c = (unsigned char)*text;
+        if (c == '"' || c == '\\')
+            snprintf(piece, sizeof piece, "\\%c", c);
+        else if (c < 0x20 || c == 0x7f)
+            snprintf(piece, sizeof piece, "\\u%04x", c);
+        else
+            snprintf(piece, sizeof piece, "%c", c);
+        put_text(printer, piece);
+    }
+    put_text(printer, "\"");
+}
+
+/* The key of the value that comes next. */
+static void put_key(Printer *printer, const char *key) {
+    separate(printer);
+    put_quoted(printer, key);
+    put_text(printer, ": ");
+    printer->has_key = true;
+}
+
+/* '{' or '[', and '}' or ']'. */
+static void put_open(Printer *printer, char bracket) {
+    const char text[2] = {bracket, '\0'};
+    separate(printer);
+    put_text(printer, text);
+    printer->depth++;
+    printer->has_elements = false;
+}
+
+static void put_close(Printer *printer, char bracket) {
+    const char text[2] = {bracket, '\0'};
+    printer->depth--;
+    if (printer->has_elements)
+        start_line(printer);
+    put_text(printer, text);
+    printer->has_elements = true;
+}
+
+/* JSON as it is. */
+static void put_raw(Printer *printer, const char *json) {
+    separate(printer);
+    put_text(printer, json);
+}
+
+/* A string; `text` is UTF-8. */
+static void put_string(Printer *printer, const char *text) {
+    separate(printer);
+    put_quoted(printer, text);
+}
+
+static void put_number(Printer *printer, double value) {
+    char text[HD_NUMBER_SIZE];
+    hd_exact_number(value, text);
+    put_raw(printer, text);
+}
+
+static void put_vector(Printer *printer, HdVec3 value) {
+    const double parts[3] = {value.x, value.y, value.z};
+    char text[HD_NUMBER_SIZE];
+    separate(printer);
+    for (int i = 0; i < 3; i++) {
+        hd_exact_number(parts[i], text);
+        put_text(printer, i == 0 ? "[" : ", ");
+        put_text(printer, text);
+    }
+    put_text(printer, "]");
+}
+
+/* Scenes */
 
 typedef struct NamedMaterial {
     const HdMaterial *material;
@@ -18,7 +132,7 @@ typedef struct NamedMaterial {
 } NamedMaterial;
 
 typedef struct Writer {
-    HdJsonPrinter printer;
+    Printer printer;
     int material_count;
     NamedMaterial *materials; /* each differs from all others */
 } Writer;
@@ -72,12 +186,12 @@ static void collect_materials(Writer *writer, const HdSceneFile *file) {
 
 static void write_materials(Writer *writer, const HdField *field, const void *unused) {
     (void)unused;
-    hd_json_open(&writer->printer, '{');
+    put_open(&writer->printer, '{');
     for (int i = 0; i < writer->material_count; i++) {
-        hd_json_key(&writer->printer, writer->materials[i].name);
+        put_key(&writer->printer, writer->materials[i].name);
         write_object(writer, field->object, writer->materials[i].material);
     }
-    hd_json_close(&writer->printer, '}');
+    put_close(&writer->printer, '}');
 }
 
 /* Light */
@@ -121,21 +235,21 @@ static void take_numbers(const Writer *writer, const HdField *field, const void 
     }
 }
 
-static void print_choice(HdJsonPrinter *printer, const char *word) {
-    (hd_choice_is_number(word) ? hd_json_raw : hd_json_string)(printer, word);
+static void print_choice(Printer *printer, const char *word) {
+    (hd_choice_is_number(word) ? put_raw : put_string)(printer, word);
 }
 
-static void print_numbers(HdJsonPrinter *printer, const HdField *field, const double numbers[3]) {
+static void print_numbers(Printer *printer, const HdField *field, const double numbers[3]) {
     const HdVec3 vector = hd_vec3(numbers[0], numbers[1], numbers[2]);
     const bool is_even = vector.x == vector.y && vector.y == vector.z;
     if (field->type == HD_FIELD_BOOLEAN)
-        hd_json_raw(printer, numbers[0] != 0.0 ? "true" : "false");
+        put_raw(printer, numbers[0] != 0.0 ? "true" : "false");
     else if (field->type == HD_FIELD_CHOICE)
         print_choice(printer, hd_field_choice(field, (int)numbers[0]));
     else if (hd_field_parts(field) == 1 || (field->type == HD_FIELD_SCALE && is_even))
-        hd_json_number(printer, numbers[0]); /* of every axis */
+        put_number(printer, numbers[0]); /* of every axis */
     else
-        hd_json_vector(printer, vector);
+        put_vector(printer, vector);
 }
 
 typedef void WriteField(Writer *writer, const HdField *field, const void *owner);
@@ -144,27 +258,27 @@ static void write_numbers(Writer *writer, const HdField *field, const void *owne
     double numbers[3] = {0.0, 0.0, 0.0};
     take_numbers(writer, field, owner, numbers);
     if (is_hashed(writer) && field->type == HD_FIELD_CHOICE)
-        hd_json_number(&writer->printer, numbers[0]);
+        put_number(&writer->printer, numbers[0]);
     else
         print_numbers(&writer->printer, field, numbers);
 }
 
 static void write_vectors(Writer *writer, const HdField *field, const void *owner) {
     const HdVec3 *vectors = place_of(field, owner);
-    hd_json_open(&writer->printer, '[');
+    put_open(&writer->printer, '[');
     for (int i = 0; i < hd_field_count(field, owner); i++)
-        hd_json_vector(&writer->printer, vectors[i]);
-    hd_json_close(&writer->printer, ']');
+        put_vector(&writer->printer, vectors[i]);
+    put_close(&writer->printer, ']');
 }
 
 static void write_text(Writer *writer, const HdField *field, const void *owner) {
-    hd_json_string(&writer->printer, place_of(field, owner));
+    put_string(&writer->printer, place_of(field, owner));
 }
 
 static void write_file(Writer *writer, const HdField *field, const void *owner) {
     const char *path;
     memcpy(&path, place_of(field, owner), sizeof path);
-    hd_json_string(&writer->printer, path);
+    put_string(&writer->printer, path);
 }
 
 static void write_material(Writer *writer, const HdField *field, const void *owner) {
@@ -172,7 +286,7 @@ static void write_material(Writer *writer, const HdField *field, const void *own
     if (is_hashed(writer))
         write_object(writer, &hd_material_fields, material);
     else
-        hd_json_string(&writer->printer, material_name(writer, material));
+        put_string(&writer->printer, material_name(writer, material));
 }
 
 static void write_part(Writer *writer, const HdField *field, const void *owner) {
@@ -182,7 +296,7 @@ static void write_part(Writer *writer, const HdField *field, const void *owner) 
 static void write_path(Writer *writer, const HdField *field, const void *owner) {
     const HdPath *path = place_of(field, owner);
     if (path->is_fixed)
-        hd_json_vector(&writer->printer, path->point);
+        put_vector(&writer->printer, path->point);
     else
         write_object(writer, field->object, path);
 }
@@ -190,10 +304,10 @@ static void write_path(Writer *writer, const HdField *field, const void *owner) 
 static void write_list(Writer *writer, const HdField *field, const void *owner) {
     const char *elements;
     memcpy(&elements, place_of(field, owner), sizeof elements);
-    hd_json_open(&writer->printer, '[');
+    put_open(&writer->printer, '[');
     for (int i = 0; i < hd_field_count(field, owner); i++)
         write_object(writer, field->object, elements + (size_t)i * field->object->size);
-    hd_json_close(&writer->printer, ']');
+    put_close(&writer->printer, ']');
 }
 
 /* Objects */
@@ -231,7 +345,7 @@ static bool is_left_out(const Writer *writer, const HdField *field) {
 }
 
 static void write_object(Writer *writer, const HdObjectType *type, const void *owner) {
-    hd_json_open(&writer->printer, '{');
+    put_open(&writer->printer, '{');
     for (int i = 0; i < type->field_count; i++) {
         const HdField *field = &type->fields[i];
         const bool is_absent = !hd_field_is_given(field, owner);
@@ -239,10 +353,10 @@ static void write_object(Writer *writer, const HdObjectType *type, const void *o
         if (is_absent || is_left_out(writer, field) ||
             (!is_wanted && is_default(writer, field, owner)))
             continue;
-        hd_json_key(&writer->printer, field->key);
+        put_key(&writer->printer, field->key);
         write_field(writer, field, owner);
     }
-    hd_json_close(&writer->printer, '}');
+    put_close(&writer->printer, '}');
 }
 
 static HdStatus check_text(const char *what, const char *text, HdError *error) {
@@ -284,98 +398,98 @@ uint64_t hd_object_hash(uint64_t hash, const HdObjectType *type, const void *own
 
 /* The JSON Schema */
 
-static void print_object(HdJsonPrinter *printer, const HdObjectType *type);
+static void print_object(Printer *printer, const HdObjectType *type);
 
-static void print_pair(HdJsonPrinter *printer, const char *key, const char *text) {
-    hd_json_key(printer, key);
-    hd_json_string(printer, text);
+static void print_pair(Printer *printer, const char *key, const char *text) {
+    put_key(printer, key);
+    put_string(printer, text);
 }
 
-static void print_count(HdJsonPrinter *printer, const char *key, double number) {
-    hd_json_key(printer, key);
-    hd_json_number(printer, number);
+static void print_count(Printer *printer, const char *key, double number) {
+    put_key(printer, key);
+    put_number(printer, number);
 }
 
-static void print_range(HdJsonPrinter *printer, const HdField *field, const char *type) {
+static void print_range(Printer *printer, const HdField *field, const char *type) {
     print_pair(printer, "type", type);
     print_count(printer, field->above_low ? "exclusiveMinimum" : "minimum", field->low);
     print_count(printer, field->below_high ? "exclusiveMaximum" : "maximum", field->high);
 }
 
-static void open_array(HdJsonPrinter *printer, int least, int most) {
+static void open_array(Printer *printer, int least, int most) {
     print_pair(printer, "type", "array");
     print_count(printer, "minItems", least);
     print_count(printer, "maxItems", most);
-    hd_json_key(printer, "items");
-    hd_json_open(printer, '{');
+    put_key(printer, "items");
+    put_open(printer, '{');
 }
 
-static void print_vector(HdJsonPrinter *printer, const HdField *field) {
+static void print_vector(Printer *printer, const HdField *field) {
     open_array(printer, 3, 3);
     print_range(printer, field, "number");
-    hd_json_close(printer, '}');
+    put_close(printer, '}');
 }
 
-static void print_choices(HdJsonPrinter *printer, const HdField *field) {
-    hd_json_key(printer, "enum");
-    hd_json_open(printer, '[');
+static void print_choices(Printer *printer, const HdField *field) {
+    put_key(printer, "enum");
+    put_open(printer, '[');
     for (const HdChoice *choice = field->choices; choice->word != NULL; choice++)
         print_choice(printer, choice->word);
-    hd_json_close(printer, ']');
+    put_close(printer, ']');
 }
 
-static void print_number(HdJsonPrinter *printer, const HdField *field) {
+static void print_number(Printer *printer, const HdField *field) {
     print_range(printer, field, field->type == HD_FIELD_INTEGER ? "integer" : "number");
 }
 
-static void print_part(HdJsonPrinter *printer, const HdField *field) {
+static void print_part(Printer *printer, const HdField *field) {
     print_object(printer, field->object);
 }
 
 /* A vector, or else an object or a number. */
-static void print_either(HdJsonPrinter *printer, const HdField *field) {
+static void print_either(Printer *printer, const HdField *field) {
     const bool is_path = field->type == HD_FIELD_PATH;
-    hd_json_key(printer, "oneOf");
-    hd_json_open(printer, '[');
-    hd_json_open(printer, '{');
+    put_key(printer, "oneOf");
+    put_open(printer, '[');
+    put_open(printer, '{');
     (is_path ? print_vector : print_number)(printer, field);
-    hd_json_close(printer, '}');
-    hd_json_open(printer, '{');
+    put_close(printer, '}');
+    put_open(printer, '{');
     (is_path ? print_part : print_vector)(printer, field);
-    hd_json_close(printer, '}');
-    hd_json_close(printer, ']');
+    put_close(printer, '}');
+    put_close(printer, ']');
 }
 
-static void print_text(HdJsonPrinter *printer, const HdField *field) {
+static void print_text(Printer *printer, const HdField *field) {
     print_pair(printer, "type", "string");
     print_count(printer, "minLength", 1);
     if (field->type != HD_FIELD_MATERIAL)
         print_count(printer, "maxLength", HD_MAX_PATH - 1);
 }
 
-static void print_materials(HdJsonPrinter *printer, const HdField *field) {
+static void print_materials(Printer *printer, const HdField *field) {
     print_pair(printer, "type", "object");
     print_count(printer, "maxProperties", field->most);
-    hd_json_key(printer, "additionalProperties");
-    hd_json_open(printer, '{');
+    put_key(printer, "additionalProperties");
+    put_open(printer, '{');
     print_object(printer, field->object);
-    hd_json_close(printer, '}');
+    put_close(printer, '}');
 }
 
-typedef void PrintType(HdJsonPrinter *printer, const HdField *field);
+typedef void PrintType(Printer *printer, const HdField *field);
 
-static void print_boolean(HdJsonPrinter *printer, const HdField *unused) {
+static void print_boolean(Printer *printer, const HdField *unused) {
     (void)unused;
     print_pair(printer, "type", "boolean");
 }
 
-static void print_array(HdJsonPrinter *printer, const HdField *field) {
+static void print_array(Printer *printer, const HdField *field) {
     open_array(printer, field->least, field->most);
     (field->object != NULL ? print_part : print_vector)(printer, field);
-    hd_json_close(printer, '}');
+    put_close(printer, '}');
 }
 
-static void print_type(HdJsonPrinter *printer, const HdField *field) {
+static void print_type(Printer *printer, const HdField *field) {
     static PrintType *const of_type[] = {
         [HD_FIELD_BOOLEAN] = print_boolean, [HD_FIELD_INTEGER] = print_number,
         [HD_FIELD_NUMBER] = print_number,   [HD_FIELD_FACTOR] = print_number,
@@ -389,85 +503,85 @@ static void print_type(HdJsonPrinter *printer, const HdField *field) {
 }
 
 /* Of what may be left out; what then is not there at all has none. */
-static void print_default(HdJsonPrinter *printer, const HdField *field) {
+static void print_default(Printer *printer, const HdField *field) {
     const bool is_object = field->object != NULL && field->type != HD_FIELD_PATH;
     if (field->required || hd_field_may_be_absent(field) || is_object)
         return;
-    hd_json_key(printer, "default");
+    put_key(printer, "default");
     if (field->type == HD_FIELD_VECTORS)
-        hd_json_open(printer, '[');
+        put_open(printer, '[');
     print_numbers(printer, field, field->standard);
     if (field->type == HD_FIELD_VECTORS)
-        hd_json_close(printer, ']');
+        put_close(printer, ']');
 }
 
-static void print_field(HdJsonPrinter *printer, const HdField *field) {
-    hd_json_key(printer, field->key);
-    hd_json_open(printer, '{');
+static void print_field(Printer *printer, const HdField *field) {
+    put_key(printer, field->key);
+    put_open(printer, '{');
     print_pair(printer, "description", field->about);
     print_type(printer, field);
     print_default(printer, field);
-    hd_json_close(printer, '}');
+    put_close(printer, '}');
 }
 
-static void print_required(HdJsonPrinter *printer, const HdObjectType *type) {
+static void print_required(Printer *printer, const HdObjectType *type) {
     int count = 0;
     for (int i = 0; i < type->field_count; i++)
         count += type->fields[i].required;
     if (count == 0)
         return;
-    hd_json_key(printer, "required");
-    hd_json_open(printer, '[');
+    put_key(printer, "required");
+    put_open(printer, '[');
     for (int i = 0; i < type->field_count; i++)
         if (type->fields[i].required)
-            hd_json_string(printer, type->fields[i].key);
-    hd_json_close(printer, ']');
+            put_string(printer, type->fields[i].key);
+    put_close(printer, ']');
 }
 
 /* Keys that exclude each other; no object has more than one such pair. */
-static void print_exclusion(HdJsonPrinter *printer, const HdObjectType *type) {
+static void print_exclusion(Printer *printer, const HdObjectType *type) {
     for (int i = 0; i < type->field_count; i++) {
         const HdField *field = &type->fields[i];
         if (field->instead_of == NULL)
             continue;
-        hd_json_key(printer, "not");
-        hd_json_open(printer, '{');
-        hd_json_key(printer, "required");
-        hd_json_open(printer, '[');
-        hd_json_string(printer, field->instead_of);
-        hd_json_string(printer, field->key);
-        hd_json_close(printer, ']');
-        hd_json_close(printer, '}');
+        put_key(printer, "not");
+        put_open(printer, '{');
+        put_key(printer, "required");
+        put_open(printer, '[');
+        put_string(printer, field->instead_of);
+        put_string(printer, field->key);
+        put_close(printer, ']');
+        put_close(printer, '}');
     }
 }
 
 /* What is between the braces of an object's schema. */
-static void print_object(HdJsonPrinter *printer, const HdObjectType *type) {
+static void print_object(Printer *printer, const HdObjectType *type) {
     print_pair(printer, "type", "object");
-    hd_json_key(printer, "additionalProperties");
-    hd_json_raw(printer, "false");
+    put_key(printer, "additionalProperties");
+    put_raw(printer, "false");
     print_required(printer, type);
     print_exclusion(printer, type);
-    hd_json_key(printer, "properties");
-    hd_json_open(printer, '{');
+    put_key(printer, "properties");
+    put_open(printer, '{');
     for (int i = 0; i < type->field_count; i++)
         print_field(printer, &type->fields[i]);
-    hd_json_key(printer, HD_COMMENT_KEY);
-    hd_json_open(printer, '{');
+    put_key(printer, HD_COMMENT_KEY);
+    put_open(printer, '{');
     print_pair(printer, "description", "For people");
     print_pair(printer, "type", "string");
-    hd_json_close(printer, '}');
-    hd_json_close(printer, '}');
+    put_close(printer, '}');
+    put_close(printer, '}');
 }
 
 HdStatus hd_scene_schema_print(FILE *out, HdError *error) {
-    HdJsonPrinter printer = {.out = out};
-    hd_json_open(&printer, '{');
+    Printer printer = {.out = out};
+    put_open(&printer, '{');
     print_pair(&printer, "$schema", "https://json-schema.org/draft/2020-12/schema");
     print_pair(&printer, "$id", "urn:hedron:scene:1");
     print_pair(&printer, "title", "A scene of hedron");
     print_object(&printer, &hd_scene_fields);
-    hd_json_close(&printer, '}');
+    put_close(&printer, '}');
     putc('\n', out);
     if (fflush(out) != 0 || ferror(out))
         return hd_fail(error, HD_FAILED, "cannot write the schema: %s", strerror(errno));

@@ -10,12 +10,6 @@ static double flight_time(int frame, int frame_count) {
     return 2.0 * HD_PI * ((double)frame / (double)frame_count);
 }
 
-static double oscillation(double base, double amplitude, double angle) {
-    double sine, cosine;
-    hd_sine_cosine(angle, &sine, &cosine);
-    return base + amplitude * sine;
-}
-
 /* The horizontal unit vector away from the z axis at the path's angle phi. */
 static HdVec3 outward_on_cylinder(const HdCylinderPath *path, double t) {
     HdVec3 outward = {0.0, 0.0, 0.0};
@@ -37,10 +31,12 @@ HdVec3 hd_path_point(const HdPath *path, int frame, int frame_count) {
     if (path->is_fixed)
         return path->point;
     const double t = flight_time(frame, frame_count);
-    const double r = oscillation(law->r0, law->r_amplitude, law->r_frequency * t + law->r_phase);
-    const double z = oscillation(law->z0, law->z_amplitude, law->z_frequency * t + law->z_phase);
+    double r_swing, z_swing, unused;
+    hd_sine_cosine(law->r_frequency * t + law->r_phase, &r_swing, &unused);
+    hd_sine_cosine(law->z_frequency * t + law->z_phase, &z_swing, &unused);
     const HdVec3 outward = outward_on_cylinder(law, t);
-    return hd_vec3(r * outward.x, r * outward.y, z);
+    const double r = law->r0 + law->r_amplitude * r_swing;
+    return hd_vec3(r * outward.x, r * outward.y, law->z0 + law->z_amplitude * z_swing);
 }
 
 static bool is_finite(HdVec3 a) {

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "scene/camera.h"
-#include "scene/overlap.h"
+#include "scene/contact.h"
 
 /* The kernels count positions in the picture in half samples, as floats. */
 _Static_assert(2 * HD_MAX_IMAGE_SIDE * HD_MAX_SAMPLES_PER_SIDE < 1 << 24,

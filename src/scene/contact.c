@@ -3,7 +3,176 @@
 
 #include <math.h>
 
-#include "scene/overlap.h"
+/* ---- depth ---- */
+
+/* The separating axis theorem: two convex bodies lie apart exactly if their shadows do on the
+   normal of some face, or on the cross product of an edge of the one and an edge of the other. See
+   S. Gottschalk, M. C. Lin, D. Manocha, OBBTree: A Hierarchical Structure for Rapid Interference
+   Detection, SIGGRAPH 1996, section 5. The shortest of the overlaps of shadows is the shortest way
+   out. */
+
+/* Sines of angles below this are those of parallel lines. An axis left out for it costs nothing:
+   its neighbours find the overlap to about that angle. */
+static const double parallel = 1e-12;
+
+typedef struct Axes {
+    int count;
+    HdVec3 axis[HD_MAX_EDGES]; /* unit, no two parallel */
+} Axes;
+
+/* A convex polyhedron, or a flat convex polygon. */
+typedef struct Body {
+    HdVec3 centre;
+    double radius; /* of the sphere about the centre that holds all of it */
+    int point_count;
+    HdVec3 point[HD_MAX_VERTICES]; /* from the centre */
+    Axes normals, edges;
+} Body;
+
+static void add_axis(Axes *axes, HdVec3 axis) {
+    for (int i = 0; i < axes->count; i++)
+        if (hd_length(hd_cross(axes->axis[i], axis)) < parallel)
+            return;
+    axes->axis[axes->count++] = axis;
+}
+
+static void body_of_solid(Body *body, const HdSolid *solid) {
+    const HdPlatonic shape = hd_solid_shape(solid);
+    *body = (Body){
+        .centre = solid->centre, .radius = solid->circumradius, .point_count = shape.vertex_count};
+    for (int i = 0; i < shape.vertex_count; i++)
+        body->point[i] = hd_scale(shape.vertex[i], solid->circumradius);
+    for (int i = 0; i < shape.face_count; i++)
+        add_axis(&body->normals, shape.face_normal[i]);
+    for (int i = 0; i < shape.edge_count; i++) {
+        const int *end = shape.edge[i].vertex;
+        add_axis(&body->edges, hd_normalize(hd_sub(shape.vertex[end[1]], shape.vertex[end[0]])));
+    }
+}
+
+static void body_of_floor(Body *body, const HdFloor *floor) {
+    const HdVec3 *corner = floor->corners;
+    const HdVec3 normal =
+        hd_normalize(hd_cross(hd_sub(corner[2], corner[0]), hd_sub(corner[3], corner[1])));
+    *body = (Body){.point_count = 4};
+    for (int i = 0; i < 4; i++)
+        body->centre = hd_add(body->centre, hd_scale(corner[i], 0.25));
+    for (int i = 0; i < 4; i++) {
+        const HdVec3 point = hd_sub(corner[i], body->centre);
+        body->point[i] = hd_sub(point, hd_scale(normal, hd_dot(point, normal)));
+        body->radius = fmax(body->radius, hd_length(body->point[i]));
+    }
+    add_axis(&body->normals, normal);
+    for (int i = 0; i < 4; i++)
+        add_axis(&body->edges, hd_normalize(hd_sub(body->point[(i + 1) % 4], body->point[i])));
+}
+
+typedef struct Shadow {
+    double low, high;
+} Shadow;
+
+static Shadow shadow_of(const Body *body, HdVec3 axis) {
+    Shadow shadow = {(double)INFINITY, -(double)INFINITY};
+    for (int i = 0; i < body->point_count; i++) {
+        const double along = hd_dot(body->point[i], axis);
+        shadow.low = along < shadow.low ? along : shadow.low;
+        shadow.high = along > shadow.high ? along : shadow.high;
+    }
+    return shadow;
+}
+
+/* Two bodies, and the shortest way out of each other found so far. */
+typedef struct Pair {
+    const Body *a, *b;
+    HdVec3 offset; /* of b's centre from a's */
+    double touch;  /* what counts as touching */
+    double depth;
+} Pair;
+
+/* False where the axis shows that the bodies do not overlap. */
+static bool try_axis(Pair *pair, HdVec3 axis) {
+    const double offset = hd_dot(pair->offset, axis);
+    const Shadow a = shadow_of(pair->a, axis), b = shadow_of(pair->b, axis);
+    pair->depth = fmin(pair->depth, fmin(a.high - b.low - offset, b.high - a.low + offset));
+    return pair->depth > pair->touch;
+}
+
+static bool try_normals(Pair *pair, const Axes *normals) {
+    for (int i = 0; i < normals->count; i++)
+        if (!try_axis(pair, normals->axis[i]))
+            return false;
+    return true;
+}
+
+static bool try_edges(Pair *pair) {
+    const Axes *of_a = &pair->a->edges, *of_b = &pair->b->edges;
+    for (int i = 0; i < of_a->count; i++)
+        for (int j = 0; j < of_b->count; j++) {
+            const HdVec3 across = hd_cross(of_a->axis[i], of_b->axis[j]);
+            if (hd_length(across) >= parallel && !try_axis(pair, hd_normalize(across)))
+                return false;
+        }
+    return true;
+}
+
+static double depth_of(const Body *a, const Body *b, double least) {
+    Pair pair = {.a = a,
+                 .b = b,
+                 .offset = hd_sub(b->centre, a->centre),
+                 .touch = least,
+                 .depth = (double)INFINITY};
+    const bool deep =
+        try_normals(&pair, &a->normals) && try_normals(&pair, &b->normals) && try_edges(&pair);
+    return deep ? pair.depth : least;
+}
+
+static bool are_far_apart(const HdSolid *solid, HdVec3 centre, double radius, double least) {
+    return hd_length(hd_sub(solid->centre, centre)) >= solid->circumradius + radius - least;
+}
+
+double hd_solid_depth(const HdSolid *a, const HdSolid *b, double least) {
+    Body body_a, body_b;
+    if (are_far_apart(a, b->centre, b->circumradius, least))
+        return least;
+    body_of_solid(&body_a, a);
+    body_of_solid(&body_b, b);
+    return depth_of(&body_a, &body_b, least);
+}
+
+double hd_floor_depth(const HdSolid *solid, const HdFloor *floor, double least) {
+    Body body_a, body_b;
+    body_of_floor(&body_b, floor);
+    if (are_far_apart(solid, body_b.centre, body_b.radius, least))
+        return least;
+    body_of_solid(&body_a, solid);
+    return depth_of(&body_a, &body_b, least);
+}
+
+/* What counts as touching still. */
+static double touch_of(HdVec3 centre_a, double radius_a, HdVec3 centre_b, double radius_b) {
+    static const double touch = 1e-9;
+    static const double rounding = 1e-15;
+    const double extent = hd_length(centre_a) + radius_a + hd_length(centre_b) + radius_b;
+    return touch * fmin(radius_a, radius_b) + rounding * extent;
+}
+
+static double overlap_of(double depth, double touch) {
+    return depth > touch ? depth : 0.0;
+}
+
+double hd_solid_overlap(const HdSolid *a, const HdSolid *b) {
+    const double touch = touch_of(a->centre, a->circumradius, b->centre, b->circumradius);
+    return overlap_of(hd_solid_depth(a, b, touch), touch);
+}
+
+double hd_floor_overlap(const HdSolid *solid, const HdFloor *floor) {
+    Body body;
+    body_of_floor(&body, floor);
+    const double touch = touch_of(solid->centre, solid->circumradius, body.centre, body.radius);
+    return overlap_of(hd_floor_depth(solid, floor, touch), touch);
+}
+
+/* ---- contact ---- */
 
 /* Of the radii and the distance of two solids: by how much they are drawn apart, and from which
    distance on they count as apart already. Half a step is twice what the float kernels need to tell

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "scene/overlap.h"
+#include "scene/contact.h"
 
 /* More than all roundings, those of highlights' powers and of weights over many levels included. */
 #define MARGIN 1.02

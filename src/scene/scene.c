@@ -90,7 +90,7 @@ void hd_scene_drop_meshes(HdScene *scene) {
 void hd_scene_free(HdScene *scene) {
     free(scene->solids);
     free(scene->lights);
-    hd_texture_clear(&scene->floor.texture);
     hd_scene_drop_meshes(scene);
+    hd_texture_clear(&scene->floor.texture);
     *scene = (HdScene){0};
 }

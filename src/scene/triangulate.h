@@ -13,11 +13,6 @@ enum { HD_SOLID_MATERIAL_FACE, HD_SOLID_MATERIAL_RIM, HD_SOLID_MATERIAL_DISCS };
 
 enum { HD_MIN_DISC_SIDES = 8, HD_MAX_DISC_SIDES = 256 };
 
-/* Makes the solids and the floor of a valid scene out of triangles (HD_GEOMETRY_TRIANGLES), as
-   hd_triangulate_solid and hd_triangulate_floor do; the discs of edge lights have `disc_sides`
-   sides. On failure the scene is as it was. */
-HdStatus hd_scene_triangulate(HdScene *scene, int disc_sides, int divisions, HdError *error);
-
 /* The solid about its own centre, turned as it is in the scene: closed, with every inner edge
    shared by exactly two triangles that name the same two vertices, no corner of one within the edge
    of another. Faces are cut along the borders of the rim and of the edge lights' discs, which
@@ -36,5 +31,10 @@ HdStatus hd_triangulate_solid(HdMesh *mesh, const HdSolid *solid, int disc_sides
    texture coordinates are not linear in a triangle: `divisions` should then be large. Its only
    material names no texture: the scene has the picture itself. Errors as above. */
 HdStatus hd_triangulate_floor(HdMesh *mesh, const HdFloor *floor, int divisions, HdError *error);
+
+/* Makes the solids and the floor of a valid scene out of triangles (HD_GEOMETRY_TRIANGLES), as
+   hd_triangulate_solid and hd_triangulate_floor do; the discs of edge lights have `disc_sides`
+   sides. On failure the scene is as it was. */
+HdStatus hd_scene_triangulate(HdScene *scene, int disc_sides, int divisions, HdError *error);
 
 #endif

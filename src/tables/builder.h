@@ -101,7 +101,7 @@ HdVec3 hd_edge_colour(const HdEdgeLights *lights, int edge);
 HdVec3 hd_light_offset(const HdBuilder *builder, const HdLightSource *source, int object);
 HdFloorFrame hd_floor_frame(const HdFloor *floor);
 /* Halves the lights across their longest side, and the halves, until there are as many groups as
-   HD_LIGHT_GROUPS says; an edge's lights stay together where they can (light_groups.c). */
+   HD_LIGHT_GROUPS says; an edge's lights stay together where they can. */
 void hd_builder_group_lights(HdBuilder *builder);
 
 /* No ray sees more radiance, contributions being clamped. */
@@ -144,9 +144,8 @@ void NAMED(hd_fill_object_offsets)(const HdBuilder *builder);
 void NAMED(hd_fill_meshes)(const HdBuilder *builder);
 /* After the others: from what they stored. */
 void NAMED(hd_fill_lights)(const HdBuilder *builder);
-void NAMED(hd_fill_beside)(const HdBuilder *builder);
 
-/* ---- the whole (compile_scene.c, compile_frame.c) ---- */
+/* ---- the whole (compile.c) ---- */
 
 /* As hd_compile_scene and hd_compile_frame (tables.h), which choose one of both. `list` is NULL
    where all pixels have all places of the grid. */

@@ -73,11 +73,9 @@ static real least_highlight(int shininess) {
 void NAMED(hd_fill_material)(Material *out, const HdMaterial *material) {
     hd_store3(out->colour, material->colour);
     hd_store3(out->mirror_tint, material->mirror_tint);
-    out->ambient = (real)material->ambient;
-    out->diffuse = (real)material->diffuse;
-    out->specular = (real)material->specular;
-    out->reflection = (real)material->reflection;
-    out->transmission = (real)material->transmission;
+#define STORE(term) out->term = (real)material->term;
+    HD_PLAIN_TERMS(STORE)
+#undef STORE
     bool own_inside = material->has_inner_side;
     out->inner_reflection = own_inside ? (real)material->inner_reflection : out->reflection;
     out->inner_transmission = own_inside ? (real)material->inner_transmission : out->transmission;

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "tables/room.h"
+#include "tables/table.h"
 
 /* ---- memory ---- */
 

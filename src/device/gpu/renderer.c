@@ -8,7 +8,7 @@
 #include "kernels/host/shared.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
-#include "tables/room.h"
+#include "tables/table.h"
 
 /* Of a wavefront's queue on CPUs, one for each of its workers. */
 enum { CPU_QUEUE_BYTES = 512 << 10 };
@@ -143,7 +143,7 @@ static HdStatus write_scene(HdGpuRenderer *renderer, const HdSceneTables *tables
 static HdStatus upload(HdGpuRenderer *renderer, const HdSceneTables *tables, HdError *error) {
     const HdGpu *gpu = &renderer->gpu;
     HdKernelNeeds needs = hd_kernel_needs(tables);
-    const HdRoom room = {.name = gpu->name,
+    const HdMemoryRoom room = {.name = gpu->name,
                          .advice = hd_room_advice,
                          .memory = (double)gpu->facts.memory,
                          .at_once = (double)gpu->facts.at_once};

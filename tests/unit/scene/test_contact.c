@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* How deep solids lie in each other and in the floor, and what is done where they only touch. */
 #include "scene/contact.h"
-#include "scene/overlap.h"
 #include "unit_test.h"
 
 /* A cube with edges `edge` long. */

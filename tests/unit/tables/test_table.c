@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L /* setenv */
 #include "render/backends.h"
-#include "tables/room.h"
+#include "tables/table.h"
 
 #include <limits.h>
 #include <stdlib.h>
@@ -22,7 +22,8 @@ static void *allocate(size_t bytes) {
 REPLACE(hd_large_allocate, allocate)
 
 static HdError error;
-static const HdRoom device = {.name = "Device", .advice = "do this", .memory = 4e9, .at_once = 1e9};
+static const HdMemoryRoom device = {
+    .name = "Device", .advice = "do this", .memory = 4e9, .at_once = 1e9};
 
 TEST(bytes_are_told_shortly) {
     static const struct {
@@ -37,7 +38,8 @@ TEST(bytes_are_told_shortly) {
     }
 }
 
-static void expect_room(size_t triangles, size_t nodes, const HdRoom *room, const char *message) {
+static void expect_room(size_t triangles, size_t nodes, const HdMemoryRoom *room,
+                        const char *message) {
     HdSceneTables tables = {.table_count = HD_SCENE_TABLE_COUNT};
     tables.table[HD_TABLE_triangles].bytes = triangles;
     tables.table[HD_TABLE_mesh_nodes].bytes = nodes;
@@ -48,7 +50,7 @@ static void expect_room(size_t triangles, size_t nodes, const HdRoom *room, cons
 }
 
 TEST(tables_may_be_too_large) {
-    const HdRoom unknown = {.name = "Device", .advice = ""};
+    const HdMemoryRoom unknown = {.name = "Device", .advice = ""};
     expect_room(1000000000, 1000000000, &device, NULL);
     expect_room(SIZE_MAX / 2, 0, &unknown, NULL);
     expect_room(900000000, 1000000001, &device,
