@@ -40,7 +40,7 @@ static bool add_edge(HdFacets *facets, const HdPlatonic *shape, int e, int face_
 }
 
 bool hd_facets_start(HdFacets *facets, const HdPlatonic *shape, int material) {
-    int face_of[2 * HD_MAX_EDGES];
+    int face_of[2 * HD_MAX_EDGES] = {0};
     for (int v = 0; v < shape->vertex_count; v++)
         if (!add_point(facets, shape->vertex[v]))
             return false;

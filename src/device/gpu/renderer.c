@@ -144,9 +144,9 @@ static HdStatus upload(HdGpuRenderer *renderer, const HdSceneTables *tables, HdE
     const HdGpu *gpu = &renderer->gpu;
     HdKernelNeeds needs = hd_kernel_needs(tables);
     const HdMemoryRoom room = {.name = gpu->name,
-                         .advice = hd_room_advice,
-                         .memory = (double)gpu->facts.memory,
-                         .at_once = (double)gpu->facts.at_once};
+                               .advice = hd_room_advice,
+                               .memory = (double)gpu->facts.memory,
+                               .at_once = (double)gpu->facts.at_once};
     HdError later;
     needs.small_tables = needs.small_tables && gpu->driver->constant != NULL;
     HdStatus status = hd_check_room(tables, &room, error);
