@@ -1,12 +1,22 @@
 /* SPDX-License-Identifier: MIT */
-/* Bundles of several lanes in C, by the vector extension of GCC and Clang: their types, and what
-   of the kernels' dialect (kernels/common/dialect.h) depends on no instruction set. */
+/* Bundles of several lanes in C, by the vector extension of GCC and Clang, and by intrinsics where
+   they fill a register of the machine. */
 #ifndef HD_CPU_BUNDLES_H
 #define HD_CPU_BUNDLES_H
 
 #include "kernels/host/language.h"
 
 #include "kernels/common/real.h"
+
+#if defined(__AVX512DQ__) && HD_LANES * (HD_DOUBLE + 1) == 16
+#define HD_BUNDLES_512
+#define HD_OWN_MASKS
+#elif defined(__AVX2__) && defined(__FMA__) && HD_LANES * (HD_DOUBLE + 1) <= 8
+#define HD_BUNDLES_256
+#endif
+#if defined(HD_BUNDLES_512) || defined(HD_BUNDLES_256)
+#include <immintrin.h>
+#endif
 
 #if HD_DOUBLE
 typedef int64_t real_bits;
@@ -17,6 +27,8 @@ typedef real vreal __attribute__((vector_size(HD_LANES * sizeof(real))));
 typedef real_bits vint __attribute__((vector_size(HD_LANES * sizeof(real))));
 typedef int64_t vfix __attribute__((vector_size(HD_LANES * 8)));
 typedef vint vbits;
+
+#include "kernels/common/lanes.h"
 
 /* Compilers are not to see through the array: they take its numbers from where it has them. */
 #define HD_KEEP_IN_MEMORY(array) __asm__("" : "+m"(array))
@@ -70,5 +82,291 @@ FN vint load_ints(const int *from) {
     __builtin_memcpy(&a, from, sizeof a);
     return __builtin_convertvector(a, vint);
 }
+
+#ifdef HD_BUNDLES_512
+
+/* ---- a register of 512 bits; a mask has a bit for each lane ---- */
+
+typedef uint32_t vmask; /* bits above the lanes' have no meaning */
+#if HD_DOUBLE
+typedef __m512d Reals512;
+#define HD_MASK(m)                 ((__mmask8)(m))
+#define HD_REALS_512(name, ending) _mm512_##name##_pd##ending
+#define HD_INTS_512(name, ending)  _mm512_##name##_epi64##ending
+#else
+typedef __m512 Reals512;
+#define HD_MASK(m)                 ((__mmask16)(m))
+#define HD_REALS_512(name, ending) _mm512_##name##_ps##ending
+#define HD_INTS_512(name, ending)  _mm512_##name##_epi32##ending
+#endif
+
+FN vmask lt(vreal a, vreal b) {
+    return HD_REALS_512(cmp, _mask)((Reals512)a, (Reals512)b, _CMP_LT_OQ);
+}
+FN vmask le(vreal a, vreal b) {
+    return HD_REALS_512(cmp, _mask)((Reals512)a, (Reals512)b, _CMP_LE_OQ);
+}
+FN vmask eq_int(vint a, vint b) {
+    return HD_INTS_512(cmpeq, _mask)((__m512i)a, (__m512i)b);
+}
+FN vmask lt_int(vint a, vint b) {
+    return HD_INTS_512(cmplt, _mask)((__m512i)a, (__m512i)b);
+}
+FN vreal pick(vmask m, vreal a, vreal b) {
+    return (vreal)HD_REALS_512(mask_blend, )(HD_MASK(m), (Reals512)b, (Reals512)a);
+}
+FN vint pick_int(vmask m, vint a, vint b) {
+    return (vint)HD_INTS_512(mask_blend, )(HD_MASK(m), (__m512i)b, (__m512i)a);
+}
+FN vreal multiply_add(vreal a, vreal b, vreal c) {
+    return (vreal)HD_REALS_512(fmadd, )((Reals512)a, (Reals512)b, (Reals512)c);
+}
+FN vreal built_in_root(vreal a) {
+    return (vreal)HD_REALS_512(sqrt, )((Reals512)a);
+}
+FN int any_lane(vmask m) {
+    return HD_MASK(m) != 0;
+}
+
+FN vmask mask_none(void) {
+    return 0;
+}
+FN vmask mask_all(void) {
+    return HD_MASK(-1);
+}
+FN int first_lane(vmask m) {
+    return __builtin_ctz(m);
+}
+
+#define HD_OWN_LANE_BITS
+FN uint lane_bits(vmask m) {
+    return HD_MASK(m);
+}
+
+#define HD_OWN_LESSER
+FN vreal lesser(vreal a, vreal b) {
+    return (vreal)HD_REALS_512(min, )((Reals512)a, (Reals512)b);
+}
+FN vreal greater(vreal a, vreal b) {
+    return (vreal)HD_REALS_512(max, )((Reals512)a, (Reals512)b);
+}
+
+#define HD_OWN_LEAST_LANE
+FN real least_lane(vreal a, vmask m) {
+    return HD_REALS_512(mask_reduce_min, )(HD_MASK(m), (Reals512)a);
+}
+FN real greatest_lane(vreal a, vmask m) {
+    return HD_REALS_512(mask_reduce_max, )(HD_MASK(m), (Reals512)a);
+}
+
+#define HD_OWN_STORE_LANES
+FN void store_lanes(real *to, vmask m, const int offset[HD_LANES], const vreal *a) {
+    (void)offset;
+    HD_REALS_512(storeu, )(to, HD_REALS_512(maskz_compress, )(HD_MASK(m), (Reals512)*a));
+}
+
+#define HD_OWN_SUM_LANES
+FN fixed64 sum_lanes(vint a) {
+#if HD_DOUBLE
+    return _mm512_reduce_add_epi64((__m512i)a);
+#else
+    __m512i low = _mm512_cvtepi32_epi64(_mm512_castsi512_si256((__m512i)a));
+    __m512i high = _mm512_cvtepi32_epi64(_mm512_extracti64x4_epi64((__m512i)a, 1));
+    return _mm512_reduce_add_epi64(low + high);
+#endif
+}
+
+#if !HD_DOUBLE
+#define HD_OWN_ROWS
+/* Of the 4 x 4 words in each quarter of the registers. */
+FN FourWords transpose_quarters(const __m512i row[4]) {
+    __m512i a = _mm512_unpacklo_epi32(row[0], row[1]), b = _mm512_unpacklo_epi32(row[2], row[3]);
+    __m512i c = _mm512_unpackhi_epi32(row[0], row[1]), d = _mm512_unpackhi_epi32(row[2], row[3]);
+    FourWords words;
+    words.word[0] = (vint)_mm512_unpacklo_epi64(a, b);
+    words.word[1] = (vint)_mm512_unpackhi_epi64(a, b);
+    words.word[2] = (vint)_mm512_unpacklo_epi64(c, d);
+    words.word[3] = (vint)_mm512_unpackhi_epi64(c, d);
+    return words;
+}
+
+/* Lanes as numbers of entries: read one by one they are cheaper than taken out of the register. */
+FN void store_places(int64_t at[HD_LANES], vint index) {
+    __m512i all = (__m512i)index;
+    _mm512_storeu_si512(at, _mm512_cvtepi32_epi64(_mm512_castsi512_si256(all)));
+    _mm512_storeu_si512(at + 8, _mm512_cvtepi32_epi64(_mm512_extracti64x4_epi64(all, 1)));
+    HD_KEEP_IN_MEMORY(*(int64_t(*)[HD_LANES])at);
+}
+
+/* Four lanes to a register. */
+FN FourWords fetch_four_words(const uint *table, vint index) {
+    __m512i lanes[4];
+    int64_t at[HD_LANES];
+    store_places(at, index);
+    for (int i = 0; i < 4; i++) {
+        __m512i row = _mm512_castsi128_si512(_mm_loadu_si128((const void *)(table + at[i])));
+        row = _mm512_inserti32x4(row, _mm_loadu_si128((const void *)(table + at[i + 4])), 1);
+        row = _mm512_inserti32x4(row, _mm_loadu_si128((const void *)(table + at[i + 8])), 2);
+        lanes[i] = _mm512_inserti32x4(row, _mm_loadu_si128((const void *)(table + at[i + 12])), 3);
+    }
+    return transpose_quarters(lanes);
+}
+
+FN FourReals reals_of(FourWords words) {
+    FourReals reals;
+    for (int i = 0; i < 4; i++)
+        reals.number[i] = from_bits(words.word[i]);
+    return reals;
+}
+FN FourReals fetch_four_reals(const real *table, vint index) {
+    return reals_of(fetch_four_words((const void *)table, index));
+}
+
+FN FourReals load_rows(const real *table, vint index, int count) {
+    __m512i row[4];
+    for (int i = 0; i < 4; i++)
+        row[i] = _mm512_castsi128_si512(_mm_loadu_si128((const void *)(table + index[i])));
+    for (int quarter = 1; quarter < 4 && 4 * quarter < count; quarter++)
+        for (int i = 0; i < 4; i++) {
+            const real *at = table + index[4 * quarter + i];
+            __m512i more = _mm512_broadcast_i32x4(_mm_loadu_si128((const void *)at));
+            row[i] = _mm512_mask_mov_epi32(row[i], (__mmask16)(0xf << 4 * quarter), more);
+        }
+    return reals_of(transpose_quarters(row));
+}
+#endif
+
+#else
+
+/* ---- other widths: neither compiler has multiply_add, built_in_root and any_lane for vectors ----
+ */
+
+#ifdef HD_BUNDLES_256
+
+/* A register of 256 bits, or of 128, where processors have AVX2 and FMA. */
+#if HD_LANES == 4 && !HD_DOUBLE
+
+FN vreal multiply_add(vreal a, vreal b, vreal c) {
+    return (vreal)_mm_fmadd_ps((__m128)a, (__m128)b, (__m128)c);
+}
+FN vreal built_in_root(vreal a) {
+    return (vreal)_mm_sqrt_ps((__m128)a);
+}
+FN int any_lane(vint m) {
+    return _mm_movemask_ps((__m128)m) != 0;
+}
+
+#else
+
+#if HD_DOUBLE
+typedef __m256d Reals256;
+#define HD_REALS_256(name) _mm256_##name##_pd
+#else
+typedef __m256 Reals256;
+#define HD_REALS_256(name) _mm256_##name##_ps
+#endif
+
+FN vreal multiply_add(vreal a, vreal b, vreal c) {
+    return (vreal)HD_REALS_256(fmadd)((Reals256)a, (Reals256)b, (Reals256)c);
+}
+FN vreal built_in_root(vreal a) {
+    return (vreal)HD_REALS_256(sqrt)((Reals256)a);
+}
+#define HD_OWN_LANE_BITS
+FN uint lane_bits(vint m) {
+    return (uint)HD_REALS_256(movemask)((Reals256)m);
+}
+FN int any_lane(vint m) {
+    return lane_bits(m) != 0;
+}
+
+#define HD_OWN_PICK
+FN vreal pick(vint m, vreal a, vreal b) {
+    return (vreal)HD_REALS_256(blendv)((Reals256)b, (Reals256)a, (Reals256)m);
+}
+FN vint pick_int(vint m, vint a, vint b) {
+    return (vint)HD_REALS_256(blendv)((Reals256)b, (Reals256)a, (Reals256)m);
+}
+
+#define HD_OWN_LESSER
+FN vreal lesser(vreal a, vreal b) {
+    return (vreal)HD_REALS_256(min)((Reals256)a, (Reals256)b);
+}
+FN vreal greater(vreal a, vreal b) {
+    return (vreal)HD_REALS_256(max)((Reals256)a, (Reals256)b);
+}
+
+#if !HD_DOUBLE
+#define HD_OWN_ROWS
+/* Two lanes to a register; then the 4 x 4 words in each half of the registers are transposed. */
+FN FourWords fetch_four_words(const uint *table, vint index) {
+    __m256i row[4];
+    int at[HD_LANES]; /* read one by one they are cheaper than taken out of the register */
+    _mm256_storeu_si256((void *)at, (__m256i)index);
+    HD_KEEP_IN_MEMORY(at);
+    for (int i = 0; i < 4; i++) {
+        row[i] = _mm256_castsi128_si256(_mm_loadu_si128((const void *)(table + at[i])));
+        row[i] =
+            _mm256_inserti128_si256(row[i], _mm_loadu_si128((const void *)(table + at[i + 4])), 1);
+    }
+    __m256i a = _mm256_unpacklo_epi32(row[0], row[1]), b = _mm256_unpacklo_epi32(row[2], row[3]);
+    __m256i c = _mm256_unpackhi_epi32(row[0], row[1]), d = _mm256_unpackhi_epi32(row[2], row[3]);
+    FourWords words;
+    words.word[0] = (vint)_mm256_unpacklo_epi64(a, b);
+    words.word[1] = (vint)_mm256_unpackhi_epi64(a, b);
+    words.word[2] = (vint)_mm256_unpacklo_epi64(c, d);
+    words.word[3] = (vint)_mm256_unpackhi_epi64(c, d);
+    return words;
+}
+
+FN FourReals fetch_four_reals(const real *table, vint index) {
+    FourWords words = fetch_four_words((const void *)table, index);
+    FourReals reals;
+    for (int i = 0; i < 4; i++)
+        reals.number[i] = from_bits(words.word[i]);
+    return reals;
+}
+
+FN FourReals load_rows(const real *table, vint index, int count) {
+    (void)count;
+    return fetch_four_reals(table, index);
+}
+#endif
+
+#endif
+
+#else
+
+FN vreal multiply_add(vreal a, vreal b, vreal c) {
+    vreal r;
+    for (int lane = 0; lane < HD_LANES; lane++)
+        r[lane] = HD_FMA_SCALAR(a[lane], b[lane], c[lane]);
+    return r;
+}
+FN vreal built_in_root(vreal a) {
+    vreal r;
+    for (int lane = 0; lane < HD_LANES; lane++)
+        r[lane] = HD_SQRT_SCALAR(a[lane]);
+    return r;
+}
+FN int any_lane(vmask m) {
+    real_bits joined = 0;
+    for (int lane = 0; lane < HD_LANES; lane++)
+        joined |= m[lane];
+    return joined != 0;
+}
+
+#endif
+
+#ifndef HD_OWN_PICK
+FN vreal pick(vmask m, vreal a, vreal b) {
+    return (vreal)((m & (vmask)a) | (~m & (vmask)b));
+}
+FN vint pick_int(vmask m, vint a, vint b) {
+    return (m & a) | (~m & b);
+}
+#endif
+
+#endif
 
 #endif

@@ -7,6 +7,8 @@
 
 #include "mesh_walk.h"
 
+#if HD_LANES > 1
+
 /* Reals in the bounds of a wide node: a lower and an upper one of each axis for each child. */
 enum { WIDE_STRIDE = 6 * HD_LANES };
 
@@ -452,5 +454,7 @@ FN void search_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmas
     else
         try_all(SCENE_ARGUMENTS found, rays, m, instance->first_triangle, instance->triangle_count);
 }
+
+#endif
 
 #endif
