@@ -3,8 +3,7 @@
 
 #include <stdlib.h>
 
-#include "mesh/obj/libraries.h"
-#include "mesh/polygon.h"
+#include "mesh/obj/text.h"
 
 _Static_assert(sizeof(HdVec3) == 3 * sizeof(double), "three numbers of the text are a vector");
 
@@ -24,7 +23,7 @@ static void take_elements(HdObjText *text, HdMesh *mesh) {
 }
 
 static bool allocate_triangles(const HdObjText *text, HdMesh *mesh) {
-    HdObjMemory *memory = text->lines.memory;
+    HdObjMemory *memory = text->memory;
     const size_t count = (size_t)text->triangle_count;
     mesh->corners = hd_obj_allocate(memory, count, sizeof *mesh->corners);
     if (mesh->normals != NULL)
@@ -89,25 +88,23 @@ static HdStatus add_faces(const HdObjText *text, HdMesh *mesh, const Polygon *ro
     for (size_t i = 0; i < text->face_count; i++) {
         const HdObjFace *face = &text->faces[i];
         if (!add_face(mesh, room, corners, face))
-            return hd_fail(text->lines.error, HD_BAD_INPUT,
+            return hd_fail(text->error, HD_BAD_INPUT,
                            "%s: face %zu is not convex and has %d corners, expected at most %d",
-                           text->lines.path, i + 1, (int)face->corner_count,
-                           (int)HD_MAX_CONCAVE_CORNERS);
+                           text->path, i + 1, (int)face->corner_count, (int)HD_MAX_CONCAVE_CORNERS);
         corners += face->corner_count;
     }
     return HD_OK;
 }
 
 static HdStatus take_faces(const HdObjText *text, HdMesh *mesh) {
-    HdObjMemory *memory = text->lines.memory;
+    HdObjMemory *memory = text->memory;
     const size_t most = (size_t)text->most_corners;
     const Polygon room = {hd_obj_allocate(memory, most, sizeof *room.points),
                           hd_obj_allocate(memory, most, sizeof *room.triangles)};
     const bool has_room =
         room.points != NULL && room.triangles != NULL && allocate_triangles(text, mesh);
-    const HdStatus status = has_room
-                                ? add_faces(text, mesh, &room)
-                                : hd_obj_fail_memory(memory, text->lines.path, text->lines.error);
+    const HdStatus status = has_room ? add_faces(text, mesh, &room)
+                                     : hd_obj_fail_memory(memory, text->path, text->error);
     free(room.points);
     free(room.triangles);
     return status;
@@ -116,22 +113,22 @@ static HdStatus take_faces(const HdObjText *text, HdMesh *mesh) {
 static HdStatus take_mesh(HdObjText *text, HdMesh *mesh) {
     take_elements(text, mesh);
     if (!hd_obj_read_materials(text, mesh))
-        return hd_obj_fail_memory(text->lines.memory, text->lines.path, text->lines.error);
+        return hd_obj_fail_memory(text->memory, text->path, text->error);
     const HdStatus status = take_faces(text, mesh);
     if (status != HD_OK)
         return status;
     const int count = mesh->triangle_count;
     hd_mesh_drop_degenerate(mesh);
     if (mesh->triangle_count == 0)
-        return hd_fail(text->lines.error, HD_BAD_INPUT, "%s: none of its %d triangles has an area",
-                       text->lines.path, count);
+        return hd_fail(text->error, HD_BAD_INPUT, "%s: none of its %d triangles has an area",
+                       text->path, count);
     return HD_OK;
 }
 
 HdStatus hd_mesh_read_obj(HdMesh *mesh, const char *path, size_t most_bytes, HdProblems *notes,
                           HdError *error) {
     HdObjMemory memory = {.most = most_bytes};
-    HdObjText text = {.lines = {.path = path, .memory = &memory, .error = error}, .notes = notes};
+    HdObjText text = {.path = path, .memory = &memory, .notes = notes, .error = error};
     *mesh = (HdMesh){0};
     HdStatus status = hd_obj_text_read(&text);
     if (status == HD_OK)

@@ -1,35 +1,191 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
 #include "mesh/obj/text.h"
 
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-#include "mesh/mesh.h"
+#include "system/file_bytes.h"
 #include "system/path.h"
+
+/* ---- lines ---- */
+
+enum { RAW_SIZE = 1 << 17, TEXT_SIZE = 2 * HD_OBJ_MOST_LINE + 1 };
+
+static const char byte_order_mark[] = "\xef\xbb\xbf";
+
+/* These set `status` and the error, and return false. */
+static bool fail_reading(HdObjText *text, const char *reason) {
+    text->status =
+        hd_fail(text->error, HD_BAD_INPUT, "cannot read the mesh %s: %s", text->path, reason);
+    return false;
+}
+
+static bool fail_room(HdObjText *text) {
+    text->status = hd_obj_fail_memory(text->memory, text->path, text->error);
+    return false;
+}
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+static bool
+fail_at(HdObjText *text, size_t line, const char *format, ...) {
+    char message[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    text->status =
+        hd_fail(text->error, HD_BAD_INPUT, "%s: line %zu: %s", text->path, line, message);
+    return false;
+}
+
+/* Reads what comes next. False: there is nothing, or it cannot be read. */
+static bool fill(HdObjText *text) {
+    const ssize_t count = hd_read_fully(text->descriptor, text->raw, RAW_SIZE);
+    if (count < 0)
+        return fail_reading(text, strerror(errno));
+    text->raw_begin = 0;
+    text->raw_end = (size_t)count;
+    return count > 0;
+}
+
+static bool has_next(HdObjText *text) {
+    return text->raw_begin < text->raw_end || fill(text);
+}
+
+static bool open_file(HdObjText *text) {
+    struct stat found;
+    /* Not blocking, lest a named pipe stops the program before it is refused. */
+    text->descriptor = open(text->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (text->descriptor < 0 || fstat(text->descriptor, &found) != 0)
+        return fail_reading(text, strerror(errno));
+    if (S_ISDIR(found.st_mode))
+        return fail_reading(text, strerror(EISDIR));
+    if (!S_ISREG(found.st_mode))
+        return fail_reading(text, "it is not a regular file");
+    return true;
+}
+
+static HdStatus open_text(HdObjText *text) {
+    if (!open_file(text))
+        return text->status;
+    text->raw = hd_obj_allocate(text->memory, RAW_SIZE, 1);
+    text->line = hd_obj_allocate(text->memory, TEXT_SIZE, 1);
+    if (text->raw == NULL || text->line == NULL)
+        fail_room(text);
+    else if (fill(text) && text->raw_end >= 3 && memcmp(text->raw, byte_order_mark, 3) == 0)
+        text->raw_begin = 3;
+    return text->status;
+}
+
+static void close_text(HdObjText *text) {
+    if (text->descriptor >= 0)
+        close(text->descriptor);
+    hd_obj_release(text->memory, text->raw, RAW_SIZE);
+    hd_obj_release(text->memory, text->line, TEXT_SIZE);
+}
+
+static bool is_comment(const char *line, size_t length) {
+    const HdSpan span = hd_rest((HdSpan){line, line + length});
+    return span.begin < span.end && *span.begin == '#';
+}
+
+/* Takes what the buffer has of a line, which is put behind the `*length` bytes that `text` has of
+   it; of what is too long only its beginning. Whether the line goes on, and is not refused. */
+static bool take_piece(HdObjText *text, char *line, size_t *length) {
+    const char *begin = text->raw + text->raw_begin, *end = text->raw + text->raw_end;
+    const char *at = begin;
+    while (at < end && *at != '\n' && *at != '\r' && *at != '\0')
+        at++;
+    const size_t size = (size_t)(at - begin), room = HD_OBJ_MOST_LINE + 1 - *length;
+    const size_t kept = size < room ? size : room;
+    memcpy(line + *length, begin, kept);
+    *length += kept;
+    text->raw_begin += size;
+    return at == end && (*length <= HD_OBJ_MOST_LINE || is_comment(line, *length)) && fill(text);
+}
+
+/* Takes a line's end: "\n", "\r\n" or, as old files have it, "\r". */
+static bool take_end(HdObjText *text) {
+    if (!has_next(text))
+        return text->status == HD_OK;
+    const char end = text->raw[text->raw_begin++];
+    if (end == '\0')
+        return fail_at(text, text->lines_read, "it has a byte 0, so this is no OBJ file");
+    if (end == '\r' && has_next(text) && text->raw[text->raw_begin] == '\n')
+        text->raw_begin++;
+    return text->status == HD_OK;
+}
+
+/* Takes a line of the file and puts it behind the `*used` bytes of those that it continues, but
+   nothing of a comment. False: there is none, or something is wrong. */
+static bool join_line(HdObjText *text, size_t *used) {
+    char *line = text->line + *used;
+    size_t length = 0;
+    if (!has_next(text))
+        return false;
+    text->lines_read++;
+    while (take_piece(text, line, &length))
+        continue;
+    if (is_comment(line, length))
+        length = 0;
+    if (length > HD_OBJ_MOST_LINE)
+        return fail_at(text, text->lines_read, "it is longer than %d bytes", HD_OBJ_MOST_LINE);
+    *used += length;
+    if (*used > HD_OBJ_MOST_LINE)
+        return fail_at(text, text->line_number,
+                       "with those that continue it, it is longer than %d bytes", HD_OBJ_MOST_LINE);
+    return take_end(text);
+}
+
+/* Takes the next line, which lasts until another is taken: without its end, and of a comment
+   nothing. False: there is none, or something is wrong. */
+static bool next_line(HdObjText *text, HdSpan *line) {
+    size_t used = 0;
+    text->line_number = text->lines_read + 1;
+    bool is_taken = join_line(text, &used);
+    while (is_taken && used > 0 && text->line[used - 1] == '\\') {
+        text->line[used - 1] = ' ';
+        is_taken = join_line(text, &used);
+    }
+    *line = (HdSpan){text->line, text->line + used};
+    return text->status == HD_OK && (is_taken || used > 0);
+}
+
+/* ---- statements ---- */
 
 enum {
     MOST_DIGITS = 9, /* of a number of an element; ten might leave the range of int32_t */
     MOST_ELEMENTS = 322 * 1000 * 1000 /* of a kind */
 };
 
-static const int most_numbers[HD_OBJ_KIND_COUNT] = {3, 2, 3};
-static const int least_numbers[HD_OBJ_KIND_COUNT] = {3, 1, 3};
-
-static const char *const plurals[HD_OBJ_KIND_COUNT] = {"vertices", "texture coordinates",
-                                                       "normals"};
-static const char *const kinds[HD_OBJ_KIND_COUNT] = {"vertex", "texture coordinate", "normal"};
+static const struct {
+    const char *name, *plural;
+    int least, most; /* numbers that it has */
+} kinds[HD_OBJ_KIND_COUNT] = {{"vertex", "vertices", 3, 3},
+                              {"texture coordinate", "texture coordinates", 1, 2},
+                              {"normal", "normals", 3, 3}};
 
 /* Statements that change nothing here, or that the file can do without. */
 static const char *const harmless[] = {"o",   "g",     "s",        "usemap",  "maplib",
                                        "lod", "bevel", "c_interp", "d_interp"};
 
-#define fail_line(text, ...) hd_obj_fail_at(&(text)->lines, (text)->lines.line_number, __VA_ARGS__)
+#define fail_line(text, ...) fail_at(text, (text)->line_number, __VA_ARGS__)
 
 /* The words of a file that neither by its name nor by what it has said is an OBJ are nobody's
    business. */
 static HdSpan quoted(const HdObjText *text, HdSpan word) {
     static const char hidden[] = "...";
-    if (text->elements[HD_OBJ_VERTEX].count > 0 || hd_path_has_ending(text->lines.path, ".obj"))
+    if (text->elements[HD_OBJ_VERTEX].count > 0 || hd_path_has_ending(text->path, ".obj"))
         return word;
     return (HdSpan){hidden, hidden + strlen(hidden)};
 }
@@ -44,23 +200,23 @@ static bool is_statement_end(HdSpan word) {
 /* Numbers beyond those that are kept are for others; those that may be missing are 0. */
 static bool keep_numbers(HdObjText *text, HdObjKind kind, HdSpan line) {
     double numbers[3] = {0.0, 0.0, 0.0};
-    for (int i = 0; i < most_numbers[kind]; i++) {
+    for (int i = 0; i < kinds[kind].most; i++) {
         const HdSpan word = hd_next_word(&line);
-        if (i >= least_numbers[kind] && is_statement_end(word))
+        if (i >= kinds[kind].least && is_statement_end(word))
             break;
         const char *fault = hd_number_fault(word, &numbers[i]);
         if (fault != NULL)
-            return fail_line(text, "number %d of a %s is '%.*s', expected %s", i + 1, kinds[kind],
-                             shown(text, word), fault);
+            return fail_line(text, "number %d of a %s is '%.*s', expected %s", i + 1,
+                             kinds[kind].name, shown(text, word), fault);
         numbers[i] = (double)(float)numbers[i];
     }
     HdObjElements *elements = &text->elements[kind];
     if (elements->count == MOST_ELEMENTS)
-        return fail_line(text, "there are more than %d %s", (int)MOST_ELEMENTS, plurals[kind]);
-    return hd_obj_append(text->lines.memory, &elements->numbers,
-                         (size_t)most_numbers[kind] * sizeof *numbers, &elements->count,
+        return fail_line(text, "there are more than %d %s", (int)MOST_ELEMENTS, kinds[kind].plural);
+    return hd_obj_append(text->memory, &elements->numbers,
+                         (size_t)kinds[kind].most * sizeof *numbers, &elements->count,
                          &elements->room, numbers) ||
-           hd_obj_fail_room(&text->lines);
+           fail_room(text);
 }
 
 /* Reads "-12" or "12"; without digits, `*number` is 0. NULL: too many digits. */
@@ -87,7 +243,7 @@ static bool keep_index(HdObjText *text, HdObjKind kind, int64_t number, HdSpan w
     const int64_t absolute = number < 0 ? (int64_t)elements->count + 1 + number : number;
     if (absolute > elements->highest) {
         elements->highest = absolute;
-        elements->line_of_highest = text->lines.line_number;
+        elements->line_of_highest = text->line_number;
     }
     corner->element[kind] = (int32_t)(absolute - 1);
     if (absolute > 0)
@@ -95,7 +251,7 @@ static bool keep_index(HdObjText *text, HdObjKind kind, int64_t number, HdSpan w
     return fail_line(text,
                      "corner '%.*s' of a face names %s %lld, expected 1 and up, or -1 to "
                      "-%zu counted back from here",
-                     shown(text, word), kinds[kind], (long long)number, elements->count);
+                     shown(text, word), kinds[kind].name, (long long)number, elements->count);
 }
 
 /* "v", "v/t", "v//n" or "v/t/n". */
@@ -126,15 +282,15 @@ static bool keep_corner(HdObjText *text, HdSpan word) {
     HdObjCorner corner;
     if (!read_corner(text, word, &corner))
         return false;
-    return hd_obj_append(text->lines.memory, &text->corners, sizeof corner, &text->corner_count,
+    return hd_obj_append(text->memory, &text->corners, sizeof corner, &text->corner_count,
                          &text->corner_room, &corner) ||
-           hd_obj_fail_room(&text->lines);
+           fail_room(text);
 }
 
 static bool set_material(HdObjText *text, HdSpan name) {
-    const int number = hd_name_table_add(&text->names, name, text->lines.memory);
+    const int number = hd_name_table_add(&text->names, name, text->memory);
     if (number == HD_NAME_NO_MEMORY)
-        return hd_obj_fail_room(&text->lines);
+        return fail_room(text);
     if (number == HD_NAME_TOO_MANY)
         return fail_line(text, "there are more materials than fit, expected at most %d",
                          (int)HD_MAX_MESH_MATERIALS);
@@ -148,9 +304,9 @@ static bool add_face(HdObjText *text, int32_t corner_count) {
     if (text->material < 0 && !set_material(text, (HdSpan){none, none + strlen(none)}))
         return false;
     const HdObjFace face = {corner_count, text->material};
-    return hd_obj_append(text->lines.memory, &text->faces, sizeof face, &text->face_count,
+    return hd_obj_append(text->memory, &text->faces, sizeof face, &text->face_count,
                          &text->face_room, &face) ||
-           hd_obj_fail_room(&text->lines);
+           fail_room(text);
 }
 
 static bool keep_face(HdObjText *text, HdSpan line) {
@@ -174,11 +330,11 @@ static bool keep_face(HdObjText *text, HdSpan line) {
 }
 
 static bool add_library(HdObjText *text, HdSpan name) {
-    const size_t length = (size_t)(name.end - name.begin), used = text->libraries_size;
-    char *libraries = hd_obj_grow(text->lines.memory, text->libraries, 1, used + length + 1,
-                                  &text->libraries_room);
+    const size_t length = hd_span_size(name), used = text->libraries_size;
+    char *libraries =
+        hd_obj_grow(text->memory, text->libraries, 1, used + length + 1, &text->libraries_room);
     if (libraries == NULL)
-        return hd_obj_fail_room(&text->lines);
+        return fail_room(text);
     text->libraries = libraries;
     memcpy(libraries + used, name.begin, length);
     libraries[used + length] = '\0';
@@ -206,7 +362,7 @@ static bool leave_out(HdObjText *text, HdSpan word) {
     if (!text->has_left_out)
         hd_problem(text->notes,
                    "%s: line %zu: statements such as '%.*s' are not used, only faces (f) are",
-                   text->lines.path, text->lines.line_number, shown(text, word));
+                   text->path, text->line_number, shown(text, word));
     text->has_left_out = true;
     return true;
 }
@@ -232,37 +388,37 @@ static bool take_line(HdObjText *text, HdSpan line) {
 
 /* What only the whole file tells: whether there are faces, and what they name. */
 static HdStatus finish(HdObjText *text) {
-    for (int kind = 0; text->lines.status == HD_OK && kind < HD_OBJ_KIND_COUNT; kind++) {
+    for (int kind = 0; text->status == HD_OK && kind < HD_OBJ_KIND_COUNT; kind++) {
         const HdObjElements *elements = &text->elements[kind];
         if (elements->highest > (int64_t)elements->count)
-            hd_obj_fail_at(&text->lines, elements->line_of_highest,
-                           "a face names %s %lld, and there are %zu %s", kinds[kind],
-                           (long long)elements->highest, elements->count, plurals[kind]);
+            fail_at(text, elements->line_of_highest, "a face names %s %lld, and there are %zu %s",
+                    kinds[kind].name, (long long)elements->highest, elements->count,
+                    kinds[kind].plural);
     }
-    if (text->lines.status == HD_OK && text->face_count == 0)
-        hd_obj_fail_reading(&text->lines, text->elements[HD_OBJ_VERTEX].count > 0
-                                              ? "it has vertices, but no faces"
-                                              : "it has no faces, so it is empty or no OBJ file "
-                                                "(of other formats, such as STL, PLY and glTF, "
-                                                "Blender or assimp can make one)");
-    return text->lines.status;
+    if (text->status == HD_OK && text->face_count == 0)
+        fail_reading(text, text->elements[HD_OBJ_VERTEX].count > 0
+                               ? "it has vertices, but no faces"
+                               : "it has no faces, so it is empty or no OBJ file "
+                                 "(of other formats, such as STL, PLY and glTF, "
+                                 "Blender or assimp can make one)");
+    return text->status;
 }
 
 HdStatus hd_obj_text_read(HdObjText *text) {
     HdSpan line;
     text->material = -1;
-    if (hd_obj_lines_open(&text->lines) == HD_OK)
-        while (hd_obj_lines_next(&text->lines, &line) && take_line(text, line))
+    if (open_text(text) == HD_OK)
+        while (next_line(text, &line) && take_line(text, line))
             continue;
-    hd_obj_lines_close(&text->lines);
+    close_text(text);
     return finish(text);
 }
 
 double *hd_obj_text_take(HdObjText *text, HdObjKind kind) {
     HdObjElements *elements = &text->elements[kind];
-    const size_t size = (size_t)most_numbers[kind] * sizeof *elements->numbers;
+    const size_t size = (size_t)kinds[kind].most * sizeof *elements->numbers;
     double *fitting =
-        hd_obj_resize(text->lines.memory, elements->numbers, size, elements->room, elements->count);
+        hd_obj_resize(text->memory, elements->numbers, size, elements->room, elements->count);
     double *numbers = fitting != NULL ? fitting : elements->numbers;
     elements->numbers = NULL;
     return numbers;

@@ -6,8 +6,11 @@
 #include <stdint.h>
 
 #include "base/problems.h"
-#include "mesh/obj/lines.h"
-#include "mesh/obj/names.h"
+#include "mesh/mesh.h"
+#include "mesh/obj/reading.h"
+
+/* The most bytes of a line, continued ones together; comments may be longer. */
+enum { HD_OBJ_MOST_LINE = 65000 };
 
 /* What corners of faces refer to by number. */
 typedef enum HdObjKind { HD_OBJ_VERTEX, HD_OBJ_UV, HD_OBJ_NORMAL, HD_OBJ_KIND_COUNT } HdObjKind;
@@ -33,8 +36,10 @@ typedef struct HdObjCorner {
 } HdObjCorner;
 
 typedef struct HdObjText {
-    HdObjLines lines;
+    const char *path;
+    HdObjMemory *memory;
     HdProblems *notes;
+    HdError *error;
 
     HdObjElements elements[HD_OBJ_KIND_COUNT];
     HdObjFace *faces; /* owned */
@@ -48,17 +53,29 @@ typedef struct HdObjText {
     size_t libraries_size, libraries_room;
 
     /* The rest is this module's own. */
+    HdStatus status;  /* of the reading so far */
     int32_t material; /* -1: none has been named */
     bool has_left_out;
+    int descriptor;
+    char *raw; /* what has been read and not yet taken */
+    size_t raw_begin, raw_end;
+    char *line;         /* the one that was taken last, with those that continue it */
+    size_t line_number; /* where it begins */
+    size_t lines_read;
 } HdObjText;
 
-/* Reads the whole file. `text` has the path, memory and error of `lines`, notes, and zeros. To be
-   freed afterwards in any case. */
+/* Reads the whole file. `text` has path, memory, notes and error, and zeros. To be freed afterwards
+   in any case. */
 HdStatus hd_obj_text_read(HdObjText *text);
 
 /* The elements as an array of their own, free()'s, of just their size. */
 double *hd_obj_text_take(HdObjText *text, HdObjKind kind);
 
 void hd_obj_text_free(HdObjText *text);
+
+/* Gives the mesh a material for each name of the text, which is taken from there: as its libraries
+   define it or, where none does, white and opaque. What is not used is told in the text's notes.
+   False: the memory does not suffice. */
+bool hd_obj_read_materials(HdObjText *text, HdMesh *mesh);
 
 #endif

@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "base/growth.h"
-#include "mesh/divide.h"
 #include "scene/triangulate/delaunay.h"
 #include "scene/triangulate/pattern.h"
 
