@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/limits.h"
-#include "mesh/obj/text.h"
+#include "mesh/obj/reading.h"
 #include "system/file_bytes.h"
 
 enum { NO_ILLUM = -1, MOST_ILLUM = 10, MOST_NOTED = 32, MOST_LIBRARIES = 64 };
@@ -489,21 +489,18 @@ static bool allocate(Libraries *libraries) {
     return libraries->definitions != NULL && libraries->order != NULL;
 }
 
-bool hd_obj_read_materials(HdObjText *text, HdMesh *mesh) {
-    Libraries libraries = {.path = text->path,
-                           .memory = text->memory,
-                           .notes = text->notes,
-                           .materials = &text->names};
-    const bool has_room = allocate(&libraries) &&
-                          read_libraries(&libraries, text->libraries, text->libraries_size) &&
-                          name_materials(&text->names, libraries.memory, mesh);
+bool hd_obj_read_materials(HdMesh *mesh, const char *path, HdNameTable *names, char *libraries,
+                           size_t size, HdObjMemory *memory, HdProblems *notes) {
+    Libraries all = {.path = path, .memory = memory, .notes = notes, .materials = names};
+    const bool has_room = allocate(&all) && read_libraries(&all, libraries, size) &&
+                          name_materials(names, memory, mesh);
     if (has_room) {
-        define_materials(&libraries, mesh);
-        note_undefined(&libraries, mesh);
+        define_materials(&all, mesh);
+        note_undefined(&all, mesh);
     }
-    for (int i = 0; libraries.definitions != NULL && i < text->names.count; i++)
-        free(libraries.definitions[i].texture);
-    free(libraries.definitions);
-    free(libraries.order);
+    for (int i = 0; all.definitions != NULL && i < names->count; i++)
+        free(all.definitions[i].texture);
+    free(all.definitions);
+    free(all.order);
     return has_room;
 }

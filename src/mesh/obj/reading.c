@@ -6,7 +6,6 @@
 
 #include "base/hash.h"
 #include "base/limits.h"
-#include "mesh/mesh.h"
 
 void *hd_obj_resize(HdObjMemory *memory, void *array, size_t size, size_t before, size_t count) {
     const size_t others = memory->used - before * size;

@@ -10,6 +10,8 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/problems.h"
+#include "mesh/mesh.h"
 
 /* ---- memory, which free() frees ---- */
 
@@ -110,5 +112,17 @@ int hd_name_table_add(HdNameTable *table, HdSpan name, HdObjMemory *memory);
 int hd_name_table_find(const HdNameTable *table, HdSpan name);
 
 void hd_name_table_free(HdNameTable *table);
+
+/* ---- materials ---- */
+
+/* The material of faces before the first `usemtl`. */
+#define HD_OBJ_NO_MATERIAL "default"
+
+/* Gives the mesh at `path` a material for each of the names, which are taken from there: as the
+   libraries define it or, where none does, white and opaque. `libraries` are their names, each with
+   a zero byte, in `size` bytes. What is not used is told in `notes`. False: the memory does not
+   suffice. */
+bool hd_obj_read_materials(HdMesh *mesh, const char *path, HdNameTable *names, char *libraries,
+                           size_t size, HdObjMemory *memory, HdProblems *notes);
 
 #endif
