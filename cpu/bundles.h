@@ -8,13 +8,16 @@
 
 #include "kernels/common/real.h"
 
+/* Whether a bundle fills a register, and what its instructions begin with. */
 #if defined(__AVX512DQ__) && HD_LANES * (HD_DOUBLE + 1) == 16
-#define HD_BUNDLES_512
+#define HD_INTRINSIC(name) _mm512_##name
 #define HD_OWN_MASKS
-#elif defined(__AVX2__) && defined(__FMA__) && HD_LANES * (HD_DOUBLE + 1) <= 8
-#define HD_BUNDLES_256
+#elif defined(__AVX2__) && defined(__FMA__) && HD_LANES * (HD_DOUBLE + 1) == 8
+#define HD_INTRINSIC(name) _mm256_##name
+#elif defined(__AVX2__) && defined(__FMA__) && HD_LANES * (HD_DOUBLE + 1) == 4
+#define HD_INTRINSIC(name) _mm_##name
 #endif
-#if defined(HD_BUNDLES_512) || defined(HD_BUNDLES_256)
+#ifdef HD_INTRINSIC
 #include <immintrin.h>
 #endif
 
@@ -83,51 +86,65 @@ FN vint load_ints(const int *from) {
     return __builtin_convertvector(a, vint);
 }
 
-#ifdef HD_BUNDLES_512
+#ifdef HD_INTRINSIC
 
-/* ---- a register of 512 bits; a mask has a bit for each lane ---- */
+/* ---- bundles that fill a register ---- */
 
-typedef uint32_t vmask; /* bits above the lanes' have no meaning */
 #if HD_DOUBLE
-typedef __m512d Reals512;
-#define HD_MASK(m)                 ((__mmask8)(m))
-#define HD_REALS_512(name, ending) _mm512_##name##_pd##ending
-#define HD_INTS_512(name, ending)  _mm512_##name##_epi64##ending
+#define HD_REALS(name) HD_INTRINSIC(name##_pd)
 #else
-typedef __m512 Reals512;
-#define HD_MASK(m)                 ((__mmask16)(m))
-#define HD_REALS_512(name, ending) _mm512_##name##_ps##ending
-#define HD_INTS_512(name, ending)  _mm512_##name##_epi32##ending
+#define HD_REALS(name) HD_INTRINSIC(name##_ps)
+#endif
+
+FN vreal multiply_add(vreal a, vreal b, vreal c) {
+    return HD_REALS(fmadd)(a, b, c);
+}
+FN vreal built_in_root(vreal a) {
+    return HD_REALS(sqrt)(a);
+}
+
+#define HD_OWN_LESSER
+FN vreal lesser(vreal a, vreal b) {
+    return HD_REALS(min)(a, b);
+}
+FN vreal greater(vreal a, vreal b) {
+    return HD_REALS(max)(a, b);
+}
+
+#ifdef HD_OWN_MASKS
+
+/* A mask has a bit for each lane; bits above have no meaning. */
+typedef uint32_t vmask;
+#if HD_DOUBLE
+#define HD_MASK(m)               ((__mmask8)(m))
+#define HD_LESS_REALS(a, b, how) _mm512_cmp_pd_mask(a, b, how)
+#define HD_INTS(name)            _mm512_##name##_epi64
+#define HD_COMPARE_INTS(name)    _mm512_##name##_epi64_mask
+#else
+#define HD_MASK(m)               ((__mmask16)(m))
+#define HD_LESS_REALS(a, b, how) _mm512_cmp_ps_mask(a, b, how)
+#define HD_INTS(name)            _mm512_##name##_epi32
+#define HD_COMPARE_INTS(name)    _mm512_##name##_epi32_mask
 #endif
 
 FN vmask lt(vreal a, vreal b) {
-    return HD_REALS_512(cmp, _mask)((Reals512)a, (Reals512)b, _CMP_LT_OQ);
+    return HD_LESS_REALS(a, b, _CMP_LT_OQ);
 }
 FN vmask le(vreal a, vreal b) {
-    return HD_REALS_512(cmp, _mask)((Reals512)a, (Reals512)b, _CMP_LE_OQ);
+    return HD_LESS_REALS(a, b, _CMP_LE_OQ);
 }
 FN vmask eq_int(vint a, vint b) {
-    return HD_INTS_512(cmpeq, _mask)((__m512i)a, (__m512i)b);
+    return HD_COMPARE_INTS(cmpeq)((__m512i)a, (__m512i)b);
 }
 FN vmask lt_int(vint a, vint b) {
-    return HD_INTS_512(cmplt, _mask)((__m512i)a, (__m512i)b);
+    return HD_COMPARE_INTS(cmplt)((__m512i)a, (__m512i)b);
 }
 FN vreal pick(vmask m, vreal a, vreal b) {
-    return (vreal)HD_REALS_512(mask_blend, )(HD_MASK(m), (Reals512)b, (Reals512)a);
+    return HD_REALS(mask_blend)(HD_MASK(m), b, a);
 }
 FN vint pick_int(vmask m, vint a, vint b) {
-    return (vint)HD_INTS_512(mask_blend, )(HD_MASK(m), (__m512i)b, (__m512i)a);
+    return (vint)HD_INTS(mask_blend)(HD_MASK(m), (__m512i)b, (__m512i)a);
 }
-FN vreal multiply_add(vreal a, vreal b, vreal c) {
-    return (vreal)HD_REALS_512(fmadd, )((Reals512)a, (Reals512)b, (Reals512)c);
-}
-FN vreal built_in_root(vreal a) {
-    return (vreal)HD_REALS_512(sqrt, )((Reals512)a);
-}
-FN int any_lane(vmask m) {
-    return HD_MASK(m) != 0;
-}
-
 FN vmask mask_none(void) {
     return 0;
 }
@@ -137,32 +154,26 @@ FN vmask mask_all(void) {
 FN int first_lane(vmask m) {
     return __builtin_ctz(m);
 }
-
 #define HD_OWN_LANE_BITS
 FN uint lane_bits(vmask m) {
     return HD_MASK(m);
 }
-
-#define HD_OWN_LESSER
-FN vreal lesser(vreal a, vreal b) {
-    return (vreal)HD_REALS_512(min, )((Reals512)a, (Reals512)b);
-}
-FN vreal greater(vreal a, vreal b) {
-    return (vreal)HD_REALS_512(max, )((Reals512)a, (Reals512)b);
+FN int any_lane(vmask m) {
+    return HD_MASK(m) != 0;
 }
 
 #define HD_OWN_LEAST_LANE
 FN real least_lane(vreal a, vmask m) {
-    return HD_REALS_512(mask_reduce_min, )(HD_MASK(m), (Reals512)a);
+    return HD_REALS(mask_reduce_min)(HD_MASK(m), a);
 }
 FN real greatest_lane(vreal a, vmask m) {
-    return HD_REALS_512(mask_reduce_max, )(HD_MASK(m), (Reals512)a);
+    return HD_REALS(mask_reduce_max)(HD_MASK(m), a);
 }
 
 #define HD_OWN_STORE_LANES
 FN void store_lanes(real *to, vmask m, const int offset[HD_LANES], const vreal *a) {
     (void)offset;
-    HD_REALS_512(storeu, )(to, HD_REALS_512(maskz_compress, )(HD_MASK(m), (Reals512)*a));
+    HD_REALS(storeu)(to, HD_REALS(maskz_compress)(HD_MASK(m), *a));
 }
 
 #define HD_OWN_SUM_LANES
@@ -176,19 +187,64 @@ FN fixed64 sum_lanes(vint a) {
 #endif
 }
 
-#if !HD_DOUBLE
+#else
+
+#define HD_OWN_LANE_BITS
+FN uint lane_bits(vmask m) {
+    return (uint)HD_REALS(movemask)((vreal)m);
+}
+FN int any_lane(vmask m) {
+    return lane_bits(m) != 0;
+}
+FN vreal pick(vmask m, vreal a, vreal b) {
+    return HD_REALS(blendv)(b, a, (vreal)m);
+}
+FN vint pick_int(vmask m, vint a, vint b) {
+    return (vint)HD_REALS(blendv)((vreal)b, (vreal)a, (vreal)m);
+}
+
+#endif
+
+#if !HD_DOUBLE && HD_LANES >= 8
 #define HD_OWN_ROWS
-/* Of the 4 x 4 words in each quarter of the registers. */
-FN FourWords transpose_quarters(const __m512i row[4]) {
-    __m512i a = _mm512_unpacklo_epi32(row[0], row[1]), b = _mm512_unpacklo_epi32(row[2], row[3]);
-    __m512i c = _mm512_unpackhi_epi32(row[0], row[1]), d = _mm512_unpackhi_epi32(row[2], row[3]);
+#if HD_LANES == 16
+typedef __m512i Row;
+#else
+typedef __m256i Row;
+#endif
+
+/* The 4 x 4 words in each 128 bits of the registers. */
+FN FourWords transpose_words(const Row row[4]) {
+    Row a = HD_INTRINSIC(unpacklo_epi32)(row[0], row[1]);
+    Row b = HD_INTRINSIC(unpacklo_epi32)(row[2], row[3]);
+    Row c = HD_INTRINSIC(unpackhi_epi32)(row[0], row[1]);
+    Row d = HD_INTRINSIC(unpackhi_epi32)(row[2], row[3]);
     FourWords words;
-    words.word[0] = (vint)_mm512_unpacklo_epi64(a, b);
-    words.word[1] = (vint)_mm512_unpackhi_epi64(a, b);
-    words.word[2] = (vint)_mm512_unpacklo_epi64(c, d);
-    words.word[3] = (vint)_mm512_unpackhi_epi64(c, d);
+    words.word[0] = (vint)HD_INTRINSIC(unpacklo_epi64)(a, b);
+    words.word[1] = (vint)HD_INTRINSIC(unpackhi_epi64)(a, b);
+    words.word[2] = (vint)HD_INTRINSIC(unpacklo_epi64)(c, d);
+    words.word[3] = (vint)HD_INTRINSIC(unpackhi_epi64)(c, d);
     return words;
 }
+#endif
+
+#if !HD_DOUBLE && HD_LANES == 8
+
+/* Two lanes to a register. */
+FN FourWords fetch_four_words(const uint *table, vint index) {
+    __m256i row[4];
+    int at[HD_LANES]; /* read one by one they are cheaper than taken out of the register */
+    _mm256_storeu_si256((void *)at, (__m256i)index);
+    HD_KEEP_IN_MEMORY(at);
+    for (int i = 0; i < 4; i++) {
+        row[i] = _mm256_castsi128_si256(_mm_loadu_si128((const void *)(table + at[i])));
+        row[i] =
+            _mm256_inserti128_si256(row[i], _mm_loadu_si128((const void *)(table + at[i + 4])), 1);
+    }
+    return transpose_words(row);
+}
+
+#elif !HD_DOUBLE && HD_LANES == 16
 
 /* Lanes as numbers of entries: read one by one they are cheaper than taken out of the register. */
 FN void store_places(int64_t at[HD_LANES], vint index) {
@@ -209,19 +265,10 @@ FN FourWords fetch_four_words(const uint *table, vint index) {
         row = _mm512_inserti32x4(row, _mm_loadu_si128((const void *)(table + at[i + 8])), 2);
         lanes[i] = _mm512_inserti32x4(row, _mm_loadu_si128((const void *)(table + at[i + 12])), 3);
     }
-    return transpose_quarters(lanes);
+    return transpose_words(lanes);
 }
 
-FN FourReals reals_of(FourWords words) {
-    FourReals reals;
-    for (int i = 0; i < 4; i++)
-        reals.number[i] = from_bits(words.word[i]);
-    return reals;
-}
-FN FourReals fetch_four_reals(const real *table, vint index) {
-    return reals_of(fetch_four_words((const void *)table, index));
-}
-
+#define HD_OWN_LOAD_ROWS
 FN FourReals load_rows(const real *table, vint index, int count) {
     __m512i row[4];
     for (int i = 0; i < 4; i++)
@@ -232,110 +279,18 @@ FN FourReals load_rows(const real *table, vint index, int count) {
             __m512i more = _mm512_broadcast_i32x4(_mm_loadu_si128((const void *)at));
             row[i] = _mm512_mask_mov_epi32(row[i], (__mmask16)(0xf << 4 * quarter), more);
         }
-    return reals_of(transpose_quarters(row));
-}
-#endif
-
-#else
-
-/* ---- other widths: neither compiler has multiply_add, built_in_root and any_lane for vectors ----
- */
-
-#ifdef HD_BUNDLES_256
-
-/* A register of 256 bits, or of 128, where processors have AVX2 and FMA. */
-#if HD_LANES == 4 && !HD_DOUBLE
-
-FN vreal multiply_add(vreal a, vreal b, vreal c) {
-    return (vreal)_mm_fmadd_ps((__m128)a, (__m128)b, (__m128)c);
-}
-FN vreal built_in_root(vreal a) {
-    return (vreal)_mm_sqrt_ps((__m128)a);
-}
-FN int any_lane(vint m) {
-    return _mm_movemask_ps((__m128)m) != 0;
-}
-
-#else
-
-#if HD_DOUBLE
-typedef __m256d Reals256;
-#define HD_REALS_256(name) _mm256_##name##_pd
-#else
-typedef __m256 Reals256;
-#define HD_REALS_256(name) _mm256_##name##_ps
-#endif
-
-FN vreal multiply_add(vreal a, vreal b, vreal c) {
-    return (vreal)HD_REALS_256(fmadd)((Reals256)a, (Reals256)b, (Reals256)c);
-}
-FN vreal built_in_root(vreal a) {
-    return (vreal)HD_REALS_256(sqrt)((Reals256)a);
-}
-#define HD_OWN_LANE_BITS
-FN uint lane_bits(vint m) {
-    return (uint)HD_REALS_256(movemask)((Reals256)m);
-}
-FN int any_lane(vint m) {
-    return lane_bits(m) != 0;
-}
-
-#define HD_OWN_PICK
-FN vreal pick(vint m, vreal a, vreal b) {
-    return (vreal)HD_REALS_256(blendv)((Reals256)b, (Reals256)a, (Reals256)m);
-}
-FN vint pick_int(vint m, vint a, vint b) {
-    return (vint)HD_REALS_256(blendv)((Reals256)b, (Reals256)a, (Reals256)m);
-}
-
-#define HD_OWN_LESSER
-FN vreal lesser(vreal a, vreal b) {
-    return (vreal)HD_REALS_256(min)((Reals256)a, (Reals256)b);
-}
-FN vreal greater(vreal a, vreal b) {
-    return (vreal)HD_REALS_256(max)((Reals256)a, (Reals256)b);
-}
-
-#if !HD_DOUBLE
-#define HD_OWN_ROWS
-/* Two lanes to a register; then the 4 x 4 words in each half of the registers are transposed. */
-FN FourWords fetch_four_words(const uint *table, vint index) {
-    __m256i row[4];
-    int at[HD_LANES]; /* read one by one they are cheaper than taken out of the register */
-    _mm256_storeu_si256((void *)at, (__m256i)index);
-    HD_KEEP_IN_MEMORY(at);
-    for (int i = 0; i < 4; i++) {
-        row[i] = _mm256_castsi128_si256(_mm_loadu_si128((const void *)(table + at[i])));
-        row[i] =
-            _mm256_inserti128_si256(row[i], _mm_loadu_si128((const void *)(table + at[i + 4])), 1);
-    }
-    __m256i a = _mm256_unpacklo_epi32(row[0], row[1]), b = _mm256_unpacklo_epi32(row[2], row[3]);
-    __m256i c = _mm256_unpackhi_epi32(row[0], row[1]), d = _mm256_unpackhi_epi32(row[2], row[3]);
-    FourWords words;
-    words.word[0] = (vint)_mm256_unpacklo_epi64(a, b);
-    words.word[1] = (vint)_mm256_unpackhi_epi64(a, b);
-    words.word[2] = (vint)_mm256_unpacklo_epi64(c, d);
-    words.word[3] = (vint)_mm256_unpackhi_epi64(c, d);
-    return words;
-}
-
-FN FourReals fetch_four_reals(const real *table, vint index) {
-    FourWords words = fetch_four_words((const void *)table, index);
+    FourWords words = transpose_words(row);
     FourReals reals;
     for (int i = 0; i < 4; i++)
         reals.number[i] = from_bits(words.word[i]);
     return reals;
 }
 
-FN FourReals load_rows(const real *table, vint index, int count) {
-    (void)count;
-    return fetch_four_reals(table, index);
-}
-#endif
-
 #endif
 
 #else
+
+/* ---- others, lane by lane: neither compiler has that for vectors ---- */
 
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     vreal r;
@@ -355,17 +310,12 @@ FN int any_lane(vmask m) {
         joined |= m[lane];
     return joined != 0;
 }
-
-#endif
-
-#ifndef HD_OWN_PICK
 FN vreal pick(vmask m, vreal a, vreal b) {
     return (vreal)((m & (vmask)a) | (~m & (vmask)b));
 }
 FN vint pick_int(vmask m, vint a, vint b) {
     return (m & a) | (~m & b);
 }
-#endif
 
 #endif
 

@@ -208,7 +208,18 @@ FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
     return reals;
 }
 
+#else
+FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
+    FourWords words = fetch_four_words((GLOBAL const uint *)table, index);
+    FourReals reals;
+    for (int i = 0; i < 4; i++)
+        reals.number[i] = from_bits(words.word[i]);
+    return reals;
+}
+#endif
+
 /* The same for the first `count` lanes; what the others get is of no account. */
+#ifndef HD_OWN_LOAD_ROWS
 FN FourReals load_rows(GLOBAL const real *table, vint index, int count) {
     (void)count;
     return fetch_four_reals(table, index);

@@ -13,12 +13,17 @@ typedef struct {
     int x, y;
 } Pixel;
 
-/* The pixel at a place of the order described at HD_BLOCK_SIDE, whose block begins at `corner`. */
+/* Column and row of pixel number `z` of a block, in the order described at HD_BLOCK_SIDE; of an
+   integer or a bundle of them. */
+#define Z_COLUMN(z) (((z)&1) | ((z) >> 1 & 2) | ((z) >> 2 & 4))
+#define Z_ROW(z)    (((z) >> 1 & 1) | ((z) >> 2 & 2) | ((z) >> 3 & 4))
+
+/* The pixel at a place of that order, whose block begins at `corner`. */
 FN Pixel pixel_in_block(Pixel corner, int place) {
     int z = place % HD_BLOCK_PIXELS;
     Pixel pixel;
-    pixel.x = corner.x + ((z & 1) | (z >> 1 & 2) | (z >> 2 & 4));
-    pixel.y = corner.y + ((z >> 1 & 1) | (z >> 2 & 2) | (z >> 3 & 4));
+    pixel.x = corner.x + Z_COLUMN(z);
+    pixel.y = corner.y + Z_ROW(z);
     return pixel;
 }
 
@@ -69,8 +74,8 @@ FN void listed_samples(SAMPLE_PARAMETERS vint within, vmask *alive, vint *x, vin
 FN vmask pixels_at(GLOBAL const View *view, int item, vint place, vint *x, vint *y) {
     vint z = (place + item * HD_PIXELS_PER_ITEM % HD_BLOCK_PIXELS) & (HD_BLOCK_PIXELS - 1);
     Pixel corner = block_of_item(view, item);
-    *x = ((z & 1) | (z >> 1 & 2) | (z >> 2 & 4)) + corner.x;
-    *y = ((z >> 1 & 1) | (z >> 2 & 2) | (z >> 3 & 4)) + corner.y;
+    *x = Z_COLUMN(z) + corner.x;
+    *y = Z_ROW(z) + corner.y;
     return lt_int(place, splat_int(HD_PIXELS_PER_ITEM)) & lt_int(*x, splat_int(view->width)) &
            lt_int(*y, splat_int(view->height));
 }

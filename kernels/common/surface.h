@@ -112,14 +112,38 @@ FN Vec3 sample_picture(GLOBAL const Picture *picture, GLOBAL const uint *texels,
 
 /* ---- materials ---- */
 
-/* A material for each lane. */
+/* The terms of a material as lanes have them, X(type, pick, name, of, none): how it is picked, of
+   what in the row `material` it comes, for rays that meet the outer side in the lanes of
+   `entering`, and what it is where nothing is reflected or transmitted. Reflection, transmission
+   and the index, relative to that of the side beyond, are those of the side that the ray comes
+   from. */
+#define HD_LANE_TERMS(X)                                                                           \
+    X(Vec3, vec3_pick, colour, vec3_of(material->colour), vec3_zero())                             \
+    X(Vec3, vec3_pick, mirror_tint, vec3_of(material->mirror_tint), vec3_zero())                   \
+    X(vreal, pick, ambient, splat(material->ambient), splat(R(0.0)))                               \
+    X(vreal, pick, diffuse, splat(material->diffuse), splat(R(0.0)))                               \
+    X(vreal, pick, specular, splat(material->specular), splat(R(0.0)))                             \
+    X(vreal, pick, least_highlight, splat(material->least_highlight), splat(REAL_LARGE))           \
+    X(vreal, pick, reflection,                                                                     \
+      pick(entering, splat(material->reflection), splat(material->inner_reflection)),              \
+      splat(R(0.0)))                                                                               \
+    X(vreal, pick, transmission,                                                                   \
+      pick(entering, splat(material->transmission), splat(material->inner_transmission)),          \
+      splat(R(0.0)))                                                                               \
+    X(vreal, pick, relative_index,                                                                 \
+      pick(entering, splat(material->inverse_index), splat(material->index_of_refraction)),        \
+      splat(R(1.0)))                                                                               \
+    X(vmask, pick_mask, lit_from_behind, material->lit_from_behind ? mask_all() : mask_none(),     \
+      mask_none())                                                                                 \
+    X(vint, pick_int, shininess, splat_int(material->shininess), splat_int(1))
+
+#define HD_TERM_MEMBER(type, pick_term, name, of, none) type name;
+#define HD_TERM_OF(type, pick_term, name, of, none)     lanes.name = of;
+#define HD_TERM_NONE(type, pick_term, name, of, none)   lanes.name = none;
+#define HD_TERM_PICKED(type, pick_term, name, of, none) lanes.name = pick_term(m, a.name, b.name);
+
 typedef struct {
-    Vec3 colour, mirror_tint;
-    vreal ambient, diffuse, specular, least_highlight;
-    vreal reflection, transmission; /* of the side that the ray meets */
-    vreal relative_index; /* of the side that the ray comes from, over that of the other side */
-    vmask lit_from_behind;
-    vint shininess;
+    HD_LANE_TERMS(HD_TERM_MEMBER)
 } LaneMaterial;
 
 typedef struct {
@@ -131,50 +155,21 @@ typedef struct {
 
 /* Reflects and transmits nothing. */
 FN LaneMaterial no_material(void) {
-    LaneMaterial none;
-    none.colour = none.mirror_tint = vec3_zero();
-    none.ambient = none.diffuse = none.specular = splat(R(0.0));
-    none.least_highlight = splat(REAL_LARGE);
-    none.reflection = none.transmission = splat(R(0.0));
-    none.relative_index = splat(R(1.0));
-    none.lit_from_behind = mask_none();
-    none.shininess = splat_int(1);
-    return none;
+    LaneMaterial lanes;
+    HD_LANE_TERMS(HD_TERM_NONE)
+    return lanes;
 }
 
-/* `entering` tells the lanes that meet the outer side. */
 FN LaneMaterial splat_material(GLOBAL const Material *material, vmask entering) {
-    LaneMaterial all;
-    all.colour = vec3_of(material->colour);
-    all.mirror_tint = vec3_of(material->mirror_tint);
-    all.ambient = splat(material->ambient);
-    all.diffuse = splat(material->diffuse);
-    all.specular = splat(material->specular);
-    all.least_highlight = splat(material->least_highlight);
-    all.reflection = pick(entering, splat(material->reflection), splat(material->inner_reflection));
-    all.transmission =
-        pick(entering, splat(material->transmission), splat(material->inner_transmission));
-    all.relative_index =
-        pick(entering, splat(material->inverse_index), splat(material->index_of_refraction));
-    all.lit_from_behind = material->lit_from_behind ? mask_all() : mask_none();
-    all.shininess = splat_int(material->shininess);
-    return all;
+    LaneMaterial lanes;
+    HD_LANE_TERMS(HD_TERM_OF)
+    return lanes;
 }
 
 FN LaneMaterial pick_material(vmask m, LaneMaterial a, LaneMaterial b) {
-    LaneMaterial picked;
-    picked.colour = vec3_pick(m, a.colour, b.colour);
-    picked.mirror_tint = vec3_pick(m, a.mirror_tint, b.mirror_tint);
-    picked.ambient = pick(m, a.ambient, b.ambient);
-    picked.diffuse = pick(m, a.diffuse, b.diffuse);
-    picked.specular = pick(m, a.specular, b.specular);
-    picked.least_highlight = pick(m, a.least_highlight, b.least_highlight);
-    picked.reflection = pick(m, a.reflection, b.reflection);
-    picked.transmission = pick(m, a.transmission, b.transmission);
-    picked.relative_index = pick(m, a.relative_index, b.relative_index);
-    picked.lit_from_behind = pick_mask(m, a.lit_from_behind, b.lit_from_behind);
-    picked.shininess = pick_int(m, a.shininess, b.shininess);
-    return picked;
+    LaneMaterial lanes;
+    HD_LANE_TERMS(HD_TERM_PICKED)
+    return lanes;
 }
 
 FN void set_material(Surface *surface, vmask m, LaneMaterial material) {

@@ -226,17 +226,6 @@ FN FourWords fetch_four_words(GLOBAL const uint *table, vint index) {
     found.word[3] = HD_OF_ROWS(odd.odd);
     return found;
 }
-FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
-    FourWords words = fetch_four_words((GLOBAL const uint *)table, index);
-    FourReals found;
-    for (int i = 0; i < 4; i++)
-        found.number[i] = HD_WIDE(as_float)(words.word[i]);
-    return found;
-}
-FN FourReals load_rows(GLOBAL const real *table, vint index, int count) {
-    (void)count;
-    return fetch_four_reals(table, index);
-}
 #endif
 
 #if HD_DOUBLE
