@@ -7,7 +7,7 @@
 
 #include "base/growth.h"
 #include "base/text.h"
-#include "cpu/instruction_set.h"
+#include "cpu/builds.h"
 #include "device/kernel_source.h"
 #include "device/renderer.h"
 #include "device/wave_plan.h"

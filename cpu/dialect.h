@@ -5,7 +5,7 @@
 
 #include "kernels/host/language.h"
 
-#include "kernels/common/real.h"
+#include "kernels/common/scene_tables.h"
 
 #if HD_DOUBLE
 #define HD_FMA_SCALAR  __builtin_fma
@@ -15,9 +15,11 @@
 #define HD_SQRT_SCALAR __builtin_sqrtf
 #endif
 
-#if HD_LANES == 1
+#if HD_LANES > 1
+#include "cpu/bundles.h"
+#else
 
-#include "kernels/common/one_lane.h"
+#include "kernels/common/lanes.h"
 
 FN vbits bits_of(vreal a) {
     vbits b;
@@ -36,50 +38,6 @@ FN vreal built_in_root(vreal a) {
     return HD_SQRT_SCALAR(a);
 }
 
-#elif defined(__AVX512DQ__) && HD_LANES * (HD_DOUBLE + 1) == 16
-
-#include "cpu/bundles_avx512.h"
-
-#else
-
-#include "cpu/bundles.h"
-
-#include "kernels/common/wide_masks.h"
-
-/* Neither compiler has multiply_add, square_root and any_lane for vectors: instructions where the
-   width is the machine's, lane by lane elsewhere. */
-#if defined(__AVX2__) && defined(__FMA__) && HD_LANES * (HD_DOUBLE + 1) <= 8
-#include "cpu/bundles_avx2.h"
-#else
-FN vreal multiply_add(vreal a, vreal b, vreal c) {
-    vreal r;
-    for (int lane = 0; lane < HD_LANES; lane++)
-        r[lane] = HD_FMA_SCALAR(a[lane], b[lane], c[lane]);
-    return r;
-}
-FN vreal built_in_root(vreal a) {
-    vreal r;
-    for (int lane = 0; lane < HD_LANES; lane++)
-        r[lane] = HD_SQRT_SCALAR(a[lane]);
-    return r;
-}
-FN int any_lane(vmask m) {
-    real_bits joined = 0;
-    for (int lane = 0; lane < HD_LANES; lane++)
-        joined |= m[lane];
-    return joined != 0;
-}
-#endif
-
-#ifndef HD_OWN_PICK
-FN vreal pick(vmask m, vreal a, vreal b) {
-    return (vreal)((m & (vmask)a) | (~m & (vmask)b));
-}
-FN vint pick_int(vmask m, vint a, vint b) {
-    return (m & a) | (~m & b);
-}
-#endif
-
 #endif
 
 FN vreal absolute(vreal a) {
@@ -97,5 +55,19 @@ FN void prefetch_bytes(const char *from, int count) {
     for (int i = 0; i < count; i += CACHE_LINE)
         __builtin_prefetch(from + i);
 }
+
+/* How the tables that the host hands over become the kernels' variables of the same names. */
+#define HD_TABLE_FROM_SCENE(type, name)                                                            \
+    const type *name = hd_scene_tables[HD_TABLE_##name].data;                                      \
+    (void)name;
+#define HD_TABLE_FROM_FRAME(type, name)                                                            \
+    const type *name = hd_frame_tables[HD_TABLE_##name].data;                                      \
+    (void)name;
+
+/* Declares all of them, for SCENE_ARGUMENTS; `scene` and `frame` are const HdTable *. */
+#define HD_DECLARE_TABLES(scene, frame)                                                            \
+    const HdTable *hd_scene_tables = (scene), *hd_frame_tables = (frame);                          \
+    HD_SCENE_TABLES(HD_TABLE_FROM_SCENE)                                                           \
+    HD_FRAME_TABLES(HD_TABLE_FROM_FRAME)
 
 #endif

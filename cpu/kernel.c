@@ -3,7 +3,7 @@
    what other scenes need takes registers, even where it never runs. */
 #include "cpu/kernel.h"
 
-#include "cpu/kernel_tables.h"
+#include "cpu/dialect.h"
 #include "kernels/common/wavefront.h"
 
 HdCpuKernel HD_KERNEL_NAME;

@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "cpu/kernel_tables.h"
+#include "cpu/dialect.h"
 #include "kernels/common/render.h"
 
 #define QUOTED_(name)  #name

@@ -2,7 +2,7 @@
 /* HD_PRODUCT names the table; HD_DOUBLE is 0 or 1. */
 #include "product.h"
 
-#include "cpu/kernel_tables.h"
+#include "cpu/dialect.h"
 #include "kernels/common/ray_tree.h"
 
 static Vec3 rounded(HdVec3 v) {

@@ -45,8 +45,7 @@
 #ifndef HD_DIALECT_H
 #define HD_DIALECT_H
 
-#include "real.h"
-#include "rows.h"
+#include "lanes.h"
 
 /* ---- masks ---- */
 
@@ -179,67 +178,6 @@ FN real greatest_lane(vreal a, vmask m) {
 }
 #endif
 
-/* ---- division and roots ---- */
-
-/* 1 / a of normal a > 0 whose reciprocal is normal too, within 1 unit in the last place: a guess by
-   the exponent's bits (Blinn 1997, Floating-Point Tricks), then two steps of third order (three of
-   doubles), which on CPUs cost a fraction of a division. Not a loop, for PoCL leaves it one. */
-FN vreal better_reciprocal(vreal a, vreal guess) {
-    vreal error = multiply_add(-a, guess, splat(R(1.0)));
-    return multiply_add(guess, multiply_add(error, error, error), guess);
-}
-FN vreal reciprocal(vreal a) {
-#if HD_DOUBLE
-    vreal guess = from_bits(splat_bits(0x7fde623822fc16e6) - bits_of(a));
-    guess = better_reciprocal(a, guess);
-#else
-    vreal guess = from_bits(splat_bits(0x7ef311c3) - bits_of(a));
-#endif
-    return better_reciprocal(a, better_reciprocal(a, guess));
-}
-
-/* 1 / square root of a, likewise (steps by Halley's method), within 1.5 units in the last place. */
-FN vreal better_root(vreal a, vreal guess) {
-    vreal error = multiply_add(-a, guess * guess, splat(R(1.0)));
-    vreal part = error * multiply_add(error, splat(R(0.375)), splat(R(0.5)));
-    return multiply_add(guess, part, guess);
-}
-FN vreal reciprocal_root(vreal a) {
-#if HD_DOUBLE
-    vreal guess = from_bits(splat_bits(0x5fe6eb50c7b537a9) - (bits_of(a) >> 1));
-    guess = better_root(a, guess);
-#else
-    vreal guess = from_bits(splat_bits(0x5f375a86) - (bits_of(a) >> 1));
-#endif
-    return better_root(a, better_root(a, guess));
-}
-
-/* Correctly rounded: the device's own, or made of multiply_add where HD_ROUNDED_BY_FMA says that it
-   has none. shared_quotient is of numbers that all lanes share. */
-#if HD_ROUNDED_BY_FMA
-#include "rounded.h"
-FN vreal quotient(vreal a, vreal b) {
-    return quotient_by_fma(a, b);
-}
-FN vreal square_root(vreal a) {
-    return root_by_fma(a);
-}
-FN real shared_quotient(real a, real b) {
-    vreal found = quotient_by_fma(splat(a), splat(b));
-    return lane_real(&found, 0);
-}
-#else
-FN vreal quotient(vreal a, vreal b) {
-    return a / b;
-}
-FN vreal square_root(vreal a) {
-    return built_in_root(a);
-}
-FN real shared_quotient(real a, real b) {
-    return a / b;
-}
-#endif
-
 /* ---- memory ---- */
 
 #ifndef HD_OWN_ROWS
@@ -270,7 +208,18 @@ FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
     return reals;
 }
 
+#else
+FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
+    FourWords words = fetch_four_words((GLOBAL const uint *)table, index);
+    FourReals reals;
+    for (int i = 0; i < 4; i++)
+        reals.number[i] = from_bits(words.word[i]);
+    return reals;
+}
+#endif
+
 /* The same for the first `count` lanes; what the others get is of no account. */
+#ifndef HD_OWN_LOAD_ROWS
 FN FourReals load_rows(GLOBAL const real *table, vint index, int count) {
     (void)count;
     return fetch_four_reals(table, index);

@@ -4,7 +4,7 @@
 #ifndef HD_INTERSECTION_H
 #define HD_INTERSECTION_H
 
-#include "scene_arguments.h"
+#include "kernel_arguments.h"
 #include "vectors.h"
 
 typedef struct {

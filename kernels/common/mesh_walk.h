@@ -1,10 +1,138 @@
 /* SPDX-License-Identifier: MIT */
-/* What all walks through hierarchies share: which way rays run, leaves, and nodes of two children.
- */
+/* Triangles tried with rays of one mesh: which count as met, and what is kept of those: the closest
+   hit, or all that filters light. Then what all walks through hierarchies share, and the walk of a
+   single lane; that of bundles is in mesh_walk_wide.h. */
 #ifndef HD_MESH_WALK_H
 #define HD_MESH_WALK_H
 
-#include "mesh_hits.h"
+#include "triangle.h"
+
+/* What the rays look for, and what was found. */
+typedef struct {
+    vmask alive;
+    vreal limit;           /* nothing is looked for from here on: the closest hit so far, or
+                              the light */
+    vint object, triangle; /* the closest hit's */
+    vmask entering;
+    vint octaves[3], rest[3]; /* what filters light, added up (Skin.filter) */
+} Findings;
+
+/* The rays in a mesh's own coordinates. */
+typedef struct {
+    LastAxis last; /* origins and directions are turned by it (triangle.h) */
+    RayFrame frame;
+    Slabs slabs;
+    vmask own;     /* leaves this very mesh, */
+    vint own_face; /* this face of it, or -1, */
+    vmask inside;  /* and on its inner side */
+    int object;    /* number of the mesh among the objects */
+    int first_face, first_skin;
+    int is_shadow;     /* all that filters light is looked for, not the closest hit */
+    int light_face[2]; /* a light's own faces are not in its way; -1: none */
+    real contact_squared;
+} MeshRays;
+
+/* ---- sides ---- */
+
+/* The rays' origin is as near to the triangle's plane as rounding may put it. */
+FN vmask is_in_contact(const MeshRays *rays, const TriangleLanes *triangle) {
+    Vec3 normal = normal_of(triangle);
+    vreal away = vec3_dot(normal, vec3_sub(triangle->a, rays->frame.origin));
+    return le(away * away, vec3_dot(normal, normal) * rays->contact_squared);
+}
+
+/* What of `met` rays cross that left a face of this mesh. They meet its outer side next if they run
+   outside, its inner side if they run inside: where rounding has put their origin past a neighbour
+   of what they left, they meet that from the wrong side, nearby. */
+FN vmask leave_face(const MeshRays *rays, const TriangleLanes *triangle, vmask met,
+                    vmask entering) {
+    met = met & ~(rays->own & eq_int(triangle->face, rays->own_face));
+    vmask wrong = met & rays->own & ~(entering ^ rays->inside);
+    return any_lane(wrong) ? met & ~(wrong & is_in_contact(rays, triangle)) : met;
+}
+
+/* Tries triangles, with the rays of `m`, for what is no further away than `limit`. The closest
+   hit's search takes the wrong side of a surface to be further away by what the distance is
+   uncertain: at an edge where both sides are met at once the right one is first. */
+FN vmask meet_triangles(const MeshRays *rays, const TriangleLanes *triangle, vreal limit, vmask m,
+                        TriangleCrossing *crossing) {
+    vmask met = cross_triangle(&rays->frame, &rays->slabs, m, triangle->a, triangle->b, triangle->c,
+                               crossing);
+    met = met & le(splat(R(0.0)), crossing->t) & le(crossing->t, limit);
+    if (any_lane(met & rays->own))
+        met = leave_face(rays, triangle, met, crossing->entering);
+    if (!rays->is_shadow) {
+        vmask wrong = met & ~(crossing->entering ^ (rays->own & rays->inside));
+        crossing->t = pick(wrong, crossing->t + crossing->slack, crossing->t);
+    }
+    return met;
+}
+
+/* ---- the closest hit ---- */
+
+/* Of two hits at one distance that of the lower number counts. */
+FN vmask is_closer(const Findings *found, vreal t, int object, vint triangle) {
+    vmask level = ~lt(t, found->limit) & ~lt(found->limit, t);
+    vmask same = eq_int(found->object, splat_int(object));
+    vmask lower = (same & lt_int(triangle, found->triangle)) |
+                  (~same & lt_int(splat_int(object), found->object));
+    return lt(t, found->limit) | (level & lower);
+}
+
+FN void keep_closest(Findings *found, const MeshRays *rays, const TriangleLanes *triangle,
+                     vmask met, const TriangleCrossing *crossing) {
+    vmask closer = met & is_closer(found, crossing->t, rays->object, triangle->number);
+    found->limit = pick(closer, crossing->t, found->limit);
+    found->object = pick_int(closer, splat_int(rays->object), found->object);
+    found->triangle = pick_int(closer, triangle->number, found->triangle);
+    found->entering = pick_mask(closer, crossing->entering, found->entering);
+}
+
+/* ---- what filters light ---- */
+
+FN void keep_filter(GLOBAL const Skin *skins, Findings *found, const MeshRays *rays,
+                    const TriangleLanes *triangle, vmask met, const TriangleCrossing *crossing) {
+    met = met & lt(crossing->t, found->limit) & found->alive;
+    met = met & ~(eq_int(triangle->face, splat_int(rays->light_face[0])) |
+                  eq_int(triangle->face, splat_int(rays->light_face[1])));
+    vint most = splat_int(HD_OPAQUE_OCTAVES);
+    while (any_lane(met)) {
+        int number = lane_int(&triangle->skin, first_lane(met));
+        GLOBAL const Skin *skin = skins + number;
+        vmask m = met & eq_int(triangle->skin, splat_int(number));
+        met = lanes_after(met, m);
+        for (int channel = 0; channel < 3; channel++) {
+            vint more = pick_int(crossing->entering, splat_int(skin->filter[0][channel]),
+                                 splat_int(skin->filter[1][channel]));
+            vint rest = pick_int(crossing->entering, splat_int(skin->filter_rest[0][channel]),
+                                 splat_int(skin->filter_rest[1][channel]));
+            rest = found->rest[channel] + pick_int(m, rest, splat_int(0));
+            vint sum = found->octaves[channel] + pick_int(m, more, splat_int(0)) +
+                       (rest >> HD_OCTAVE_BITS);
+            found->octaves[channel] = pick_int(lt_int(sum, most), sum, most);
+            found->rest[channel] = rest & (HD_OCTAVE - 1);
+        }
+        vint opaque = pick_int(crossing->entering, splat_int(skin->filter[0][3]),
+                               splat_int(skin->filter[1][3]));
+        found->alive = found->alive & ~(m & lt_int(splat_int(0), opaque));
+    }
+}
+
+/* ---- leaves ---- */
+
+FN void keep_crossing(SCENE_PARAMETERS Findings *found, const MeshRays *rays,
+                      const TriangleLanes *triangle, vmask m) {
+    TriangleCrossing crossing;
+    vmask met = meet_triangles(rays, triangle, found->limit, m, &crossing);
+    if (!any_lane(met))
+        return;
+    if (rays->is_shadow)
+        keep_filter(skins, found, rays, triangle, met, &crossing);
+    else
+        keep_closest(found, rays, triangle, met, &crossing);
+}
+
+/* ---- which way rays run ---- */
 
 /* Which way rays run: what bundles have in common that share a walk. */
 typedef struct {
@@ -64,5 +192,60 @@ FN vreal exit_of_child(GLOBAL const MeshNode *node, const Slabs *slabs, const Wa
     far = lesser(far, multiply_add(splat(y), slabs->inverse.y, slabs->far.y));
     return lesser(far, multiply_add(splat(z), slabs->inverse.z, slabs->far.z));
 }
+
+#if HD_LANES == 1
+
+/* In place of nodes and leaves, of which none that holds anything has these numbers: nothing, and
+   all triangles of a mesh without a hierarchy. */
+enum { NO_NODE = -1, WHOLE_MESH = -2147483647 };
+
+/* The ray of `m`. Down to a leaf, then its triangles: so threads of a warp do the same at a time
+   (Aila and Laine 2009). */
+FN void search_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
+                    GLOBAL const Instance *instance) {
+    int stack[NODE_STACK(header)];
+    vreal stack_near[NODE_STACK(header)];
+    int waiting = 0, current = instance->root >= 0 ? instance->root : WHOLE_MESH;
+    Way way;
+    m = same_way(&rays->slabs, rays->last, m, &way);
+    do {
+        do {
+            if (current == NO_NODE) {
+                waiting--;
+                current =
+                    any_lane(le(stack_near[waiting], found->limit)) ? stack[waiting] : NO_NODE;
+            }
+            if (current >= 0) {
+                GLOBAL const MeshNode *node = mesh_nodes + current;
+                vreal near0 = entry_of_child(node, &rays->slabs, &way, 0);
+                vreal near1 = entry_of_child(node, &rays->slabs, &way, 1);
+                vreal far0 = lesser(exit_of_child(node, &rays->slabs, &way, 0), found->limit);
+                vreal far1 = lesser(exit_of_child(node, &rays->slabs, &way, 1), found->limit);
+                vmask alive = m & found->alive;
+                int meets0 = any_lane(alive & le(near0, far0));
+                int meets1 = any_lane(alive & le(near1, far1));
+                int last = way.backward >> node->axis & 1 ? 0 : 1; /* further along the rays */
+                if (meets0 && meets1) {
+                    stack[waiting] = node->child[last];
+                    stack_near[waiting] = last ? near1 : near0;
+                    waiting++;
+                }
+                int next = meets0 && meets1 ? !last : meets1;
+                current = meets0 || meets1 ? node->child[next] : NO_NODE;
+            }
+        } while (current >= 0 || (current == NO_NODE && waiting > 0));
+        int first = ~current >> HD_LEAF_ITEM_BITS, count = ~current & HD_LEAF_ITEM_MASK;
+        if (current == WHOLE_MESH) {
+            first = instance->first_triangle;
+            count = instance->triangle_count;
+        }
+        if (current != NO_NODE)
+            try_triangles(SCENE_ARGUMENTS found, rays, m & found->alive, &way, first, count);
+        current = NO_NODE;
+        waiting = any_lane(m & found->alive) ? waiting : 0;
+    } while (waiting > 0);
+}
+
+#endif
 
 #endif

@@ -7,6 +7,8 @@
 
 #include "mesh_walk.h"
 
+#if HD_LANES > 1
+
 /* Reals in the bounds of a wide node: a lower and an upper one of each axis for each child. */
 enum { WIDE_STRIDE = 6 * HD_LANES };
 
@@ -195,51 +197,53 @@ FN void take_over(Findings *found, const Findings *one, int is_shadow, int lane)
     found->entering = pick_mask(m, one->entering, found->entering);
 }
 
-/* The next step of a lane's ray: leaves that wait next to each other, or a node. Returns how many
-   entries wait then. */
-FN int step_alone(SCENE_PARAMETERS Findings *found, const MeshRays *rays, Alone *alone, int lane) {
-    int *stack = alone->stack + lane * alone->room;
-    real *stack_near = alone->stack_near + lane * alone->room;
-    int waiting = alone->waiting[lane];
-    real limit = lane_real(&found->limit, lane);
-    const Way *way = &alone->way[lane];
-    do {
-        if (waiting == 0)
-            return 0;
-        waiting--;
-    } while (limit < stack_near[waiting]);
-    int current = stack[waiting];
-    if (current < 0) {
-        vint number = splat_int(0);
-        int count = add_leaf(&number, 0, current);
-        if (count > HD_LANES) {
-            int next = (~current >> HD_LEAF_ITEM_BITS) + HD_LANES;
-            stack[waiting++] = ~(next << HD_LEAF_ITEM_BITS | (count - HD_LANES));
-            count = HD_LANES;
-        }
-        while (waiting > 0 && stack[waiting - 1] < 0 &&
-               count + (~stack[waiting - 1] & HD_LEAF_ITEM_MASK) <= HD_LANES) {
-            waiting--;
-            if (stack_near[waiting] <= limit)
-                count = add_leaf(&number, count, stack[waiting]);
-        }
-        MeshRays ray = spread_rays(rays, lane);
-        Findings one = spread_findings(found, lane);
-        if (try_at_once(SCENE_ARGUMENTS & one, &ray, way, number, count)) {
-            take_over(found, &one, rays->is_shadow, lane);
-            if (ray.is_shadow && !any_lane(one.alive))
-                return 0;
-        }
-        alone->waiting[lane] = waiting;
-        return waiting;
+/* What one lane's ray has left to walk through. */
+typedef struct {
+    int *node;
+    real *near;
+    int waiting;
+} Pile;
+
+/* Takes the leaf on top of the pile and those that wait next to it, as many as there are lanes for
+   their triangles, whose numbers it gives; returns how many these are. */
+FN int take_leaves(Pile *pile, real limit, vint *number) {
+    int current = pile->node[pile->waiting];
+    int count = add_leaf(number, 0, current);
+    if (count > HD_LANES) {
+        int next = (~current >> HD_LEAF_ITEM_BITS) + HD_LANES;
+        pile->node[pile->waiting++] = ~(next << HD_LEAF_ITEM_BITS | (count - HD_LANES));
+        count = HD_LANES;
     }
-    GLOBAL const real *bounds = wide_bounds + (uint64)current * WIDE_STRIDE;
+    while (pile->waiting > 0 && pile->node[pile->waiting - 1] < 0 &&
+           count + (~pile->node[pile->waiting - 1] & HD_LEAF_ITEM_MASK) <= HD_LANES) {
+        pile->waiting--;
+        if (pile->near[pile->waiting] <= limit)
+            count = add_leaf(number, count, pile->node[pile->waiting]);
+    }
+    return count;
+}
+
+/* Returns whether the ray goes on. */
+FN int try_leaves(SCENE_PARAMETERS Findings *found, const MeshRays *rays, const Way *way,
+                  Pile *pile, real limit, int lane) {
+    vint number = splat_int(0);
+    int count = take_leaves(pile, limit, &number);
+    MeshRays ray = spread_rays(rays, lane);
+    Findings one = spread_findings(found, lane);
+    if (!try_at_once(SCENE_ARGUMENTS & one, &ray, way, number, count))
+        return 1;
+    take_over(found, &one, rays->is_shadow, lane);
+    return !ray.is_shadow || any_lane(one.alive);
+}
+
+/* The children of a node whose boxes one lane's ray meets, and where it enters them. */
+FN vmask meet_children(const Slabs *slabs, const Way *way, GLOBAL const real *bounds, real limit,
+                       int lane, vreal *entry) {
     int lower[3], upper[3];
     for (int axis = 0; axis < 3; axis++) {
         lower[axis] = place_of_bounds(way->entry, way, axis);
         upper[axis] = place_of_bounds(way->exit, way, axis);
     }
-    const Slabs *slabs = &rays->slabs;
     Vec3 inverse = spread_vector(slabs->inverse, lane);
     Vec3 early = spread_vector(slabs->near, lane), late = spread_vector(slabs->far, lane);
     vreal near = multiply_add(load_reals(bounds + lower[0]), inverse.x, early.x);
@@ -250,24 +254,56 @@ FN int step_alone(SCENE_PARAMETERS Findings *found, const MeshRays *rays, Alone 
     far = lesser(far, multiply_add(load_reals(bounds + upper[2]), inverse.z, late.z));
     near = greater(near, splat(R(0.0)));
     far = lesser(far, splat(limit));
-    int bottom = waiting;
-    for (uint left = lane_bits(le(near, far)); left; left &= left - 1) {
+    *entry = near;
+    return le(near, far);
+}
+
+/* Puts children of node number `parent` on the pile, the nearest one last. */
+FN void put_children(SCENE_PARAMETERS Pile *pile, int parent, vmask met, vreal entry) {
+    int bottom = pile->waiting;
+    for (uint left = lane_bits(met); left; left &= left - 1) {
         int number = lowest_bit(left);
-        real at = lane_real(&near, number);
-        int place = waiting;
-        while (place > bottom && stack_near[place - 1] < at) {
-            stack[place] = stack[place - 1];
-            stack_near[place] = stack_near[place - 1];
+        real at = lane_real(&entry, number);
+        int place = pile->waiting;
+        while (place > bottom && pile->near[place - 1] < at) {
+            pile->node[place] = pile->node[place - 1];
+            pile->near[place] = pile->near[place - 1];
             place--;
         }
-        int child = wide_children[(uint64)current * HD_LANES + (uint64)number];
+        int child = wide_children[(uint64)parent * HD_LANES + (uint64)number];
         prefetch_place(SCENE_ARGUMENTS child);
-        stack[place] = child;
-        stack_near[place] = at;
-        waiting++;
+        pile->node[place] = child;
+        pile->near[place] = at;
+        pile->waiting++;
     }
-    alone->waiting[lane] = waiting;
-    return waiting;
+}
+
+/* The next step of a lane's ray: leaves that wait next to each other, or a node. Returns how many
+   entries wait then. */
+FN int step_alone(SCENE_PARAMETERS Findings *found, const MeshRays *rays, Alone *alone, int lane) {
+    Pile pile;
+    pile.node = alone->stack + lane * alone->room;
+    pile.near = alone->stack_near + lane * alone->room;
+    pile.waiting = alone->waiting[lane];
+    real limit = lane_real(&found->limit, lane);
+    const Way *way = &alone->way[lane];
+    do {
+        if (pile.waiting == 0)
+            return 0;
+        pile.waiting--;
+    } while (limit < pile.near[pile.waiting]);
+    int current = pile.node[pile.waiting];
+    if (current < 0) {
+        if (!try_leaves(SCENE_ARGUMENTS found, rays, way, &pile, limit, lane))
+            return 0;
+    } else {
+        vreal entry;
+        vmask met = meet_children(&rays->slabs, way, wide_bounds + (uint64)current * WIDE_STRIDE,
+                                  limit, lane, &entry);
+        put_children(SCENE_ARGUMENTS & pile, current, met, entry);
+    }
+    alone->waiting[lane] = pile.waiting;
+    return pile.waiting;
 }
 
 /* Each ray takes a step in its turn: what it has asked memory for comes while others work. */
@@ -452,5 +488,7 @@ FN void search_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmas
     else
         try_all(SCENE_ARGUMENTS found, rays, m, instance->first_triangle, instance->triangle_count);
 }
+
+#endif
 
 #endif

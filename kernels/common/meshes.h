@@ -4,12 +4,7 @@
 #define HD_MESHES_H
 
 #include "intersection.h"
-#include "mesh_walk.h"
-#if HD_LANES > 1
 #include "mesh_walk_wide.h"
-#else
-#include "mesh_walk_one.h"
-#endif
 
 /* Rays relative to the meshes' centre. */
 typedef struct {

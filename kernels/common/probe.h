@@ -4,8 +4,8 @@
 #ifndef HD_PROBE_H
 #define HD_PROBE_H
 
-#include "dialect.h"
-#include "scene_arguments.h"
+#include "division.h"
+#include "kernel_arguments.h"
 
 #define PROBE_NAME(name, words) PROBE_##name,
 enum { HD_PROBE_NUMBERS(PROBE_NAME) PROBE_NUMBER_COUNT };

@@ -13,12 +13,17 @@ typedef struct {
     int x, y;
 } Pixel;
 
-/* The pixel at a place of the order described at HD_BLOCK_SIDE, whose block begins at `corner`. */
+/* Column and row of pixel number `z` of a block, in the order described at HD_BLOCK_SIDE; of an
+   integer or a bundle of them. */
+#define Z_COLUMN(z) (((z)&1) | ((z) >> 1 & 2) | ((z) >> 2 & 4))
+#define Z_ROW(z)    (((z) >> 1 & 1) | ((z) >> 2 & 2) | ((z) >> 3 & 4))
+
+/* The pixel at a place of that order, whose block begins at `corner`. */
 FN Pixel pixel_in_block(Pixel corner, int place) {
     int z = place % HD_BLOCK_PIXELS;
     Pixel pixel;
-    pixel.x = corner.x + ((z & 1) | (z >> 1 & 2) | (z >> 2 & 4));
-    pixel.y = corner.y + ((z >> 1 & 1) | (z >> 2 & 2) | (z >> 3 & 4));
+    pixel.x = corner.x + Z_COLUMN(z);
+    pixel.y = corner.y + Z_ROW(z);
     return pixel;
 }
 
@@ -69,8 +74,8 @@ FN void listed_samples(SAMPLE_PARAMETERS vint within, vmask *alive, vint *x, vin
 FN vmask pixels_at(GLOBAL const View *view, int item, vint place, vint *x, vint *y) {
     vint z = (place + item * HD_PIXELS_PER_ITEM % HD_BLOCK_PIXELS) & (HD_BLOCK_PIXELS - 1);
     Pixel corner = block_of_item(view, item);
-    *x = ((z & 1) | (z >> 1 & 2) | (z >> 2 & 4)) + corner.x;
-    *y = ((z >> 1 & 1) | (z >> 2 & 2) | (z >> 3 & 4)) + corner.y;
+    *x = Z_COLUMN(z) + corner.x;
+    *y = Z_ROW(z) + corner.y;
     return lt_int(place, splat_int(HD_PIXELS_PER_ITEM)) & lt_int(*x, splat_int(view->width)) &
            lt_int(*y, splat_int(view->height));
 }
@@ -369,6 +374,32 @@ FN void sum_counts(GLOBAL const RayCounts *counts, int count, int worker, int wo
     for (int i = worker; i < count; i += workers)
         add_counts(&sum, counts[i]);
     sums[worker] = sum;
+}
+
+/* ---- from radiance to the 8 bits that most files store ---- */
+
+enum { INFINITE_BITS = 0x7f800000 };
+
+/* The greatest code whose threshold is not above a value; 0 for NaN. Value and thresholds, by code
+   and positive, are given as the bits of floats: as integers they have the order of the values, and
+   no compiler may take liberties with NaN. Negative values are below every threshold. */
+FN uint encode8(int bits, GLOBAL const int *thresholds) {
+    uint code = 0;
+    for (uint step = 128; step > 0; step >>= 1)
+        if (bits <= INFINITE_BITS && bits >= thresholds[code + step])
+            code += step;
+    return code;
+}
+
+/* Encodes every `workers`-th of `count` pixels from number `worker` on: three floats, as bits,
+   become the bytes r, g, b and an alpha of 255. */
+FN void encode_pixels(GLOBAL const int *pixels, int count, GLOBAL const int *thresholds, int worker,
+                      int workers, GLOBAL uint *image) {
+    for (int i = worker; i < count; i += workers) {
+        GLOBAL const int *rgb = pixels + (uint64)i * 3;
+        image[i] = encode8(rgb[0], thresholds) | encode8(rgb[1], thresholds) << 8 |
+                   encode8(rgb[2], thresholds) << 16 | 0xff000000u;
+    }
 }
 
 #endif

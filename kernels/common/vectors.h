@@ -3,7 +3,7 @@
 #ifndef HD_VECTORS_H
 #define HD_VECTORS_H
 
-#include "dialect.h"
+#include "division.h"
 #include "scene_tables.h"
 
 typedef struct {

@@ -142,10 +142,6 @@ FN Ray first_rays(SAMPLE_PARAMETERS int item, int number, int count) {
     return eye_ray(direction, alive & lanes_below(count));
 }
 
-FN vint numbers_from(int number) {
-    return lane_numbers() + number;
-}
-
 /* Traces the rays of a take, whose batch begins with the item's sample `first_sample`. Rays that
    pass go on from the place take.to, mirrored ones from take.room places behind it: rays that went
    the same way stay together. */
@@ -160,7 +156,7 @@ FN void trace_take(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first_sample,
         vint numbers;
         if (take.level == 0) {
             ray = first_rays(SAMPLE_ARGUMENTS item, first_sample + number, take.count - i);
-            numbers = numbers_from(number);
+            numbers = lane_numbers() + number;
         } else {
             ray = load_rays(QUEUE_ARGUMENTS number, take.count - i, MESHES(header), &numbers);
         }

@@ -14,7 +14,7 @@ typedef unsigned int uint;
 typedef unsigned long long uint64;
 typedef long long fixed64;
 
-#include "../common/one_lane.h"
+#include "../common/lanes.h"
 
 #if HD_DOUBLE
 #define HD_AS_BITS __double_as_longlong

@@ -3,12 +3,12 @@
 #include "dialect.h"
 
 /* The text has each file once, where it is asked for first: what either part needs comes before. */
-#include "../common/dialect.h"
-#include "../common/scene_arguments.h"
+#include "../common/division.h"
+#include "../common/kernel_arguments.h"
+#include "../common/scene_tables.h"
 #if HD_PROBE
 #include "../common/probe.h"
 #else
-#include "../common/encode.h"
 #include "../common/render.h"
 #if HD_WAVEFRONT
 #include "../common/wavefront.h"

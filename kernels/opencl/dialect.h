@@ -23,7 +23,6 @@ typedef long fixed64;
 
 #if HD_LANES == 1
 
-#include "../common/one_lane.h"
 #define HD_WIDE(name) name
 
 #else
@@ -46,6 +45,24 @@ typedef int real_bits;
 typedef vint vbits;
 typedef HD_WIDE(long) vfix;
 
+#if defined(__clang__) && defined(__AVX512DQ__) && HD_LANES * (HD_DOUBLE + 1) == 16
+/* Builtins are Clang's own affair, and may go. */
+#if HD_DOUBLE
+#if __has_builtin(__builtin_ia32_cmppd512_mask) && __has_builtin(__builtin_ia32_selectpd_512) &&   \
+    __has_builtin(__builtin_ia32_cmpq512_mask) && __has_builtin(__builtin_ia32_selectq_512)
+#define HD_OWN_MASKS
+#endif
+#elif __has_builtin(__builtin_ia32_cmpps512_mask) && __has_builtin(__builtin_ia32_selectps_512) && \
+    __has_builtin(__builtin_ia32_cmpd512_mask) && __has_builtin(__builtin_ia32_selectd_512)
+#define HD_OWN_MASKS
+#endif
+#endif
+#endif
+
+#include "../common/lanes.h"
+
+#if HD_LANES > 1
+
 FN vreal splat(real a) {
     return (vreal)(a);
 }
@@ -56,23 +73,61 @@ FN vint splat_int(int a) {
     return (vint)(a);
 }
 
-#if defined(__clang__) && defined(__AVX512DQ__) && HD_LANES * (HD_DOUBLE + 1) == 16
-/* Builtins are Clang's own affair, and may go. */
+#ifdef HD_OWN_MASKS
+/* Masks of bundles that fill a register of 512 bits: a bit for each lane, as in plain C. Of masks
+   as integers Clang keeps in vector registers what should be in those of masks. */
 #if HD_DOUBLE
-#if __has_builtin(__builtin_ia32_cmppd512_mask) && __has_builtin(__builtin_ia32_selectpd_512) &&   \
-    __has_builtin(__builtin_ia32_cmpq512_mask) && __has_builtin(__builtin_ia32_selectq_512)
-#define HD_MASKS_OF_BITS
-#endif
-#elif __has_builtin(__builtin_ia32_cmpps512_mask) && __has_builtin(__builtin_ia32_selectps_512) && \
-    __has_builtin(__builtin_ia32_cmpd512_mask) && __has_builtin(__builtin_ia32_selectd_512)
-#define HD_MASKS_OF_BITS
-#endif
-#endif
-#ifdef HD_MASKS_OF_BITS
-#include "masks_avx512.h"
+typedef uchar vmask;
+#define HD_COMPARE_REALS(a, b, how) __builtin_ia32_cmppd512_mask(a, b, how, 0xff, 4)
+#define HD_COMPARE_INTS(a, b, how)  __builtin_ia32_cmpq512_mask(a, b, how, 0xff)
+#define HD_SELECT_REALS             __builtin_ia32_selectpd_512
+#define HD_SELECT_INTS              __builtin_ia32_selectq_512
 #else
-#include "../common/wide_masks.h"
+typedef ushort vmask;
+#define HD_COMPARE_REALS(a, b, how) __builtin_ia32_cmpps512_mask(a, b, how, 0xffff, 4)
+#define HD_COMPARE_INTS(a, b, how)  __builtin_ia32_cmpd512_mask(a, b, how, 0xffff)
+#define HD_SELECT_REALS             __builtin_ia32_selectps_512
+#define HD_SELECT_INTS              __builtin_ia32_selectd_512
+#endif
+enum { REALS_LESS = 17, REALS_LESS_EQUAL = 18, INTS_EQUAL = 0, INTS_LESS = 1 };
 
+FN vmask lt(vreal a, vreal b) {
+    return HD_COMPARE_REALS(a, b, REALS_LESS);
+}
+FN vmask le(vreal a, vreal b) {
+    return HD_COMPARE_REALS(a, b, REALS_LESS_EQUAL);
+}
+FN vmask eq_int(vint a, vint b) {
+    return HD_COMPARE_INTS(a, b, INTS_EQUAL);
+}
+FN vmask lt_int(vint a, vint b) {
+    return HD_COMPARE_INTS(a, b, INTS_LESS);
+}
+FN vreal pick(vmask m, vreal a, vreal b) {
+    return HD_SELECT_REALS(m, a, b);
+}
+FN vint pick_int(vmask m, vint a, vint b) {
+    return HD_SELECT_INTS(m, a, b);
+}
+FN int any_lane(vmask m) {
+    return m != 0;
+}
+
+FN vmask mask_none(void) {
+    return 0;
+}
+FN vmask mask_all(void) {
+    return (vmask)-1;
+}
+FN int first_lane(vmask m) {
+    return 31 - (int)clz((uint)m & (0u - m));
+}
+
+#define HD_OWN_LANE_BITS
+FN uint lane_bits(vmask m) {
+    return m;
+}
+#else
 FN vreal pick(vmask m, vreal a, vreal b) {
     return select(b, a, m);
 }
@@ -138,8 +193,6 @@ FN vint load_ints(GLOBAL const int *from) {
 
 #endif
 
-#include "../common/rows.h"
-
 #if HD_LANES > 1 && !HD_DOUBLE
 #define HD_OWN_ROWS
 /* The rows of four lanes; the halves of its halves are what the rows have at one place. Written
@@ -172,17 +225,6 @@ FN FourWords fetch_four_words(GLOBAL const uint *table, vint index) {
     found.word[2] = HD_OF_ROWS(even.odd);
     found.word[3] = HD_OF_ROWS(odd.odd);
     return found;
-}
-FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
-    FourWords words = fetch_four_words((GLOBAL const uint *)table, index);
-    FourReals found;
-    for (int i = 0; i < 4; i++)
-        found.number[i] = HD_WIDE(as_float)(words.word[i]);
-    return found;
-}
-FN FourReals load_rows(GLOBAL const real *table, vint index, int count) {
-    (void)count;
-    return fetch_four_reals(table, index);
 }
 #endif
 

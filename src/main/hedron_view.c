@@ -6,23 +6,27 @@
 #include "main/program.h"
 #include "view/view.h"
 
-#if !HD_HAS_SDL
-HdStatus hd_view_in_window(const HdViewPlan *plan, HdError *error) {
-    (void)plan;
-    return hd_fail(error, HD_UNAVAILABLE,
-                   "hedron-view was built without SDL 2 (libsdl2-dev), so that it has no window; "
-                   "'hedron view --terminal' shows the scene in a terminal");
-}
-#endif
-
-#if !HD_HAS_CHAFA
-HdStatus hd_view_in_terminal(const HdViewPlan *plan, HdError *error) {
+static HdStatus show_terminal(const HdViewPlan *plan, HdError *error) {
+#if HD_HAS_CHAFA
+    return hd_view_in_terminal(plan, error);
+#else
     (void)plan;
     return hd_fail(error, HD_UNAVAILABLE,
                    "hedron-view was built without chafa (libchafa-dev), so that it has no "
                    "--terminal");
-}
 #endif
+}
+
+static HdStatus show_window(const HdViewPlan *plan, HdError *error) {
+#if HD_HAS_SDL
+    return hd_view_in_window(plan, error);
+#else
+    (void)plan;
+    return hd_fail(error, HD_UNAVAILABLE,
+                   "hedron-view was built without SDL 2 (libsdl2-dev), so that it has no window; "
+                   "'hedron view --terminal' shows the scene in a terminal");
+#endif
+}
 
 static HdStatus run(const HdOptions *options, HdError *error) {
     const HdViewPlan plan = {options->scene, options->devices};
@@ -32,7 +36,7 @@ static HdStatus run(const HdOptions *options, HdError *error) {
         return hd_fail(error, HD_BAD_INPUT,
                        "'hedron view' needs a scene's file, which it reads again when it changes, "
                        "and not standard input");
-    return options->terminal ? hd_view_in_terminal(&plan, error) : hd_view_in_window(&plan, error);
+    return (options->terminal ? show_terminal : show_window)(&plan, error);
 }
 
 int main(int count, char **arguments) {

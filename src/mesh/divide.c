@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "mesh/divide.h"
+#include "mesh/mesh.h"
 
 #include <stdlib.h>
 

@@ -81,30 +81,13 @@ static Children gather(const HdHierarchy *hierarchy, int node, int width) {
     return children;
 }
 
-static bool grow(HdWideHierarchy *wide, int *capacity, int most) {
-    if (wide->node_count < *capacity)
-        return true;
-    const size_t bytes = (size_t)wide->width * sizeof *wide->child;
-    const int doubled = *capacity > most / 2 ? most : 2 * *capacity;
-    int32_t *child = hd_large_allocate((size_t)doubled * bytes);
-    if (child == NULL)
-        return false;
-    memcpy(child, wide->child, (size_t)wide->node_count * bytes);
-    free(wide->child);
-    wide->child = child;
-    *capacity = doubled;
-    return true;
-}
-
-/* Decides on all wide nodes, depth first. False: out of memory. */
-static bool merge(HdWideHierarchy *wide, const HdHierarchy *hierarchy, int capacity) {
+/* Decides on all wide nodes, depth first. */
+static void merge(HdWideHierarchy *wide, const HdHierarchy *hierarchy) {
     Waiting waiting[MOST_WAITING];
     int waiting_count = 0;
     waiting[waiting_count++] = (Waiting){0, 1};
     while (waiting_count > 0) {
         const Waiting current = waiting[--waiting_count];
-        if (!grow(wide, &capacity, hierarchy->node_count))
-            return false;
         const int number = wide->node_count++;
         wide->root_of[current.node] = number;
         if (wide->depth < current.depth)
@@ -118,7 +101,6 @@ static bool merge(HdWideHierarchy *wide, const HdHierarchy *hierarchy, int capac
                 waiting[waiting_count++] =
                     (Waiting){child_at(hierarchy, places[i]), current.depth + 1};
     }
-    return true;
 }
 
 /* Puts boxes and numbers where the places are. */
@@ -142,17 +124,15 @@ static void fill_node(HdWideHierarchy *wide, const HdHierarchy *hierarchy, int n
 }
 
 static bool widen(HdWideHierarchy *wide, const HdHierarchy *hierarchy) {
-    const size_t width = (size_t)wide->width;
-    /* What is enough if all nodes become full; if not, it grows. */
-    const int guess = hierarchy->node_count / (wide->width - 1) + 1;
-    wide->root_of = hd_large_allocate((size_t)hierarchy->node_count * sizeof *wide->root_of);
-    wide->child = hd_large_allocate((size_t)guess * width * sizeof *wide->child);
+    const size_t width = (size_t)wide->width, most = (size_t)hierarchy->node_count;
+    wide->root_of = hd_large_allocate(most * sizeof *wide->root_of);
+    /* For a few times as many nodes as there will be; memory that is not touched is not taken. */
+    wide->child = hd_large_allocate(most * width * sizeof *wide->child);
     if (wide->root_of == NULL || wide->child == NULL)
         return false;
     for (int i = 0; i < hierarchy->node_count; i++)
         wide->root_of[i] = -1;
-    if (!merge(wide, hierarchy, guess))
-        return false;
+    merge(wide, hierarchy);
     const size_t count = (size_t)wide->node_count;
     int32_t *less = realloc(wide->child, count * width * sizeof *less);
     if (less != NULL)

@@ -10,7 +10,24 @@
 #include "base/error.h"
 #include "base/vector.h"
 #include "mesh/hierarchy.h"
-#include "mesh/material.h"
+
+/* What a surface does to light: Phong's terms and the two rays that go on. On each side reflection
+ * + transmission <= 1. */
+typedef struct HdMaterial {
+    HdVec3 colour;      /* 0..1; tints diffuse light and what passes through */
+    HdVec3 mirror_tint; /* 0..1; tints the mirror image */
+    double ambient;
+    double diffuse;
+    double specular;
+    int shininess; /* exponent, 1..HD_MAX_SHININESS */
+    double reflection;
+    double transmission;
+    double inner_reflection; /* of rays that meet the face from inside the solid; */
+    double inner_transmission;
+    bool has_inner_side;        /* without it both sides reflect and transmit alike */
+    double index_of_refraction; /* inside the solid, 1 outside; 1: rays go straight on */
+    bool lit_from_behind; /* lights behind the face shine through: diffuse * transmission of them */
+} HdMaterial;
 
 enum {
     HD_MAX_MESH_TRIANGLES = 100 * 1000 * 1000,
@@ -66,6 +83,16 @@ void hd_mesh_drop_degenerate(HdMesh *mesh);
    there is too little memory; the mesh is then as it was. */
 HdStatus hd_mesh_smooth(HdMesh *mesh, double crease_degrees, HdError *error);
 
+/* Divides each triangle of a mesh without normals and texture coordinates into `divisions` x
+   `divisions` equal ones, which keep its material and group. Triangles that share an edge share the
+   new vertices on it. HD_BAD_INPUT: there would be more than HD_MAX_MESH_TRIANGLES; then, and when
+   there is no memory, the mesh stays as it is. */
+HdStatus hd_divide_triangles(HdMesh *mesh, int divisions, HdError *error);
+
+/* Checks `divisions`, and that `triangle_count` triangles so divided are no more than
+   HD_MAX_MESH_TRIANGLES. */
+HdStatus hd_check_divisions(int64_t triangle_count, int divisions, HdError *error);
+
 /* Corners of the box about all triangles; of a mesh without any, both are 0. */
 void hd_mesh_box(const HdMesh *mesh, HdVec3 *lower, HdVec3 *upper);
 
@@ -84,5 +111,14 @@ static inline double hd_mesh_half_side(const HdMesh *mesh) {
 
 /* Frees what the mesh owns and clears it. */
 void hd_mesh_free(HdMesh *mesh);
+
+/* Concave polygons take time with the square of their corners. */
+enum { HD_MAX_CONCAVE_CORNERS = 1024 };
+
+/* Cuts a polygon of `count` corners, at least 3, into `count` - 2 triangles of the same sense: a
+   fan of the first corner where that covers it, else ears in the plane of the axes that it faces
+   most. What crosses itself is cut into as many triangles, somehow. `triangles` get numbers of
+   corners. False: the polygon is no fan and has more than HD_MAX_CONCAVE_CORNERS. */
+bool hd_polygon_cut(const HdVec3 *corners, int count, int32_t (*triangles)[3]);
 
 #endif

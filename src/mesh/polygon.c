@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "mesh/polygon.h"
+#include "mesh/mesh.h"
 
 /* A ring of the corners that are left, in the plane in which the polygon runs counterclockwise. */
 typedef struct Ring {

@@ -10,7 +10,6 @@
 #include "base/limits.h"
 #include "base/vector.h"
 #include "image/format.h"
-#include "mesh/material.h"
 #include "mesh/mesh.h"
 #include "scene/platonic.h"
 

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/trigonometry.h"
-#include "mesh/divide.h"
+#include "mesh/mesh.h"
 #include "scene/facets.h"
 #include "system/machine.h"
 

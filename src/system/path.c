@@ -57,8 +57,7 @@ static bool is_folder(const char *path) {
 }
 
 /* Making first and looking second leaves no gap for another process that makes the same folder. */
-static HdStatus make_folder(const char *folder, unsigned mode, const char *path,
-                            HdError *error) {
+static HdStatus make_folder(const char *folder, unsigned mode, const char *path, HdError *error) {
     if (mkdir(folder, mode) == 0)
         return HD_OK;
     int reason = errno;

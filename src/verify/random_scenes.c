@@ -19,10 +19,10 @@ enum { WIDTH = 24, HEIGHT = 16, MOST_SOLIDS = 5, MOST_LIGHTS = 3 };
 /* Of planes that kernels have room for; a floor takes five, cubes the fewest of all solids. */
 enum { PLANES = 32, FLOOR_PLANES = 5, LEAST_PLANES = 3 };
 
-#define SHALLOW .plane_count = PLANES, .depth = 8
-#define DEEP    .plane_count = PLANES, .depth = 16
-#define MESHES  .node_stack = 32
-#define ALL     .refracts = true, .lit_from_behind = true, .many_lights = true
+#define SHALLOW    .plane_count = PLANES, .depth = 8
+#define DEEP       .plane_count = PLANES, .depth = 16
+#define HAS_MESHES .node_stack = 32
+#define ALL        .refracts = true, .lit_from_behind = true, .many_lights = true
 /* What is small enough for constant memory is there (HdSceneTables.small_tables). */
 #define SMALL .small_tables = true
 
@@ -51,11 +51,11 @@ static const Kind kinds[] = {
      .has_many_lights = true},
     {.name = "all solids can do", .needs = {SHALLOW, SMALL, ALL}},
     {.name = "all, deep", .needs = {DEEP, SMALL, ALL}},
-    {.name = "meshes", .needs = {SHALLOW, SMALL, MESHES}, .has_meshes = true},
-    {.name = "meshes and all", .needs = {SHALLOW, SMALL, MESHES, ALL}, .has_meshes = true},
+    {.name = "meshes", .needs = {SHALLOW, SMALL, HAS_MESHES}, .has_meshes = true},
+    {.name = "meshes and all", .needs = {SHALLOW, SMALL, HAS_MESHES, ALL}, .has_meshes = true},
     {.name = "surveyed", .needs = {SHALLOW, SMALL, ALL, .surveyed = true}, .is_surveyed = true},
     {.name = "meshes in global memory, surveyed",
-     .needs = {SHALLOW, MESHES, ALL, .surveyed = true},
+     .needs = {SHALLOW, HAS_MESHES, ALL, .surveyed = true},
      .has_meshes = true,
      .is_surveyed = true},
 };

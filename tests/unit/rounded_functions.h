@@ -8,7 +8,7 @@
 
 #include "cpu/dialect.h"
 
-#include "kernels/common/dialect.h"
+#include "kernels/common/division.h"
 
 #include "unit_test.h"
 #include "verify/probe_operands.h"

@@ -6,6 +6,9 @@
 #include "base/error.h"
 #include "mesh/mesh.h"
 
+/* The most bytes of a line, continued ones together; comments may be longer. */
+enum { HD_OBJ_MOST_LINE = 65000 };
+
 /* Reads the file at `path`, with the MTL files it names, which lie beside it or below. Polygons
    become triangles. Materials become ours by the table in docs/formats.md: Kd colour (and what
    passes), Ks specular, Ns shininess, Ka ambient, Ke emission, d or Tf transmission, Ni index of

@@ -2,7 +2,7 @@
 /* The kernels' conversion to 8 bits makes the bytes that the host's does. */
 #include "cpu/dialect.h"
 #include "image/curve.h"
-#include "kernels/common/encode.h"
+#include "kernels/common/render.h"
 #include "unit_test.h"
 
 static int32_t thresholds[256];

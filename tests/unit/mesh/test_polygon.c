@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "base/trigonometry.h"
-#include "mesh/polygon.h"
+#include "mesh/mesh.h"
 #include "unit_test.h"
 
 enum { MOST = HD_MAX_CONCAVE_CORNERS };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "mesh/obj/names.h"
+#include "mesh/obj/reading.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Which builds of the kernels this processor can run. */
-#ifndef HD_CPU_INSTRUCTION_SET_H
-#define HD_CPU_INSTRUCTION_SET_H
+#ifndef HD_CPU_BUILDS_H
+#define HD_CPU_BUILDS_H
 
 #include "cpu/kernel.h"
 #include "device/options.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L
-#include "cpu/instruction_set.h"
+#include "cpu/builds.h"
 
 #include <stdbool.h>
 #include <stdio.h>

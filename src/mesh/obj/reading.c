@@ -1,10 +1,55 @@
 /* SPDX-License-Identifier: MIT */
-#include "mesh/obj/words.h"
+#include "mesh/obj/reading.h"
 
 #include <math.h>
-#include <string.h>
+#include <stdlib.h>
 
+#include "base/hash.h"
 #include "base/limits.h"
+
+void *hd_obj_resize(HdObjMemory *memory, void *array, size_t size, size_t before, size_t count) {
+    const size_t others = memory->used - before * size;
+    if (count > SIZE_MAX / size || count * size > memory->most ||
+        others > memory->most - count * size) {
+        memory->is_over = true;
+        return NULL;
+    }
+    void *resized = realloc(array, count > 0 ? count * size : 1);
+    if (resized != NULL)
+        memory->used = others + count * size;
+    return resized;
+}
+
+void *hd_obj_grow(HdObjMemory *memory, void *array, size_t size, size_t count, size_t *room) {
+    if (count <= *room)
+        return array;
+    const size_t more = *room + *room / 2 + 16;
+    const size_t wanted = count > more ? count : more;
+    void *grown = hd_obj_resize(memory, array, size, *room, wanted);
+    if (grown != NULL)
+        *room = wanted;
+    return grown;
+}
+
+void *hd_obj_allocate(HdObjMemory *memory, size_t count, size_t size) {
+    return hd_obj_resize(memory, NULL, size, 0, count);
+}
+
+void hd_obj_release(HdObjMemory *memory, void *array, size_t bytes) {
+    if (array != NULL)
+        memory->used -= bytes;
+    free(array);
+}
+
+HdStatus hd_obj_fail_memory(const HdObjMemory *memory, const char *path, HdError *error) {
+    if (memory->is_over)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s: reading it takes more than the %zu bytes of memory that it may take",
+                       path, memory->most);
+    return hd_fail(error, HD_FAILED, "out of memory: no room to read the mesh %s", path);
+}
+
+/* ---- words ---- */
 
 enum {
     MOST_SHOWN = 80,
@@ -27,7 +72,7 @@ int hd_span_shown(HdSpan span) {
 
 bool hd_span_is(HdSpan span, const char *text) {
     const size_t length = strlen(text);
-    return (size_t)(span.end - span.begin) == length && memcmp(span.begin, text, length) == 0;
+    return hd_span_size(span) == length && memcmp(span.begin, text, length) == 0;
 }
 
 static bool is_blank(char c) {
@@ -150,4 +195,70 @@ void hd_fix_separators(char *name) {
     for (; *name != '\0'; name++)
         if (*name == '\\')
             *name = '/';
+}
+
+/* ---- names ---- */
+
+enum {
+    SLOTS = 4 * HD_MAX_MESH_MATERIALS,
+    /* With a quarter of the slots in use, only names made to collide need that many. They would
+       make each look-up as long as they like. */
+    MOST_PROBES = 256
+};
+
+static bool allocate_names(HdNameTable *table, HdObjMemory *memory) {
+    table->names = hd_obj_allocate(memory, HD_MAX_MESH_MATERIALS, sizeof *table->names);
+    table->slots = hd_obj_allocate(memory, SLOTS, sizeof *table->slots);
+    if (table->slots != NULL)
+        memset(table->slots, -1, SLOTS * sizeof *table->slots);
+    return table->names != NULL && table->slots != NULL;
+}
+
+void hd_name_table_free(HdNameTable *table) {
+    for (int i = 0; i < table->count; i++)
+        free(table->names[i]);
+    free(table->names);
+    free(table->slots);
+    *table = (HdNameTable){0};
+}
+
+/* The slot that has the name or is free for it; NULL: too many probes. */
+static int32_t *slot_of(const HdNameTable *table, HdSpan name) {
+    const size_t size = hd_span_size(name);
+    size_t at = hd_hash_bytes(HD_HASH_START, name.begin, size) % SLOTS;
+    for (int i = 0; i < MOST_PROBES; i++) {
+        int32_t *slot = &table->slots[at];
+        const char *other = *slot >= 0 ? table->names[*slot] : NULL;
+        /* Of a long name no more is looked at than this one has: short ones collide with many. */
+        if (other == NULL || (strncmp(other, name.begin, size) == 0 && other[size] == '\0'))
+            return slot;
+        at = (at + 1) % SLOTS;
+    }
+    return NULL;
+}
+
+int hd_name_table_find(const HdNameTable *table, HdSpan name) {
+    const int32_t *slot = table->slots != NULL ? slot_of(table, name) : NULL;
+    return slot != NULL ? *slot : -1;
+}
+
+int hd_name_table_add(HdNameTable *table, HdSpan name, HdObjMemory *memory) {
+    const size_t size = hd_span_size(name);
+    if (table->slots == NULL && !allocate_names(table, memory)) {
+        hd_name_table_free(table);
+        return HD_NAME_NO_MEMORY;
+    }
+    int32_t *slot = slot_of(table, name);
+    if (slot != NULL && *slot >= 0)
+        return *slot;
+    if (slot == NULL || table->count == HD_MAX_MESH_MATERIALS)
+        return HD_NAME_TOO_MANY;
+    char *copy = hd_obj_allocate(memory, size + 1, 1);
+    if (copy == NULL)
+        return HD_NAME_NO_MEMORY;
+    memcpy(copy, name.begin, size);
+    copy[size] = '\0';
+    table->names[table->count] = copy;
+    *slot = table->count;
+    return table->count++;
 }

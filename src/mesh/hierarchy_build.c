@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesh/hierarchy_split.h"
 #include "mesh/hierarchy_subtree.h"
 #include "system/interrupt.h"
 #include "system/machine.h"

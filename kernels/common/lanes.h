@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Bundles of one lane: all of the contract (dialect.h) that languages do not differ in. */
-#ifndef HD_ONE_LANE_H
-#define HD_ONE_LANE_H
+/* What languages do not differ in of the contract (dialect.h): all of it where a bundle is one
+   lane; masks of more where a language compares vectors by its operators; and rows. Bundles of more
+   lanes have their types before this, and HD_OWN_MASKS where their masks are others. */
+#ifndef HD_LANES_H
+#define HD_LANES_H
 
 #include "real.h"
+
+#if HD_LANES == 1
 
 typedef real vreal;
 typedef fixed64 vfix;
@@ -80,5 +84,33 @@ FN vreal load_reals(GLOBAL const real *from) {
 FN vint load_ints(GLOBAL const int *from) {
     return *from;
 }
+
+#elif !defined(HD_OWN_MASKS)
+
+typedef vint vmask;
+
+FN vmask lt(vreal a, vreal b) {
+    return a < b;
+}
+FN vmask le(vreal a, vreal b) {
+    return a <= b;
+}
+FN vmask eq_int(vint a, vint b) {
+    return a == b;
+}
+FN vmask lt_int(vint a, vint b) {
+    return a < b;
+}
+
+#endif
+
+/* Four numbers that follow each other in a table, for each lane. */
+typedef struct {
+    vint word[4];
+} FourWords;
+
+typedef struct {
+    vreal number[4];
+} FourReals;
 
 #endif

@@ -1,0 +1,506 @@
+/* SPDX-License-Identifier: MIT */
+/* The materials of an OBJ file, from the material libraries (MTL) that it names. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/limits.h"
+#include "mesh/obj/reading.h"
+#include "system/path.h"
+
+enum { NO_ILLUM = -1, MOST_ILLUM = 10, MOST_NOTED = 32, MOST_LIBRARIES = 64 };
+
+/* The parameters that count, named as in the file. */
+typedef struct Parameters {
+    float Ka[3], Kd[3], Ks[3], Ke[3], Tf[3];
+    float Ns, Ni, d;
+    int illum; /* or NO_ILLUM */
+} Parameters;
+
+/* A material without any: white and opaque. */
+static const Parameters defaults = {.Kd = {1.0f, 1.0f, 1.0f},
+                                    .Tf = {1.0f, 1.0f, 1.0f},
+                                    .Ns = 64.0f,
+                                    .Ni = 1.0f,
+                                    .d = 1.0f,
+                                    .illum = NO_ILLUM};
+
+typedef struct Definition {
+    Parameters parameters;
+    char *texture; /* owned; NULL: none */
+    bool is_defined;
+} Definition;
+
+typedef struct Libraries {
+    const char *path; /* of the mesh */
+    HdObjMemory *memory;
+    HdProblems *notes;
+    const HdNameTable *materials; /* that the mesh names */
+    Definition *definitions;      /* of each */
+    int32_t *order; /* numbers of those that are defined, in the order of the libraries */
+    int defined_count;
+    const char *names[MOST_LIBRARIES]; /* of those that were asked for */
+    int count;
+} Libraries;
+
+/* Of one library, statement by statement: each is checked and kept in one go. */
+typedef struct Reader {
+    Libraries *libraries;
+    const char *path;
+    HdSpan folder; /* which its names count from, below the mesh's: empty, or with a slash at its
+                      end */
+    size_t line;
+    bool is_in_material;
+    bool has_dissolve;    /* the material has d, so Tr does not count */
+    Definition *material; /* which is being defined; */
+    Definition unused;    /* this one, where it is not wanted */
+    bool is_out_of_memory;
+    HdSpan noted[MOST_NOTED]; /* statements whose first use has been told */
+    int noted_count;
+} Reader;
+
+/* ---- materials as ours ---- */
+
+typedef struct Notes {
+    const char *place;
+    HdProblems *problems;
+} Notes;
+
+static double within(const Notes *notes, const char *name, double value, double low, double high) {
+    const double legal = value < low ? low : value > high ? high : value;
+    if (legal != value)
+        hd_problem(notes->problems, "%s: %s is %.9g, expected %.15g to %.15g, and becomes %.15g",
+                   notes->place, name, value, low, high, legal);
+    return legal;
+}
+
+static HdVec3 colour(const Notes *notes, const char *name, const float from[3], double high) {
+    return hd_vec3(within(notes, name, (double)from[0], 0.0, high),
+                   within(notes, name, (double)from[1], 0.0, high),
+                   within(notes, name, (double)from[2], 0.0, high));
+}
+
+static double largest(HdVec3 a) {
+    return fmax(a.x, fmax(a.y, a.z));
+}
+
+static double mean(HdVec3 a) {
+    return (a.x + a.y + a.z) / 3.0;
+}
+
+/* The colour alone of what has a strength too; white where there is none. */
+static HdVec3 tint_of(HdVec3 a) {
+    return largest(a) > 0.0 ? hd_scale(a, 1.0 / largest(a)) : hd_vec3(1.0, 1.0, 1.0);
+}
+
+static bool is_mirror(int illum) {
+    return illum >= 3 && illum <= 9;
+}
+
+static bool refracts(int illum) {
+    return illum == 6 || illum == 7;
+}
+
+/* What of the light passes: what d leaves, or, where light is refracted and d says nothing, Tf. */
+static double transmission_of(const Notes *notes, const Parameters *from, HdVec3 filter) {
+    const double passing = 1.0 - within(notes, "d", (double)from->d, 0.0, 1.0);
+    return passing > 0.0 || !refracts(from->illum) ? passing : largest(filter);
+}
+
+/* Where more would go on than came, both shares shrink alike. */
+static void limit_shares(const Notes *notes, HdMaterial *material) {
+    const double sum = material->reflection + material->transmission;
+    if (sum <= 1.0)
+        return;
+    hd_problem(notes->problems,
+               "%s: Ks makes it reflect %.6g and d or Tf lets %.6g pass, expected at most 1 "
+               "together, and both are divided by %.6g",
+               notes->place, material->reflection, material->transmission, sum);
+    material->reflection /= sum;
+    material->transmission = 1.0 - material->reflection;
+}
+
+static int shininess_of(const Notes *notes, const Parameters *from, double specular) {
+    if (specular == 0.0)
+        return (int)(fmin(fmax((double)from->Ns, 1.0), HD_MAX_SHININESS) + 0.5);
+    return (int)(within(notes, "Ns", (double)from->Ns, 1.0, HD_MAX_SHININESS) + 0.5);
+}
+
+/* Only where the file does not say that light goes straight on. */
+static double index_of(const Notes *notes, const Parameters *from, double transmission) {
+    if (transmission == 0.0 || !(refracts(from->illum) || from->illum == NO_ILLUM))
+        return 1.0;
+    return within(notes, "Ni", (double)from->Ni, HD_MIN_INDEX_OF_REFRACTION,
+                  HD_MAX_INDEX_OF_REFRACTION);
+}
+
+/* Fills all of `material` but its name and its texture, by the table in docs/formats.md. Values
+   that had to be changed to be legal are told in `notes`, whose lines begin with `place`. */
+static void make_material(const Parameters *from, HdMeshMaterial *material, const char *place,
+                          HdProblems *notes) {
+    const Notes all = {place, notes};
+    const HdVec3 diffuse = colour(&all, "Kd", from->Kd, 1.0);
+    const HdVec3 specular = colour(&all, "Ks", from->Ks, 1.0);
+    const HdVec3 filter = colour(&all, "Tf", from->Tf, 1.0);
+    const double passing = transmission_of(&all, from, filter);
+    HdMaterial *to = &material->material;
+    *to = (HdMaterial){.colour = diffuse, .mirror_tint = hd_vec3(1.0, 1.0, 1.0)};
+    to->ambient = mean(colour(&all, "Ka", from->Ka, 1.0));
+    to->diffuse = 1.0 - passing;
+    to->transmission = passing;
+    if (passing > 0.0 && largest(diffuse) == 0.0) {
+        /* Glass is often black but for its filter, and our one colour tints what passes too. */
+        to->colour = tint_of(filter);
+        to->diffuse = 0.0;
+    }
+    if (from->illum != 0 && from->illum != 1)
+        to->specular = mean(specular);
+    if (is_mirror(from->illum)) {
+        to->reflection = largest(specular);
+        to->mirror_tint = tint_of(specular);
+    }
+    to->shininess = shininess_of(&all, from, to->specular);
+    to->index_of_refraction = index_of(&all, from, to->transmission);
+    limit_shares(&all, to);
+    material->emission = colour(&all, "Ke", from->Ke, HD_MAX_NUMBER);
+}
+
+/* ---- statements ---- */
+
+/* The folder of the path with its last slash, or nothing. */
+static HdSpan folder_of(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return (HdSpan){path, slash != NULL ? slash + 1 : path};
+}
+
+#define note(reader, format, ...)                                                                  \
+    hd_problem((reader)->libraries->notes, "%s: line %zu: " format, (reader)->path,                \
+               (reader)->line, __VA_ARGS__)
+
+/* Of two materials with one name the first counts. */
+static Definition *define(Reader *reader, HdSpan name) {
+    Libraries *libraries = reader->libraries;
+    const int number = hd_name_table_find(libraries->materials, name);
+    if (number < 0 || libraries->definitions[number].is_defined)
+        return &reader->unused;
+    libraries->order[libraries->defined_count++] = number;
+    libraries->definitions[number].is_defined = true;
+    return &libraries->definitions[number];
+}
+
+static void start_material(Reader *reader, HdSpan line) {
+    const HdSpan name = hd_rest(line);
+    const char *fault = hd_name_fault(name);
+    reader->is_in_material = fault == NULL;
+    reader->has_dissolve = false;
+    if (fault != NULL)
+        note(reader, "the name of a material, expected %s; it is left out", fault);
+    else
+        reader->material = define(reader, name);
+}
+
+/* Reads up to `most` numbers, at least one. 0, after a note: they are not all right. */
+static int read_numbers(Reader *reader, HdSpan keyword, HdSpan line, int most, double *values) {
+    for (int i = 0; i < most; i++) {
+        const HdSpan word = hd_next_word(&line);
+        if (i > 0 && word.begin == word.end)
+            return i;
+        const char *fault = hd_number_fault(word, &values[i]);
+        if (fault != NULL) {
+            note(reader, "%.*s has '%.*s', expected %s; the line is left out",
+                 hd_span_shown(keyword), keyword.begin, hd_span_shown(word), word.begin, fault);
+            return 0;
+        }
+    }
+    return most;
+}
+
+/* One number stands for all three of a colour. */
+static void keep_numbers(Reader *reader, HdSpan keyword, HdSpan line, float *to, int most) {
+    double values[3];
+    const int count = read_numbers(reader, keyword, line, most, values);
+    if (count == 0)
+        return;
+    for (int i = 0; i < most; i++)
+        to[i] = (float)values[i < count ? i : 0];
+    reader->has_dissolve |= hd_span_is(keyword, "d");
+}
+
+/* In millionths, so that 1 - 0.9 is 0.1. */
+static void keep_transparency(Reader *reader, HdSpan keyword, HdSpan line) {
+    double value;
+    if (read_numbers(reader, keyword, line, 1, &value) == 0 || reader->has_dissolve)
+        return;
+    const double opacity = value < 0.0 ? 1.0 : value > 1.0 ? 0.0 : 1.0 - value;
+    reader->material->parameters.d = (float)((int)(opacity * 1e6 + 0.5) / 1e6);
+    if (value < 0.0 || value > 1.0)
+        note(reader, "Tr is %.9g, expected 0 to 1, and is taken for the nearer of them", value);
+}
+
+static void keep_illum(Reader *reader, HdSpan line) {
+    double value;
+    const HdSpan word = hd_next_word(&line);
+    if (hd_number_fault(word, &value) != NULL || value < 0.0 || value > MOST_ILLUM ||
+        value != (int)value)
+        note(reader, "illum is '%.*s', expected 0 to %d; the line is left out", hd_span_shown(word),
+             word.begin, (int)MOST_ILLUM);
+    else
+        reader->material->parameters.illum = (int)value;
+}
+
+/* What the name of a texture counts from; without a folder it is named all the same, so that a name
+   below is taken for nothing but a file's. */
+static HdSpan folder_of_textures(const char *path) {
+    static const char here[] = "./";
+    const HdSpan folder = folder_of(path);
+    return folder.begin < folder.end ? folder : (HdSpan){here, here + strlen(here)};
+}
+
+/* The last one counts. */
+static void set_texture(Reader *reader, HdSpan name) {
+    const HdSpan parts[] = {folder_of_textures(reader->libraries->path), reader->folder, name};
+    size_t size = 1;
+    for (int i = 0; i < 3; i++)
+        size += hd_span_size(parts[i]);
+    char *texture = hd_obj_allocate(reader->libraries->memory, size, 1), *to = texture;
+    if (texture == NULL) {
+        reader->is_out_of_memory = true;
+        return;
+    }
+    for (int i = 0; i < 3; to += hd_span_size(parts[i]), i++)
+        memcpy(to, parts[i].begin, hd_span_size(parts[i]));
+    *to = '\0';
+    hd_fix_separators(texture + hd_span_size(parts[0]));
+    free(reader->material->texture);
+    reader->material->texture = texture;
+}
+
+static void keep_texture(Reader *reader, HdSpan line) {
+    const HdSpan name = hd_rest(line);
+    const char *fault = hd_file_name_fault(name);
+    if (fault == NULL && *name.begin == '-')
+        fault = "a name without options before it";
+    if (fault != NULL)
+        note(reader, "map_Kd is '%.*s', expected %s; there will be no texture", hd_span_shown(name),
+             name.begin, fault);
+    else if (reader->material != &reader->unused)
+        set_texture(reader, name);
+}
+
+static void leave_out(Reader *reader, HdSpan keyword) {
+    const size_t size = hd_span_size(keyword);
+    for (int i = 0; i < reader->noted_count; i++)
+        if (hd_span_size(reader->noted[i]) == size &&
+            memcmp(reader->noted[i].begin, keyword.begin, size) == 0)
+            return;
+    if (reader->noted_count == MOST_NOTED)
+        return;
+    reader->noted[reader->noted_count++] = keyword;
+    if (hd_name_fault(keyword) == NULL)
+        note(reader, "%.*s is not used", hd_span_shown(keyword), keyword.begin);
+    else
+        note(reader, "%s", "it has no statement of a material library");
+}
+
+static void take_statement(Reader *reader, HdSpan keyword, HdSpan line) {
+    Parameters *to = &reader->material->parameters;
+    const struct {
+        const char *keyword;
+        float *to;
+        int count;
+    } numbers[] = {{"Kd", to->Kd, 3}, {"Ka", to->Ka, 3},  {"Ks", to->Ks, 3},  {"Ke", to->Ke, 3},
+                   {"Tf", to->Tf, 3}, {"Ns", &to->Ns, 1}, {"Ni", &to->Ni, 1}, {"d", &to->d, 1}};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (hd_span_is(keyword, numbers[i].keyword)) {
+            keep_numbers(reader, keyword, line, numbers[i].to, numbers[i].count);
+            return;
+        }
+    if (hd_span_is(keyword, "Tr"))
+        keep_transparency(reader, keyword, line);
+    else if (hd_span_is(keyword, "illum"))
+        keep_illum(reader, line);
+    else if (hd_span_is(keyword, "map_Kd"))
+        keep_texture(reader, line);
+    else
+        leave_out(reader, keyword);
+}
+
+static void take_line(Reader *reader, HdSpan line) {
+    const HdSpan keyword = hd_next_word(&line);
+    if (keyword.begin == keyword.end || *keyword.begin == '#')
+        return;
+    if (hd_span_is(keyword, "newmtl"))
+        start_material(reader, line);
+    else if (reader->is_in_material)
+        take_statement(reader, keyword, line);
+}
+
+/* Takes a line that ends in "\n", "\r\n" or "\r", or at the text's end. */
+static HdSpan take_next_line(HdSpan *text) {
+    const char *at = text->begin;
+    while (at < text->end && *at != '\n' && *at != '\r')
+        at++;
+    const HdSpan line = {text->begin, at};
+    if (at < text->end && *at++ == '\r' && at < text->end && *at == '\n')
+        at++;
+    text->begin = at;
+    return line;
+}
+
+/* Takes the definitions of materials that the mesh names and that are not defined yet, with all
+   parameters that they do not give as in `defaults`; Tr becomes d. What is left out is told, each
+   kind of statement once. False: the memory does not suffice. */
+static bool read_definitions(Reader *reader, HdSpan text) {
+    if (memchr(text.begin, '\0', (size_t)(text.end - text.begin)) != NULL) {
+        hd_problem(reader->libraries->notes, "%s: it has bytes 0, so this is no material library",
+                   reader->path);
+        return true;
+    }
+    while (text.begin < text.end) {
+        reader->line++;
+        take_line(reader, take_next_line(&text));
+    }
+    return !reader->is_out_of_memory;
+}
+
+/* ---- libraries ---- */
+
+static bool is_known(const Libraries *libraries, const char *name) {
+    for (int i = 0; i < libraries->count; i++)
+        if (strcmp(libraries->names[i], name) == 0)
+            return true;
+    return false;
+}
+
+/* Whether the library is to be read, now and never again. */
+static bool admit(Libraries *libraries, const char *name) {
+    const HdSpan span = {name, name + strlen(name)};
+    const char *fault = hd_file_name_fault(span);
+    if (is_known(libraries, name))
+        return false;
+    if (libraries->count == MOST_LIBRARIES)
+        fault = "no more than 64 libraries";
+    if (fault != NULL) {
+        hd_problem(libraries->notes, "%s: the material library '%.*s' is not read, expected %s",
+                   libraries->path, hd_span_shown(span), name, fault);
+        return false;
+    }
+    libraries->names[libraries->count++] = name;
+    return true;
+}
+
+static bool read_file(Libraries *libraries, const char *path, const char *name, HdError *problem) {
+    unsigned char *bytes;
+    size_t size;
+    HdObjMemory *memory = libraries->memory;
+    const size_t room = memory->most - memory->used;
+    const int64_t most = room < INT32_MAX ? (int64_t)room : INT32_MAX;
+    if (hd_file_read(path, "material library", most, &bytes, &size, problem) != HD_OK) {
+        hd_problem(libraries->notes, "%s: %s", libraries->path, problem->message);
+        return true;
+    }
+    const char *text = (const char *)bytes;
+    Reader reader = {.libraries = libraries, .path = path, .folder = folder_of(name)};
+    memory->used += size;
+    const bool has_room = read_definitions(&reader, (HdSpan){text, text + size});
+    hd_obj_release(memory, bytes, size);
+    return has_room;
+}
+
+static bool read_library(Libraries *libraries, const char *name) {
+    const HdSpan folder = folder_of(libraries->path);
+    const size_t before = hd_span_size(folder), size = before + strlen(name) + 1;
+    char *path = hd_obj_allocate(libraries->memory, size, 1);
+    HdError *problem = hd_obj_allocate(libraries->memory, 1, sizeof *problem);
+    bool has_room = path != NULL && problem != NULL;
+    if (has_room) {
+        memcpy(path, folder.begin, before);
+        memcpy(path + before, name, size - before);
+        has_room = read_file(libraries, path, name, problem);
+    }
+    hd_obj_release(libraries->memory, path, size);
+    hd_obj_release(libraries->memory, problem, sizeof *problem);
+    return has_room;
+}
+
+static bool read_libraries(Libraries *libraries, char *names, size_t size) {
+    for (size_t at = 0; at < size; at += strlen(&names[at]) + 1) {
+        hd_fix_separators(&names[at]);
+        if (admit(libraries, &names[at]) && !read_library(libraries, &names[at]))
+            return false;
+    }
+    return true;
+}
+
+/* What has no definition is as if it had one that says nothing. */
+static void define_materials(const Libraries *libraries, HdMesh *mesh) {
+    char place[256];
+    for (int i = 0; i < mesh->material_count; i++)
+        make_material(&defaults, &mesh->materials[i], "", libraries->notes);
+    for (int i = 0; i < libraries->defined_count; i++) {
+        const int number = libraries->order[i];
+        Definition *definition = &libraries->definitions[number];
+        HdMeshMaterial *material = &mesh->materials[number];
+        const HdSpan name = {material->name, material->name + strlen(material->name)};
+        snprintf(place, sizeof place, "%s: material '%.*s'", libraries->path, hd_span_shown(name),
+                 name.begin);
+        make_material(&definition->parameters, material, place, libraries->notes);
+        material->texture = definition->texture;
+        definition->texture = NULL;
+    }
+}
+
+static void note_undefined(const Libraries *libraries, const HdMesh *mesh) {
+    const int count = mesh->material_count - libraries->defined_count;
+    int first = 0;
+    if (count == 0)
+        return;
+    while (libraries->definitions[first].is_defined)
+        first++;
+    const char *name = mesh->materials[first].name;
+    if (mesh->material_count == 1 && strcmp(name, HD_OBJ_NO_MATERIAL) == 0)
+        return; /* the file wants none */
+    hd_problem(libraries->notes,
+               "%s: no material library has '%.80s'%s, so the default look is taken: white, opaque",
+               libraries->path, name, count > 1 ? " and others that faces name" : "");
+}
+
+/* The names become the mesh's. */
+static bool name_materials(HdNameTable *names, HdObjMemory *memory, HdMesh *mesh) {
+    mesh->materials = hd_obj_allocate(memory, (size_t)names->count, sizeof *mesh->materials);
+    if (mesh->materials == NULL)
+        return false;
+    mesh->material_count = names->count;
+    for (int i = 0; i < names->count; i++) {
+        mesh->materials[i] =
+            (HdMeshMaterial){.name = names->names[i], .picture = -1, .passes_as = -1};
+        names->names[i] = NULL;
+    }
+    return true;
+}
+
+static bool allocate(Libraries *libraries) {
+    const size_t count = (size_t)libraries->materials->count;
+    libraries->definitions =
+        hd_obj_allocate(libraries->memory, count, sizeof *libraries->definitions);
+    libraries->order = hd_obj_allocate(libraries->memory, count, sizeof *libraries->order);
+    for (size_t i = 0; libraries->definitions != NULL && i < count; i++)
+        libraries->definitions[i] = (Definition){.parameters = defaults};
+    return libraries->definitions != NULL && libraries->order != NULL;
+}
+
+bool hd_obj_read_materials(HdMesh *mesh, const char *path, HdNameTable *names, char *libraries,
+                           size_t size, HdObjMemory *memory, HdProblems *notes) {
+    Libraries all = {.path = path, .memory = memory, .notes = notes, .materials = names};
+    const bool has_room = allocate(&all) && read_libraries(&all, libraries, size) &&
+                          name_materials(names, memory, mesh);
+    if (has_room) {
+        define_materials(&all, mesh);
+        note_undefined(&all, mesh);
+    }
+    for (int i = 0; all.definitions != NULL && i < names->count; i++)
+        free(all.definitions[i].texture);
+    free(all.definitions);
+    free(all.order);
+    return has_room;
+}
