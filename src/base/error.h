@@ -32,6 +32,15 @@ __attribute__((format(printf, 3, 4)))
 HdStatus
 hd_fail(HdError *error, HdStatus status, const char *format, ...);
 
+/* Leaves the calling function with the status of `call` unless that is HD_OK. For functions that
+   have nothing to give up first. */
+#define HD_TRY(call)                    \
+    do {                                \
+        const HdStatus tried_ = (call); \
+        if (tried_ != HD_OK)            \
+            return tried_;              \
+    } while (0)
+
 /* Puts `name` and a colon before the message of `error`, which is cut if it gets too long. */
 void hd_error_prefix(HdError *error, const char *name);
 
