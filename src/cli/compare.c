@@ -30,8 +30,9 @@ typedef struct Comparison {
     HdPictureFacts facts[PICTURES];
     HdCurve curve;
     HdPictureValue *rows[PICTURES];
-    double *errors; /* of a row; NULL without a heat map */
-    HdHeatMap *map; /* NULL: none is asked for, or it is written */
+    double *errors;             /* of a row; NULL without a heat map */
+    HdFrame map;                /* encoded; without `rgba` no heat map is asked for */
+    char map_path[HD_MAX_PATH]; /* of it */
     HdPictureDifference *difference;
     HdPictureFigures figures;
     Further further[HD_MOST_FURTHER];
@@ -282,16 +283,18 @@ static HdStatus open_pictures(Comparison *comparison, HdError *error) {
 }
 
 static HdStatus open_map(Comparison *comparison, HdError *error) {
-    char path[HD_MAX_PATH];
-    HdStatus status = hd_path_expand_home(comparison->options->diff, path, error);
-    if (status != HD_OK)
-        return status;
+    const HdPictureFacts *facts = &comparison->facts[0];
+    char *path = comparison->map_path;
+    HD_TRY(hd_path_expand_home(comparison->options->diff, path, error));
     for (int i = 0; i < PICTURES; i++)
         if (hd_path_is_same(path, comparison->names[i]))
             return hd_fail(error, HD_BAD_INPUT, "--diff %s would replace the picture %s", path,
                            comparison->names[i]);
-    return hd_heat_map_open(&comparison->map, path, comparison->facts[0].width,
-                            comparison->facts[0].height, error);
+    comparison->errors = malloc((size_t)facts->width * sizeof *comparison->errors);
+    if (comparison->errors == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a row of pixels");
+    comparison->map = (HdFrame){.width = facts->width, .height = facts->height, .is_encoded = true};
+    return hd_frame_add_rgba(&comparison->map, error);
 }
 
 static HdStatus start(Comparison *comparison, HdError *error) {
@@ -305,40 +308,33 @@ static HdStatus start(Comparison *comparison, HdError *error) {
         if (status == HD_OK && comparison->rows[i] == NULL)
             status = hd_fail(error, HD_FAILED, "out of memory: no room for a row of pixels");
     }
-    if (status != HD_OK || comparison->options->diff == NULL)
-        return status;
-    comparison->errors = malloc(width * sizeof *comparison->errors);
-    if (comparison->errors == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a row of pixels");
-    return open_map(comparison, error);
+    return status == HD_OK && comparison->options->diff != NULL ? open_map(comparison, error)
+                                                                : status;
 }
 
 static HdStatus compare_row(Comparison *comparison, int y, HdError *error) {
-    HdStatus status = HD_OK;
-    for (int i = 0; i < PICTURES && status == HD_OK; i++)
-        status = hd_picture_reader_next(comparison->readers[i], comparison->rows[i], error);
-    if (status != HD_OK)
-        return status;
-    hd_difference_add_row(comparison->difference, comparison->rows[0], comparison->rows[1],
-                          comparison->facts[0].width, comparison->errors);
+    const int width = comparison->facts[0].width;
+    for (int i = 0; i < PICTURES; i++)
+        HD_TRY(hd_picture_reader_next(comparison->readers[i], comparison->rows[i], error));
+    hd_difference_add_row(comparison->difference, comparison->rows[0], comparison->rows[1], width,
+                          comparison->errors);
     compare_further(comparison, y);
-    return comparison->map != NULL ? hd_heat_map_add_row(comparison->map, comparison->errors, error)
-                                   : HD_OK;
+    for (int x = 0; x < width && comparison->errors != NULL; x++)
+        hd_heat_colour(comparison->errors[x],
+                       comparison->map.rgba + 4 * ((size_t)y * (size_t)width + (size_t)x));
+    return HD_OK;
 }
 
 static HdStatus compare_rows(Comparison *comparison, HdError *error) {
-    HdStatus status = HD_OK;
-    for (int y = 0; y < comparison->facts[0].height && status == HD_OK; y++) {
+    const HdPictureStyle style = {HD_CURVE_SRGB, 8};
+    for (int y = 0; y < comparison->facts[0].height; y++) {
         if (hd_interrupt_signal() != 0)
             return hd_fail(error, HD_INTERRUPTED, "interrupted after %d rows", y);
-        status = compare_row(comparison, y, error);
+        HD_TRY(compare_row(comparison, y, error));
     }
-    if (status == HD_OK && comparison->map != NULL) {
-        HdHeatMap *map = comparison->map;
-        comparison->map = NULL;
-        status = hd_heat_map_commit(map, error);
-    }
-    return status;
+    return comparison->map.rgba != NULL
+               ? hd_picture_write(&comparison->map, &style, comparison->map_path, error)
+               : HD_OK;
 }
 
 /* ---- the command ---- */
@@ -368,7 +364,7 @@ static void close_all(Comparison *comparison) {
         free(comparison->rows[i]);
     }
     free(comparison->errors);
-    hd_heat_map_discard(comparison->map);
+    hd_frame_free(&comparison->map);
     hd_difference_free(comparison->difference);
 }
 

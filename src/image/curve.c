@@ -40,14 +40,15 @@ static uint32_t entries8[BUCKETS_8 + 1]; /* the last one for 1 */
 static float thresholds16[65537];        /* by code: its least value; one more, infinite */
 /* By bucket: the position of its least value; one more, that of 1. */
 static uint32_t buckets16[BUCKETS_16 + 1];
-static uint16_t decoded[65536];
 
-/* For 0 < x <= 1. Newton's steps from above fall until rounding stops them. */
-static double fifth_root(double x) {
+/* The third or the fifth root of 0 < x <= 1. Newton's steps from above fall until rounding stops
+   them. */
+static double odd_root(double x, int degree) {
     double root = 1.0;
     for (;;) {
         const double square = root * root;
-        const double next = root - (root - x / (square * square)) / 5.0;
+        const double power = degree == 3 ? square : square * square;
+        const double next = root - (root - x / power) / degree;
         if (!(next < root))
             return root;
         root = next;
@@ -59,18 +60,7 @@ static double srgb_to_linear(double value) {
     if (value <= 0.04045)
         return value / 12.92;
     const double x = (value + 0.055) / 1.055;
-    return x * x * fifth_root(x * x);
-}
-
-/* For 0 < x <= 1, as above. */
-static double cube_root(double x) {
-    double root = 1.0;
-    for (;;) {
-        const double next = root - (root - x / (root * root)) / 3.0;
-        if (!(next < root))
-            return root;
-        root = next;
-    }
+    return x * x * odd_root(x * x, 5);
 }
 
 /* x^(1/2.4) is the fourth root of x times the cube root of its square. */
@@ -78,7 +68,7 @@ static double linear_to_srgb(double value) {
     if (value <= 0.04045 / 12.92)
         return value * 12.92;
     const double square = sqrt(value);
-    return 1.055 * sqrt(square) * cube_root(square) - 0.055;
+    return 1.055 * sqrt(square) * odd_root(square, 3) - 0.055;
 }
 
 static uint32_t bits_of(float value) {
@@ -133,15 +123,6 @@ static void fill_search16(void) {
         const uint32_t rounded = (uint32_t)(position * (1 << POSITION_BITS));
         buckets16[i] = rounded > POSITION_MARGIN ? rounded - POSITION_MARGIN : 0;
     }
-}
-
-static uint16_t decode(double value) {
-    return (uint16_t)(srgb_to_linear(value) * 65535.0 + 0.5);
-}
-
-static void fill_decoded(void) {
-    for (int code = 0; code < 65536; code++)
-        decoded[code] = decode(code / 65535.0);
 }
 
 /* NaN becomes the least as well. */
@@ -210,26 +191,23 @@ void hd_curve_encode_rgba(HdCurve curve, const float *rgb, size_t pixels, uint8_
     }
 }
 
-/* Halves the range of bits in which the code begins; positive floats have their bits' order. */
-static uint32_t find_linear8(unsigned code) {
-    uint32_t below = 0, above = bits_of(1.0f);
-    while (above - below > 1) {
-        const uint32_t middle = below + (above - below) / 2;
-        if (linear8(float_of(middle)) < code)
-            below = middle;
-        else
-            above = middle;
-    }
-    return above;
-}
-
+/* Halves the range of bits in which a code begins; positive floats have their bits' order. */
 void hd_curve_thresholds8(HdCurve curve, int32_t thresholds[256]) {
-    float values[257];
-    fill_thresholds(values, 255);
     thresholds[0] = 0;
-    for (unsigned code = 1; code < 256; code++)
-        thresholds[code] =
-            (int32_t)(curve == HD_CURVE_LINEAR ? find_linear8(code) : bits_of(values[code]));
+    for (int code = 1; code < 256; code++) {
+        uint32_t below = 0, above = bits_of(1.0f);
+        while (above - below > 1) {
+            const uint32_t middle = below + (above - below) / 2;
+            const float value = float_of(middle);
+            uint8_t encoded;
+            hd_curve_encode8(curve, &value, 1, &encoded);
+            if (encoded < code)
+                below = middle;
+            else
+                above = middle;
+        }
+        thresholds[code] = (int32_t)above;
+    }
 }
 
 void hd_curve_encode16(HdCurve curve, const float *values, size_t count, uint16_t *out) {
@@ -245,17 +223,13 @@ void hd_curve_encode16(HdCurve curve, const float *values, size_t count, uint16_
 }
 
 void hd_curve_decode16(HdCurve curve, uint16_t *values, size_t count) {
-    static pthread_once_t once = PTHREAD_ONCE_INIT;
-    if (curve == HD_CURVE_LINEAR)
-        return;
-    pthread_once(&once, fill_decoded);
-    for (size_t i = 0; i < count; i++)
-        values[i] = decoded[values[i]];
-}
-
-void hd_curve_decode8(HdCurve curve, uint16_t values[256]) {
-    for (int code = 0; code < 256; code++)
-        values[code] = (uint16_t)(curve == HD_CURVE_LINEAR ? code * 257 : decode(code / 255.0));
+    uint16_t decoded[65536] = {0}; /* by code; 0: it was not met, or is next to black */
+    for (size_t i = 0; i < count && curve == HD_CURVE_SRGB; i++) {
+        const uint16_t code = values[i];
+        if (decoded[code] == 0)
+            decoded[code] = (uint16_t)(srgb_to_linear(code / 65535.0) * 65535.0 + 0.5);
+        values[i] = decoded[code];
+    }
 }
 
 double hd_curve_to_display(HdCurve curve, double linear) {

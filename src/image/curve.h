@@ -24,11 +24,8 @@ void hd_curve_encode_rgba(HdCurve curve, const float *rgb, size_t pixels, uint8_
    has the greatest code whose threshold is not above it. */
 void hd_curve_thresholds8(HdCurve curve, int32_t thresholds[256]);
 
-/* The way back, in place, 0..65535 for 0..1. */
+/* The way back, in place, 0..65535 for 0..1; each code is worked out once in a call. */
 void hd_curve_decode16(HdCurve curve, uint16_t *values, size_t count);
-
-/* The same for 8 bits: by code, 0..65535 for 0..1. */
-void hd_curve_decode8(HdCurve curve, uint16_t values[256]);
 
 /* The curve itself in double, for 0..1; what lies outside is clamped. NaN stays. */
 double hd_curve_to_display(HdCurve curve, double linear);

@@ -6,8 +6,6 @@
 #include <string.h>
 
 #include "base/quantile.h"
-#include "image/png.h"
-#include "system/atomic_file.h"
 
 enum { CHANNELS = 3 };
 
@@ -181,13 +179,6 @@ static const uint8_t colours[DOUBLINGS + 1][3] = {
 };
 static const uint8_t no_error[3] = {0, 0, 0}, no_number[3] = {0, 255, 255};
 
-struct HdHeatMap {
-    HdAtomicFile file;
-    HdPngWriter *png; /* owned */
-    int width;
-    uint8_t *row; /* owned */
-};
-
 void hd_heat_colour(double error, uint8_t rgb[3]) {
     if (isnan(error) || error < LEAST) {
         memcpy(rgb, isnan(error) ? no_number : no_error, 3);
@@ -199,59 +190,4 @@ void hd_heat_colour(double error, uint8_t rgb[3]) {
         const double from = colours[below][c], to = colours[below + 1][c];
         rgb[c] = (uint8_t)lround(from + (place - below) * (to - from));
     }
-}
-
-static void free_map(HdHeatMap *map) {
-    hd_png_free(map->png);
-    free(map->row);
-    free(map);
-}
-
-HdStatus hd_heat_map_open(HdHeatMap **out, const char *path, int width, int height,
-                          HdError *error) {
-    const HdPictureFacts facts = {
-        .width = width, .height = height, .bits = 8, .curve = HD_CURVE_SRGB};
-    HdHeatMap *map = calloc(1, sizeof *map);
-    uint8_t *row = malloc((size_t)width * 3);
-    if (map == NULL || row == NULL) {
-        free(map);
-        free(row);
-        return hd_fail(error, HD_FAILED, "out of memory: no room to write %s", path);
-    }
-    map->width = width;
-    map->row = row;
-    HdStatus status = hd_atomic_file_open(&map->file, path, error);
-    if (status != HD_OK) {
-        free_map(map);
-        return status;
-    }
-    status = hd_png_begin(&map->png, map->file.stream, map->file.path, &facts, NULL, error);
-    if (status == HD_OK)
-        *out = map;
-    else
-        hd_heat_map_discard(map);
-    return status;
-}
-
-HdStatus hd_heat_map_add_row(HdHeatMap *map, const double *errors, HdError *error) {
-    for (int x = 0; x < map->width; x++)
-        hd_heat_colour(errors[x], map->row + 3 * (size_t)x);
-    return hd_png_write_row(map->png, map->row, error);
-}
-
-HdStatus hd_heat_map_commit(HdHeatMap *map, HdError *error) {
-    HdStatus status = hd_png_end(map->png, NULL, error);
-    if (status == HD_OK)
-        status = hd_atomic_file_commit(&map->file, HD_DURABLE, error);
-    else
-        hd_atomic_file_discard(&map->file);
-    free_map(map);
-    return status;
-}
-
-void hd_heat_map_discard(HdHeatMap *map) {
-    if (map == NULL)
-        return;
-    hd_atomic_file_discard(&map->file);
-    free_map(map);
 }

@@ -63,19 +63,4 @@ void hd_difference_free(HdPictureDifference *difference);
 /* The colour of an error in steps of 255, at least 0 or NaN; r, g, b on the sRGB curve. */
 void hd_heat_colour(double error, uint8_t rgb[3]);
 
-typedef struct HdHeatMap HdHeatMap;
-
-/* Begins a PNG of width * height, 1..65535 each, that appears under its name when it is complete.
- */
-HdStatus hd_heat_map_open(HdHeatMap **map, const char *path, int width, int height, HdError *error);
-
-/* The next row from the top, an error for each pixel. */
-HdStatus hd_heat_map_add_row(HdHeatMap *map, const double *errors, HdError *error);
-
-/* Ends the file after its last row, and frees the map in any case. */
-HdStatus hd_heat_map_commit(HdHeatMap *map, HdError *error);
-
-/* Leaves no file. NULL is allowed. */
-void hd_heat_map_discard(HdHeatMap *map);
-
 #endif

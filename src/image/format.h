@@ -89,10 +89,10 @@ struct HdFormat {
     HdStatus (*load)(HdFrame *frame, const unsigned char *bytes, size_t size, const char *name,
                      HdError *error);
 
-    /* Of textures: decodes into a cleared one and takes its values off the curve; on failure it may
+    /* Of textures: decodes into a cleared one, whose values stay on their curve; on failure it may
        hold memory that the caller clears. */
     HdStatus (*decode)(HdTexture *texture, const unsigned char *bytes, size_t size,
-                       const char *name, HdCurve curve, HdError *error);
+                       const char *name, HdError *error);
 
     /* Of what is told apart by its first bytes, of which there are 8 at least in a whole file. */
     bool (*begins)(const unsigned char *bytes, size_t size);
@@ -108,5 +108,13 @@ struct HdFormat {
     void (*close_rows)(void *rows);
     bool is_on_curve;
 };
+
+/* A finished frame's PNG ends with its label's fingerprint, last but IEND, in a chunk of the type
+   tEXt, with a hash of all bytes before (hash.h). This is the size of that chunk and IEND. */
+enum { HD_PNG_END_SIZE = 12 + 7 + 45 + 12 };
+
+/* Whether these bytes are those of a PNG that ends with that fingerprint: not one has changed since
+   it was written. */
+bool hd_png_is_whole(const unsigned char *bytes, size_t size, uint64_t fingerprint);
 
 #endif

@@ -6,10 +6,10 @@
 
 #include <errno.h>
 #include <stdbool.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/limits.h"
+#include "base/minmax.h"
 
 enum { HEAD_SIZE = 8 };
 
@@ -26,35 +26,24 @@ static int64_t get_int32(const unsigned char bytes[4]) {
     return bits > INT32_MAX ? (int64_t)bits - (INT64_C(1) << 32) : (int64_t)bits;
 }
 
-static bool write_all(const HdFrame *frame, HdCurve curve, FILE *stream, uint8_t *row) {
+static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
+                      const HdPictureLabel *label, FILE *stream, const char *path, HdError *error) {
+    enum { AT_ONCE = 1024 };
+    const size_t pixels = (size_t)frame->width * (size_t)frame->height;
     unsigned char head[HEAD_SIZE];
-    const size_t width = (size_t)frame->width;
+    uint8_t encoded[4 * AT_ONCE];
+    (void)label; /* there is no place for it */
     put_int32(head, frame->width);
     put_int32(head + 4, frame->height);
     bool good = fwrite(head, 1, HEAD_SIZE, stream) == HEAD_SIZE;
-    for (int y = 0; y < frame->height && good; y++) {
-        const uint8_t *pixels = row;
-        if (frame->is_encoded)
-            pixels = frame->rgba + width * 4 * (size_t)y;
-        else
-            hd_curve_encode_rgba(curve, frame->rgb + width * 3 * (size_t)y, width, row);
-        good = fwrite(pixels, 4, width, stream) == width;
+    for (size_t first = 0; first < pixels && good; first += AT_ONCE) {
+        const size_t count = hd_min_size(pixels - first, AT_ONCE);
+        const uint8_t *rgba = frame->is_encoded ? frame->rgba + 4 * first : encoded;
+        if (!frame->is_encoded)
+            hd_curve_encode_rgba(style->curve, frame->rgb + 3 * first, count, encoded);
+        good = fwrite(rgba, 4, count, stream) == count;
     }
-    return good;
-}
-
-static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
-                      const HdPictureLabel *label, FILE *stream, const char *path, HdError *error) {
-    (void)label; /* there is no place for it */
-    uint8_t *row = malloc((size_t)frame->width * 4);
-    if (row == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room to write %s", path);
-    bool good = write_all(frame, style->curve, stream, row);
-    int reason = errno;
-    free(row);
-    if (!good)
-        return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(reason));
-    return HD_OK;
+    return good ? HD_OK : hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(errno));
 }
 
 /* Anything that is neither PNG nor JPEG arrives here, so that wrong sizes most often mean another
@@ -82,49 +71,37 @@ static HdStatus check_head(const unsigned char *bytes, size_t size, const char *
     return HD_OK;
 }
 
-static bool has_bytes(const unsigned char *bytes, size_t size, size_t at, const char *expected) {
-    return size >= at + strlen(expected) && memcmp(bytes + at, expected, strlen(expected)) == 0;
-}
-
-/* By the first bytes, where they are no picture in the data format; NULL: unknown. */
-static const char *foreign_format(const unsigned char *bytes, size_t size) {
-    if (has_bytes(bytes, size, 0, "GIF8"))
-        return "GIF";
-    if (has_bytes(bytes, size, 0, "RIFF") && has_bytes(bytes, size, 8, "WEBP"))
-        return "WebP";
-    if (has_bytes(bytes, size, 0, "BM"))
-        return "BMP";
-    if (has_bytes(bytes, size, 0, "II*") ||
-        (has_bytes(bytes, size, 0, "MM") && has_bytes(bytes, size, 3, "*")))
-        return "TIFF";
-    return NULL;
-}
-
+/* By what it begins with, where that is no picture in the data format. */
 static HdStatus refuse_foreign(const unsigned char *bytes, size_t size, const char *name,
                                HdError *error) {
-    const char *format = foreign_format(bytes, size);
-    if (format == NULL)
-        return HD_BAD_INPUT;
-    return hd_fail(error, HD_BAD_INPUT, "%s is a %s picture, expected PNG, JPEG or the data format",
-                   name, format);
+    static const struct {
+        size_t at, size;
+        const char *bytes, *format;
+    } known[] = {{0, 4, "GIF8", "GIF"},
+                 {8, 4, "WEBP", "WebP"},
+                 {0, 2, "BM", "BMP"},
+                 {0, 3, "II*", "TIFF"},
+                 {0, 4, "MM\0*", "TIFF"}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (size >= known[i].at + known[i].size &&
+            memcmp(bytes + known[i].at, known[i].bytes, known[i].size) == 0)
+            return hd_fail(error, HD_BAD_INPUT,
+                           "%s is a %s picture, expected PNG, JPEG or the data format", name,
+                           known[i].format);
+    return HD_BAD_INPUT;
 }
 
 static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t size,
-                       const char *name, HdCurve curve, HdError *error) {
-    HdStatus status = check_head(bytes, size, name, error);
-    if (status != HD_OK)
+                       const char *name, HdError *error) {
+    if (check_head(bytes, size, name, error) != HD_OK)
         return refuse_foreign(bytes, size, name, error);
-    status = hd_texture_create(texture, (uint32_t)get_int32(bytes), (uint32_t)get_int32(bytes + 4),
-                               name, error);
-    if (status != HD_OK)
-        return status;
-    uint16_t decoded[256];
-    hd_curve_decode8(curve, decoded);
+    HD_TRY(hd_texture_create(texture, (uint32_t)get_int32(bytes), (uint32_t)get_int32(bytes + 4),
+                             name, error));
     const unsigned char *rgba = bytes + HEAD_SIZE;
-    size_t pixels = (size_t)texture->width * (size_t)texture->height;
+    const size_t pixels = (size_t)texture->width * (size_t)texture->height;
     for (size_t i = 0; i < pixels; i++)
         for (size_t c = 0; c < 3; c++)
-            texture->texels[i * 3 + c] = decoded[rgba[i * 4 + c]];
+            texture->texels[i * 3 + c] = (uint16_t)(rgba[i * 4 + c] * 257);
     return HD_OK;
 }
 

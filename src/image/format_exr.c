@@ -20,6 +20,14 @@ static bool begins(const unsigned char *bytes, size_t size) {
 
 #include <openexr.h>
 
+/* Leaves the calling function with what a call of the library came to unless that is success. */
+#define EXR_TRY(call)                                                                              \
+    do {                                                                                           \
+        const exr_result_t tried_ = (call);                                                        \
+        if (tried_ != EXR_ERR_SUCCESS)                                                             \
+            return tried_;                                                                         \
+    } while (0)
+
 enum { CHANNELS = 3, MESSAGE_SIZE = 256 };
 static const uint64_t MAX_CHUNK_BYTES = UINT64_C(1) << 30;
 
@@ -117,10 +125,6 @@ static uint16_t half_of(float value) {
     return (uint16_t)(sign | (uint16_t)((exponent + 13) * 1024 + (int)steps));
 }
 
-static bool is_written(const HdFrame *frame, const Channel *channel) {
-    return channel->source == RADIANCE || (frame->layers & HD_LAYER_BIT(channel->layer)) != 0;
-}
-
 /* Colour and coverage are as the style has it; numbers of objects need more than half has. */
 static exr_pixel_type_t type_of(const Channel *channel, bool is_half) {
     const bool is_picture = channel->source == RADIANCE || channel->layer == HD_LAYER_ALPHA;
@@ -129,34 +133,29 @@ static exr_pixel_type_t type_of(const Channel *channel, bool is_half) {
 
 static exr_result_t add_channels(exr_context_t context, int part, const HdFrame *frame,
                                  bool is_half) {
-    exr_result_t result = EXR_ERR_SUCCESS;
-    for (int i = 0; i < ALL_CHANNELS && result == EXR_ERR_SUCCESS; i++) {
+    for (int i = 0; i < ALL_CHANNELS; i++) {
         const Channel *channel = &channels[i];
         const bool is_light = channel->source == RADIANCE;
-        if (is_written(frame, channel))
-            result = exr_add_channel(
+        if (is_light || (frame->layers & HD_LAYER_BIT(channel->layer)) != 0)
+            EXR_TRY(exr_add_channel(
                 context, part, channel->name, type_of(channel, is_half),
-                is_light ? EXR_PERCEPTUALLY_LOGARITHMIC : EXR_PERCEPTUALLY_LINEAR, 1, 1);
+                is_light ? EXR_PERCEPTUALLY_LOGARITHMIC : EXR_PERCEPTUALLY_LINEAR, 1, 1));
     }
-    return result;
+    return EXR_ERR_SUCCESS;
 }
 
 static exr_result_t write_attributes(exr_context_t context, int part, const HdFrame *frame,
                                      bool is_half, const HdPictureLabel *label) {
-    exr_result_t result = exr_initialize_required_attr_simple(context, part, frame->width,
-                                                              frame->height, EXR_COMPRESSION_ZIP);
-    if (result == EXR_ERR_SUCCESS)
-        result = add_channels(context, part, frame, is_half);
-    if (label == NULL || result != EXR_ERR_SUCCESS)
-        return result;
-    result = exr_attr_set_string(context, part, "software", "hedron " HD_VERSION);
-    if (result == EXR_ERR_SUCCESS)
-        result = exr_attr_set_string(context, part, "scene", label->scene);
-    if (result == EXR_ERR_SUCCESS)
-        result = exr_attr_set_int(context, part, "frame", label->frame);
-    if (result == EXR_ERR_SUCCESS && label->options[0] != '\0')
-        result = exr_attr_set_string(context, part, "options", label->options);
-    return result;
+    EXR_TRY(exr_initialize_required_attr_simple(context, part, frame->width, frame->height,
+                                                EXR_COMPRESSION_ZIP));
+    EXR_TRY(add_channels(context, part, frame, is_half));
+    if (label == NULL)
+        return EXR_ERR_SUCCESS;
+    EXR_TRY(exr_attr_set_string(context, part, "software", "hedron " HD_VERSION));
+    EXR_TRY(exr_attr_set_string(context, part, "scene", label->scene));
+    EXR_TRY(exr_attr_set_int(context, part, "frame", label->frame));
+    return label->options[0] != '\0' ? exr_attr_set_string(context, part, "options", label->options)
+                                     : EXR_ERR_SUCCESS;
 }
 
 static const Channel *channel_named(const char *name) {
@@ -210,16 +209,13 @@ static exr_result_t write_chunk(exr_context_t context, int part, int y, int line
                                 const HdFrame *frame, unsigned char *planes,
                                 exr_encode_pipeline_t *pipeline) {
     exr_chunk_info_t chunk;
-    exr_result_t result = exr_write_scanline_chunk_info(context, part, y, &chunk);
-    if (result == EXR_ERR_SUCCESS)
-        result = y == 0 ? exr_encoding_initialize(context, part, &chunk, pipeline)
-                        : exr_encoding_update(context, part, &chunk, pipeline);
-    if (result != EXR_ERR_SUCCESS)
-        return result;
+    EXR_TRY(exr_write_scanline_chunk_info(context, part, y, &chunk));
+    EXR_TRY(y == 0 ? exr_encoding_initialize(context, part, &chunk, pipeline)
+                   : exr_encoding_update(context, part, &chunk, pipeline));
     fill_chunk(pipeline, frame, y, lines, planes);
     if (y == 0)
-        result = exr_encoding_choose_default_routines(context, part, pipeline);
-    return result == EXR_ERR_SUCCESS ? exr_encoding_run(context, part, pipeline) : result;
+        EXR_TRY(exr_encoding_choose_default_routines(context, part, pipeline));
+    return exr_encoding_run(context, part, pipeline);
 }
 
 /* `planes` has room for the lines of a chunk. */
@@ -238,20 +234,16 @@ static exr_result_t write_chunks(exr_context_t context, int part, int lines, con
 static exr_result_t write_part(File *file, const HdFrame *frame, bool is_half,
                                const HdPictureLabel *label) {
     int part, lines = 0;
-    exr_result_t result = exr_add_part(file->context, "frame", EXR_STORAGE_SCANLINE, &part);
-    if (result == EXR_ERR_SUCCESS)
-        result = write_attributes(file->context, part, frame, is_half, label);
-    if (result == EXR_ERR_SUCCESS)
-        result = exr_write_header(file->context);
-    if (result == EXR_ERR_SUCCESS)
-        result = exr_get_scanlines_per_chunk(file->context, part, &lines);
-    if (result != EXR_ERR_SUCCESS)
-        return result;
+    EXR_TRY(exr_add_part(file->context, "frame", EXR_STORAGE_SCANLINE, &part));
+    EXR_TRY(write_attributes(file->context, part, frame, is_half, label));
+    EXR_TRY(exr_write_header(file->context));
+    EXR_TRY(exr_get_scanlines_per_chunk(file->context, part, &lines));
     const size_t pixels = (size_t)frame->width * (size_t)lines;
     float *planes = malloc(pixels * ALL_CHANNELS * sizeof *planes); /* or halves */
     if (planes == NULL)
         return EXR_ERR_OUT_OF_MEMORY;
-    result = write_chunks(file->context, part, lines, frame, (unsigned char *)planes);
+    const exr_result_t result =
+        write_chunks(file->context, part, lines, frame, (unsigned char *)planes);
     free(planes);
     return result;
 }
@@ -265,12 +257,12 @@ static HdStatus write_frame(const HdFrame *frame, const HdPictureStyle *style,
     exr_result_t result = exr_start_write(&file.context, path, EXR_WRITE_FILE_DIRECTLY, &settings);
     if (result == EXR_ERR_SUCCESS)
         result = write_part(&file, frame, style->bits < 32, label);
-    if (result != EXR_ERR_SUCCESS)
-        hd_fail(error, HD_FAILED, "cannot write %s: %s", path, message_of(&file, result));
     const exr_result_t finished = exr_finish(&file.context);
-    if (result == EXR_ERR_SUCCESS && finished != EXR_ERR_SUCCESS)
-        hd_fail(error, HD_FAILED, "cannot write %s: %s", path, message_of(&file, finished));
-    return result == EXR_ERR_SUCCESS && finished == EXR_ERR_SUCCESS ? HD_OK : HD_FAILED;
+    if (result == EXR_ERR_SUCCESS)
+        result = finished;
+    return result == EXR_ERR_SUCCESS
+               ? HD_OK
+               : hd_fail(error, HD_FAILED, "cannot write %s: %s", path, message_of(&file, result));
 }
 
 /* Reading */
@@ -357,45 +349,51 @@ static bool find_channels(ExrRows *rows, const exr_attr_chlist_t *list, int *bit
     return found == CHANNELS;
 }
 
+typedef struct Head {
+    int parts;
+    exr_storage_t storage;
+    const exr_attr_chlist_t *list;
+    exr_attr_box2i_t window;
+    uint64_t bytes; /* of a chunk */
+} Head;
+
+/* All but the bytes. */
+static exr_result_t read_head(exr_const_context_t context, Head *head) {
+    EXR_TRY(exr_get_count(context, &head->parts));
+    EXR_TRY(exr_get_storage(context, 0, &head->storage));
+    EXR_TRY(exr_get_channels(context, 0, &head->list));
+    return exr_get_data_window(context, 0, &head->window);
+}
+
 static HdStatus check_head(ExrRows *rows, HdPictureFacts *facts, HdError *error) {
     const exr_const_context_t context = rows->file.context;
     const char *path = rows->file.path;
-    const exr_attr_chlist_t *list = NULL;
-    exr_attr_box2i_t window;
-    exr_storage_t storage;
-    uint64_t bytes = 0;
-    int parts = 0;
-    exr_result_t result = exr_get_count(context, &parts);
-    if (result == EXR_ERR_SUCCESS)
-        result = exr_get_storage(context, 0, &storage);
-    if (result == EXR_ERR_SUCCESS)
-        result = exr_get_channels(context, 0, &list);
-    if (result == EXR_ERR_SUCCESS)
-        result = exr_get_data_window(context, 0, &window);
+    Head head;
+    exr_result_t result = read_head(context, &head);
     if (result != EXR_ERR_SUCCESS)
         return fail_reading(rows, result, error);
-    if (parts != 1 || storage != EXR_STORAGE_SCANLINE)
+    if (head.parts != 1 || head.storage != EXR_STORAGE_SCANLINE)
         return hd_fail(error, HD_BAD_INPUT,
                        "%s is an OpenEXR of several parts, tiles or depths, expected one of lines",
                        path);
-    if (!find_channels(rows, list, &facts->bits))
+    if (!find_channels(rows, head.list, &facts->bits))
         return hd_fail(error, HD_BAD_INPUT,
                        "%s is an OpenEXR without R, G and B in half or float for each pixel", path);
-    const int64_t width = (int64_t)window.max.x - window.min.x + 1;
-    const int64_t height = (int64_t)window.max.y - window.min.y + 1;
+    const int64_t width = (int64_t)head.window.max.x - head.window.min.x + 1;
+    const int64_t height = (int64_t)head.window.max.y - head.window.min.y + 1;
     if (width < 1 || width > HD_MAX_IMAGE_SIDE || height < 1 || height > HD_MAX_IMAGE_SIDE)
         return hd_fail(error, HD_BAD_INPUT, "%s has %lld x %lld pixels, expected 1..%d each", path,
                        (long long)width, (long long)height, HD_MAX_IMAGE_SIDE);
     result = exr_get_scanlines_per_chunk(context, 0, &rows->lines);
     if (result == EXR_ERR_SUCCESS)
-        result = exr_get_chunk_unpacked_size(context, 0, &bytes);
+        result = exr_get_chunk_unpacked_size(context, 0, &head.bytes);
     if (result != EXR_ERR_SUCCESS)
         return fail_reading(rows, result, error);
-    if (rows->lines < 1 || bytes > MAX_CHUNK_BYTES)
+    if (rows->lines < 1 || head.bytes > MAX_CHUNK_BYTES)
         return hd_fail(error, HD_BAD_INPUT,
                        "%s has lines that take %llu bytes at a time, expected at most %llu", path,
-                       (unsigned long long)bytes, (unsigned long long)MAX_CHUNK_BYTES);
-    rows->top = window.min.y;
+                       (unsigned long long)head.bytes, (unsigned long long)MAX_CHUNK_BYTES);
+    rows->top = head.window.min.y;
     rows->width = facts->width = (int)width;
     rows->height = facts->height = (int)height;
     facts->further = rows->channels - CHANNELS;
@@ -410,9 +408,7 @@ static HdStatus open_file(ExrRows *rows, HdPictureFacts *facts, HdError *error) 
     const exr_result_t result = exr_start_read(&rows->file.context, rows->file.path, &settings);
     if (result != EXR_ERR_SUCCESS)
         return fail_reading(rows, result, error);
-    const HdStatus status = check_head(rows, facts, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(check_head(rows, facts, error));
     const size_t values = (size_t)rows->width * (size_t)rows->channels * (size_t)rows->lines;
     rows->values = malloc(values * sizeof *rows->values);
     return rows->values != NULL ? HD_OK : fail_reading(rows, EXR_ERR_OUT_OF_MEMORY, error);
@@ -465,19 +461,15 @@ static void set_target(ExrRows *rows) {
 static exr_result_t read_chunk(ExrRows *rows) {
     const exr_const_context_t context = rows->file.context;
     exr_chunk_info_t chunk;
-    exr_result_t result = exr_read_scanline_chunk_info(context, 0, rows->top + rows->next, &chunk);
-    if (result != EXR_ERR_SUCCESS)
-        return result;
+    EXR_TRY(exr_read_scanline_chunk_info(context, 0, rows->top + rows->next, &chunk));
     const bool is_first = !rows->has_pipeline;
-    result = is_first ? exr_decoding_initialize(context, 0, &chunk, &rows->pipeline)
-                      : exr_decoding_update(context, 0, &chunk, &rows->pipeline);
     rows->has_pipeline = true;
-    if (result != EXR_ERR_SUCCESS)
-        return result;
+    EXR_TRY(is_first ? exr_decoding_initialize(context, 0, &chunk, &rows->pipeline)
+                     : exr_decoding_update(context, 0, &chunk, &rows->pipeline));
     set_target(rows);
     if (is_first)
-        result = exr_decoding_choose_default_routines(context, 0, &rows->pipeline);
-    return result == EXR_ERR_SUCCESS ? exr_decoding_run(context, 0, &rows->pipeline) : result;
+        EXR_TRY(exr_decoding_choose_default_routines(context, 0, &rows->pipeline));
+    return exr_decoding_run(context, 0, &rows->pipeline);
 }
 
 /* The last row's values of a channel. */

@@ -75,7 +75,7 @@ static void set_exact(struct jpeg_decompress_struct *jpeg) {
 
 /* The bytes lie at the begin of the row that they become, so that the way goes from the end. The
    last row is followed by the end of the file, which has to be there. */
-static bool try_rows(Reader *reader, HdTexture *texture, const uint16_t decoded[256]) {
+static bool try_rows(Reader *reader, const HdTexture *texture) {
     struct jpeg_decompress_struct *jpeg = &reader->jpeg;
     const size_t values = (size_t)texture->width * 3;
     if (setjmp(reader->back) != 0)
@@ -87,7 +87,7 @@ static bool try_rows(Reader *reader, HdTexture *texture, const uint16_t decoded[
         unsigned char *bytes = (unsigned char *)row;
         jpeg_read_scanlines(jpeg, &bytes, 1);
         for (size_t i = values; i-- > 0;)
-            row[i] = decoded[bytes[i]];
+            row[i] = (uint16_t)(bytes[i] * 257);
     }
     jpeg_finish_decompress(jpeg);
     return true;
@@ -99,9 +99,8 @@ static HdStatus fail_reading(const Reader *reader, const char *name, HdError *er
 }
 
 static HdStatus decode_with(Reader *reader, HdTexture *texture, const unsigned char *bytes,
-                            size_t size, const char *name, HdCurve curve, HdError *error) {
+                            size_t size, const char *name, HdError *error) {
     const struct jpeg_decompress_struct *jpeg = &reader->jpeg;
-    uint16_t decoded[256];
     if (!try_head(reader, bytes, size))
         return fail_reading(reader, name, error);
     if (jpeg->num_components != 1 && jpeg->num_components != 3)
@@ -109,18 +108,14 @@ static HdStatus decode_with(Reader *reader, HdTexture *texture, const unsigned c
                        "the texture %s is a JPEG of %d colours (4 are those of print, CMYK), "
                        "expected 1 or 3",
                        name, jpeg->num_components);
-    const HdStatus status =
-        hd_texture_create(texture, jpeg->image_width, jpeg->image_height, name, error);
-    if (status != HD_OK)
-        return status;
-    hd_curve_decode8(curve, decoded);
-    return try_rows(reader, texture, decoded) ? HD_OK : fail_reading(reader, name, error);
+    HD_TRY(hd_texture_create(texture, jpeg->image_width, jpeg->image_height, name, error));
+    return try_rows(reader, texture) ? HD_OK : fail_reading(reader, name, error);
 }
 
 static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t size,
-                       const char *name, HdCurve curve, HdError *error) {
+                       const char *name, HdError *error) {
     Reader reader = {.is_memory_short = false};
-    const HdStatus status = decode_with(&reader, texture, bytes, size, name, curve, error);
+    const HdStatus status = decode_with(&reader, texture, bytes, size, name, error);
     jpeg_destroy_decompress(&reader.jpeg);
     return status;
 }

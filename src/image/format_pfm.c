@@ -107,39 +107,18 @@ static HdStatus next_row(void *state, float *values, HdError *error) {
     return HD_OK;
 }
 
-/* Little endian, which the negative scale of the head stands for. */
-static void put_float(unsigned char out[4], float value) {
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    for (int i = 0; i < 4; i++)
-        out[i] = (unsigned char)(bits >> (8 * i) & 0xff);
-}
-
-static bool write_all(const HdFrame *frame, FILE *stream, unsigned char *row) {
-    const size_t values = (size_t)frame->width * 3;
-    bool good = fprintf(stream, "PF\n%d %d\n-1.0\n", frame->width, frame->height) > 0;
-    for (int y = frame->height - 1; y >= 0 && good; y--) {
-        const float *rgb = frame->rgb + values * (size_t)y;
-        for (size_t i = 0; i < values; i++)
-            put_float(row + 4 * i, rgb[i]);
-        good = fwrite(row, 4, values, stream) == values;
-    }
-    return good;
-}
-
+/* In the byte order of the machine, as the scale's sign says. */
 static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
                       const HdPictureLabel *label, FILE *stream, const char *path, HdError *error) {
+    static const uint16_t one = 1;
+    const char *scale = *(const unsigned char *)&one == 1 ? "-1.0" : "1.0";
+    const size_t values = (size_t)frame->width * 3;
     (void)style; /* radiance is on no curve */
     (void)label; /* there is no place for it */
-    unsigned char *row = malloc((size_t)frame->width * 12);
-    if (row == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room to write %s", path);
-    bool good = write_all(frame, stream, row);
-    int reason = errno;
-    free(row);
-    if (!good)
-        return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(reason));
-    return HD_OK;
+    bool good = fprintf(stream, "PF\n%d %d\n%s\n", frame->width, frame->height, scale) > 0;
+    for (int y = frame->height - 1; y >= 0 && good; y--)
+        good = fwrite(frame->rgb + values * (size_t)y, sizeof(float), values, stream) == values;
+    return good ? HD_OK : hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(errno));
 }
 
 const HdFormat hd_format_pfm = {

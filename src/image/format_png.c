@@ -2,8 +2,6 @@
 /* Frames, textures and pictures to compare as PNG. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "image/png.h"
-
 #include <errno.h>
 #include <inttypes.h>
 #include <setjmp.h>
@@ -15,6 +13,7 @@
 
 #include "base/hash.h"
 #include "base/limits.h"
+#include "image/format.h"
 
 /* Far above what a picture needs, far below what would hurt. */
 enum { MAX_CHUNK_BYTES = 8 * 1024 * 1024, MAX_KEPT_CHUNKS = 128 };
@@ -39,14 +38,14 @@ typedef struct PngReader {
     char message[MESSAGE_SIZE];
 } PngReader;
 
-struct HdPngWriter {
+typedef struct PngWriter {
     png_structp png;
     png_infop info;
     FILE *stream;
-    const char *path;
     uint64_t hash; /* of the bytes so far (hash.h) */
+    uint16_t *row; /* owned */
     char message[MESSAGE_SIZE];
-};
+} PngWriter;
 
 static void on_error(png_structp png, png_const_charp message) {
     /* We write few texts: libpng says so of any that it has no memory for. */
@@ -122,8 +121,6 @@ static HdStatus fail_reading(const PngReader *reader, HdError *error) {
 }
 
 static void close_reader(PngReader *reader) {
-    if (reader == NULL)
-        return;
     png_destroy_read_struct(&reader->png, &reader->info, NULL);
     free(reader);
 }
@@ -151,6 +148,14 @@ static HdStatus open_reader(PngReader **out, FILE *file, const char *name, HdErr
     return status;
 }
 
+/* The bytes lie in the row that they become: PNG's 16 bits are big endian, and 8 bits fill the
+   first half, so that the way goes from the end. */
+static void make_codes(uint16_t *row, size_t values, int bits) {
+    const unsigned char *bytes = (const unsigned char *)row;
+    for (size_t i = values; i-- > 0;)
+        row[i] = (uint16_t)(bits == 16 ? bytes[2 * i] << 8 | bytes[2 * i + 1] : bytes[i] * 257);
+}
+
 /* The last row is followed by the end of the file, which has to be there. */
 static bool try_rows(PngReader *reader, uint16_t *codes, int count) {
     const size_t values = (size_t)reader->facts.width * 3;
@@ -163,14 +168,6 @@ static bool try_rows(PngReader *reader, uint16_t *codes, int count) {
     if (reader->next == reader->facts.height)
         png_read_end(reader->png, NULL);
     return true;
-}
-
-/* The bytes lie in the row that they become: PNG's 16 bits are big endian, and 8 bits fill the
-   first half, so that the way goes from the end. */
-static void make_codes(uint16_t *row, size_t values, int bits) {
-    const unsigned char *bytes = (const unsigned char *)row;
-    for (size_t i = values; i-- > 0;)
-        row[i] = (uint16_t)(bits == 16 ? bytes[2 * i] << 8 | bytes[2 * i + 1] : bytes[i] * 257);
 }
 
 /* The next `count` rows from the top, which must be all of an interlaced picture: r, g, b of each
@@ -187,7 +184,7 @@ static HdStatus read_rows(PngReader *reader, uint16_t *codes, int count, HdError
 /* Writing */
 
 static void write_bytes(png_structp png, png_bytep bytes, size_t count) {
-    HdPngWriter *writer = png_get_io_ptr(png);
+    PngWriter *writer = png_get_io_ptr(png);
     if (fwrite(bytes, 1, count, writer->stream) != count)
         png_error(png, strerror(errno));
     writer->hash = hd_hash_bytes(writer->hash, bytes, count);
@@ -197,8 +194,6 @@ static void flush_nothing(png_structp png) {
     (void)png;
 }
 
-enum { MAX_TEXTS = 4, NUMBER_SIZE = 16 };
-
 /* Text in UTF-8 that is not compressed. libpng writes to none of it. */
 static png_text text_of(const char *keyword, const char *text) {
     return (png_text){.compression = PNG_ITXT_COMPRESSION_NONE,
@@ -207,46 +202,53 @@ static png_text text_of(const char *keyword, const char *text) {
                       .itxt_length = strlen(text)};
 }
 
-/* Returns how many there are. */
-static int make_texts(const HdPictureLabel *label, char number[NUMBER_SIZE],
-                      png_text texts[MAX_TEXTS]) {
-    if (label == NULL)
-        return 0;
-    snprintf(number, NUMBER_SIZE, "%d", label->frame);
-    texts[0] = text_of("Software", "hedron " HD_VERSION);
-    texts[1] = text_of("Scene", label->scene);
-    texts[2] = text_of("Frame", number);
-    texts[3] = text_of("Options", label->options);
-    return label->options[0] != '\0' ? MAX_TEXTS : MAX_TEXTS - 1;
+static void set_texts(const PngWriter *writer, const HdPictureLabel *label) {
+    char number[16];
+    snprintf(number, sizeof number, "%d", label->frame);
+    const png_text texts[] = {text_of("Software", "hedron " HD_VERSION),
+                              text_of("Scene", label->scene), text_of("Frame", number),
+                              text_of("Options", label->options)};
+    png_set_text(writer->png, writer->info, texts, label->options[0] != '\0' ? 4 : 3);
 }
 
 /* Frames are many and short-lived. After the filter what repeats is mostly zeros, and looking for
    nothing else is both faster and smaller than level 1. */
-static bool try_begin(HdPngWriter *writer, const HdPictureFacts *facts, png_text *texts,
-                      int count) {
+static void write_head(PngWriter *writer, const HdFrame *frame, const HdPictureStyle *style,
+                       const HdPictureLabel *label) {
     png_structp png = writer->png;
-    if (setjmp(png_jmpbuf(png)) != 0)
-        return false;
     png_set_write_fn(png, writer, write_bytes, flush_nothing);
     png_set_compression_strategy(png, Z_RLE);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
-    png_set_IHDR(png, writer->info, (png_uint_32)facts->width, (png_uint_32)facts->height,
-                 facts->bits, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+    png_set_IHDR(png, writer->info, (png_uint_32)frame->width, (png_uint_32)frame->height,
+                 style->bits, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
-    if (facts->curve == HD_CURVE_SRGB)
+    if (style->curve == HD_CURVE_SRGB)
         png_set_sRGB(png, writer->info, PNG_sRGB_INTENT_PERCEPTUAL);
     else
         png_set_gAMA_fixed(png, writer->info, PNG_GAMMA_LINEAR);
-    png_set_text(png, writer->info, texts, count);
+    if (label != NULL)
+        set_texts(writer, label);
     png_write_info(png, writer->info);
-    return true;
 }
 
-static bool try_row(HdPngWriter *writer, const unsigned char *row) {
-    if (setjmp(png_jmpbuf(writer->png)) != 0)
-        return false;
-    png_write_row(writer->png, row);
-    return true;
+/* A row of the file; PNG is big endian. With 16 bits the codes are made in the row itself. */
+static void make_row(const HdFrame *frame, const HdPictureStyle *style, int y, uint16_t *row) {
+    const size_t width = (size_t)frame->width, values = 3 * width, first = width * (size_t)y;
+    unsigned char *bytes = (unsigned char *)row;
+    for (size_t i = 0; i < width && frame->is_encoded; i++)
+        memcpy(bytes + 3 * i, frame->rgba + 4 * (first + i), 3);
+    if (frame->is_encoded)
+        return;
+    if (style->bits == 8) {
+        hd_curve_encode8(style->curve, frame->rgb + 3 * first, values, bytes);
+        return;
+    }
+    hd_curve_encode16(style->curve, frame->rgb + 3 * first, values, row);
+    for (size_t i = 0; i < values; i++) {
+        const unsigned code = row[i];
+        bytes[2 * i] = (unsigned char)(code >> 8);
+        bytes[2 * i + 1] = (unsigned char)(code & 0xff);
+    }
 }
 
 /* ---- the end ---- */
@@ -281,61 +283,44 @@ bool hd_png_is_whole(const unsigned char *bytes, size_t size, uint64_t fingerpri
     return memcmp(bytes + before, end, sizeof end) == 0;
 }
 
-static bool try_end(HdPngWriter *writer, const HdPictureLabel *label) {
+static void write_end(PngWriter *writer, const HdPictureLabel *label) {
     unsigned char end[HD_PNG_END_SIZE];
-    if (setjmp(png_jmpbuf(writer->png)) != 0)
-        return false;
     if (label == NULL || !label->has_fingerprint) {
         png_write_end(writer->png, NULL);
-        return true;
+        return;
     }
     make_end(label->fingerprint, writer->hash, end);
     if (fwrite(end, 1, sizeof end, writer->stream) != sizeof end)
         png_error(writer->png, strerror(errno));
+}
+
+static bool try_write(PngWriter *writer, const HdFrame *frame, const HdPictureStyle *style,
+                      const HdPictureLabel *label) {
+    if (setjmp(png_jmpbuf(writer->png)) != 0)
+        return false;
+    write_head(writer, frame, style, label);
+    for (int y = 0; y < frame->height; y++) {
+        make_row(frame, style, y, writer->row);
+        png_write_row(writer->png, (png_const_bytep)writer->row);
+    }
+    write_end(writer, label);
     return true;
 }
 
-static HdStatus status_of(bool good, const HdPngWriter *writer, HdError *error) {
-    return good ? HD_OK
-                : hd_fail(error, HD_FAILED, "cannot write %s: %s", writer->path, writer->message);
-}
-
-HdStatus hd_png_begin(HdPngWriter **out, FILE *stream, const char *path,
-                      const HdPictureFacts *facts, const HdPictureLabel *label, HdError *error) {
-    char number[NUMBER_SIZE];
-    png_text texts[MAX_TEXTS];
-    const int count = make_texts(label, number, texts);
-    HdPngWriter *writer = malloc(sizeof *writer);
-    if (writer == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room to write %s", path);
-    *writer = (HdPngWriter){
-        .stream = stream, .path = path, .hash = HD_HASH_START, .message = "out of memory"};
-    writer->png =
-        png_create_write_struct(PNG_LIBPNG_VER_STRING, writer->message, on_error, on_warning);
-    if (writer->png != NULL)
-        writer->info = png_create_info_struct(writer->png);
-    const HdStatus status =
-        status_of(writer->info != NULL && try_begin(writer, facts, texts, count), writer, error);
-    if (status == HD_OK)
-        *out = writer;
-    else
-        hd_png_free(writer);
-    return status;
-}
-
-HdStatus hd_png_write_row(HdPngWriter *writer, const unsigned char *row, HdError *error) {
-    return status_of(try_row(writer, row), writer, error);
-}
-
-HdStatus hd_png_end(HdPngWriter *writer, const HdPictureLabel *label, HdError *error) {
-    return status_of(try_end(writer, label), writer, error);
-}
-
-void hd_png_free(HdPngWriter *writer) {
-    if (writer == NULL)
-        return;
-    png_destroy_write_struct(&writer->png, &writer->info);
-    free(writer);
+static HdStatus write_frame(const HdFrame *frame, const HdPictureStyle *style,
+                            const HdPictureLabel *label, FILE *stream, const char *path,
+                            HdError *error) {
+    PngWriter writer = {.stream = stream, .hash = HD_HASH_START, .message = "out of memory"};
+    writer.row = malloc((size_t)frame->width * 3 * sizeof *writer.row);
+    writer.png =
+        png_create_write_struct(PNG_LIBPNG_VER_STRING, writer.message, on_error, on_warning);
+    if (writer.png != NULL)
+        writer.info = png_create_info_struct(writer.png);
+    const bool good =
+        writer.row != NULL && writer.info != NULL && try_write(&writer, frame, style, label);
+    png_destroy_write_struct(&writer.png, &writer.info);
+    free(writer.row);
+    return good ? HD_OK : hd_fail(error, HD_FAILED, "cannot write %s: %s", path, writer.message);
 }
 
 /* ---- textures and frames that are read back ---- */
@@ -356,25 +341,13 @@ static HdStatus create_texture(HdTexture *texture, const unsigned char *bytes, s
                              get_uint32(bytes + SIZE_OFFSET + 4), name, error);
 }
 
-static void take_off_curve(HdTexture *texture, HdCurve curve, int bits) {
-    const size_t count = (size_t)texture->width * (size_t)texture->height * 3;
-    uint16_t decoded[256];
-    if (bits == 16) {
-        hd_curve_decode16(curve, texture->texels, count);
-        return;
-    }
-    hd_curve_decode8(curve, decoded);
-    for (size_t i = 0; i < count; i++)
-        texture->texels[i] = decoded[texture->texels[i] >> 8];
-}
-
 static HdStatus open_bytes(PngReader **reader, const unsigned char *bytes, size_t size,
                            const char *name, HdError *error) {
     FILE *file = fmemopen((void *)bytes, size, "rb"); /* nothing writes to it */
     if (file == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
     const HdStatus status = open_reader(reader, file, name, error);
-    if (*reader == NULL)
+    if (status != HD_OK)
         fclose(file);
     return status;
 }
@@ -385,27 +358,13 @@ static void close_bytes(PngReader *reader) {
 }
 
 static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t size,
-                       const char *name, HdCurve curve, HdError *error) {
-    PngReader *reader = NULL; /* stays so on failure */
-    HdStatus status = create_texture(texture, bytes, size, name, error);
-    if (status == HD_OK)
-        status = open_bytes(&reader, bytes, size, name, error);
-    if (reader == NULL)
-        return status;
-    status = read_rows(reader, texture->texels, texture->height, error);
-    if (status == HD_OK)
-        take_off_curve(texture, curve, reader->facts.bits);
+                       const char *name, HdError *error) {
+    PngReader *reader;
+    HD_TRY(create_texture(texture, bytes, size, name, error));
+    HD_TRY(open_bytes(&reader, bytes, size, name, error));
+    const HdStatus status = read_rows(reader, texture->texels, texture->height, error);
     close_bytes(reader);
     return status;
-}
-
-/* The alpha of each pixel is 255. */
-static void fill_rgba(const uint16_t *codes, size_t pixels, uint8_t *rgba) {
-    for (size_t i = 0; i < pixels; i++) {
-        for (size_t c = 0; c < 3; c++)
-            rgba[4 * i + c] = (uint8_t)(codes[3 * i + c] >> 8);
-        rgba[4 * i + 3] = 255;
-    }
 }
 
 static HdStatus load_rows(HdFrame *frame, PngReader *reader, const char *name, HdError *error) {
@@ -415,9 +374,10 @@ static HdStatus load_rows(HdFrame *frame, PngReader *reader, const char *name, H
         return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
     HdStatus status = HD_OK;
     for (int y = 0; y < frame->height && status == HD_OK; y++) {
+        uint8_t *rgba = frame->rgba + width * 4 * (size_t)y;
         status = read_rows(reader, codes, 1, error);
-        if (status == HD_OK)
-            fill_rgba(codes, width, frame->rgba + width * 4 * (size_t)y);
+        for (size_t i = 0; i < 4 * width && status == HD_OK; i++)
+            rgba[i] = i % 4 == 3 ? 255 : (uint8_t)(codes[i / 4 * 3 + i % 4] >> 8);
     }
     free(codes);
     return status;
@@ -425,10 +385,9 @@ static HdStatus load_rows(HdFrame *frame, PngReader *reader, const char *name, H
 
 static HdStatus load(HdFrame *frame, const unsigned char *bytes, size_t size, const char *name,
                      HdError *error) {
-    PngReader *reader = NULL; /* stays so on failure */
-    HdStatus status = open_bytes(&reader, bytes, size, name, error);
-    if (reader == NULL)
-        return status;
+    PngReader *reader;
+    HdStatus status;
+    HD_TRY(open_bytes(&reader, bytes, size, name, error));
     const HdPictureFacts *facts = &reader->facts;
     if (facts->width != frame->width || facts->height != frame->height || facts->bits != 8 ||
         reader->is_interlaced)
@@ -441,69 +400,12 @@ static HdStatus load(HdFrame *frame, const unsigned char *bytes, size_t size, co
     return status;
 }
 
-/* A row of the file; PNG is big endian. With 16 bits the codes are made in the row itself. */
-static void encode_row(const HdPictureStyle *style, const float *rgb, size_t values,
-                       uint16_t *row) {
-    unsigned char *bytes = (unsigned char *)row;
-    if (style->bits == 8) {
-        hd_curve_encode8(style->curve, rgb, values, bytes);
-        return;
-    }
-    hd_curve_encode16(style->curve, rgb, values, row);
-    for (size_t i = 0; i < values; i++) {
-        const unsigned code = row[i];
-        bytes[2 * i] = (unsigned char)(code >> 8);
-        bytes[2 * i + 1] = (unsigned char)(code & 0xff);
-    }
-}
-
-/* Of a frame that is encoded: the same without alpha. */
-static void copy_row(const uint8_t *rgba, size_t pixels, uint8_t *row) {
-    for (size_t i = 0; i < pixels; i++)
-        memcpy(row + 3 * i, rgba + 4 * i, 3);
-}
-
-static HdStatus write_rows(HdPngWriter *writer, const HdFrame *frame, const HdPictureStyle *style,
-                           uint16_t *row, HdError *error) {
-    const size_t width = (size_t)frame->width, values = width * 3;
-    HdStatus status = HD_OK;
-    for (int y = 0; y < frame->height && status == HD_OK; y++) {
-        if (frame->is_encoded)
-            copy_row(frame->rgba + width * 4 * (size_t)y, width, (uint8_t *)row);
-        else
-            encode_row(style, frame->rgb + values * (size_t)y, values, row);
-        status = hd_png_write_row(writer, (const unsigned char *)row, error);
-    }
-    return status;
-}
-
-static HdStatus write_frame(const HdFrame *frame, const HdPictureStyle *style,
-                            const HdPictureLabel *label, FILE *stream, const char *path,
-                            HdError *error) {
-    const HdPictureFacts facts = {
-        .width = frame->width, .height = frame->height, .bits = style->bits, .curve = style->curve};
-    HdPngWriter *writer = NULL; /* stays so on failure */
-    uint16_t *row = malloc((size_t)frame->width * 3 * sizeof *row);
-    if (row == NULL)
-        return hd_fail(error, HD_FAILED, "cannot write %s: out of memory", path);
-    HdStatus status = hd_png_begin(&writer, stream, path, &facts, label, error);
-    if (writer != NULL)
-        status = write_rows(writer, frame, style, row, error);
-    if (writer != NULL && status == HD_OK)
-        status = hd_png_end(writer, label, error);
-    hd_png_free(writer);
-    free(row);
-    return status;
-}
-
 /* ---- row by row ---- */
 
 static HdStatus open_rows(void **rows, FILE *file, const char *path, HdPictureFacts *facts,
                           HdError *error) {
-    PngReader *reader = NULL; /* stays so on failure */
-    HdStatus status = open_reader(&reader, file, path, error);
-    if (reader == NULL)
-        return status;
+    PngReader *reader;
+    HD_TRY(open_reader(&reader, file, path, error));
     if (reader->is_interlaced) {
         close_reader(reader);
         return hd_fail(error, HD_BAD_INPUT,

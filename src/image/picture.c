@@ -55,12 +55,9 @@ HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdFo
     if (format->write == NULL)
         return hd_fail(error, HD_BAD_INPUT,
                        "cannot write %s as a picture: its ending is that of a film", path);
-    HdStatus status = hd_frame_check_size(frame, error);
-    if (status == HD_OK)
-        status = hd_atomic_file_open(file, path, error);
-    if (status != HD_OK)
-        return status;
-    status = format->write(frame, style, label, file->stream, path, error);
+    HD_TRY(hd_frame_check_size(frame, error));
+    HD_TRY(hd_atomic_file_open(file, path, error));
+    const HdStatus status = format->write(frame, style, label, file->stream, path, error);
     if (status != HD_OK)
         hd_atomic_file_discard(file);
     return status;
@@ -70,9 +67,9 @@ HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, con
                           HdError *error) {
     const HdFormat *format = hd_format_of(path);
     HdAtomicFile file;
-    HdStatus status = hd_picture_prepare(&file, frame, format != NULL ? format : &hd_format_data,
-                                         style, NULL, path, error);
-    return status == HD_OK ? hd_atomic_file_commit(&file, HD_DURABLE, error) : status;
+    HD_TRY(hd_picture_prepare(&file, frame, format != NULL ? format : &hd_format_data, style, NULL,
+                              path, error));
+    return hd_atomic_file_commit(&file, HD_DURABLE, error);
 }
 
 /* ---- textures ---- */
@@ -90,9 +87,11 @@ static const HdFormat *format_of_texture(const unsigned char *bytes, size_t size
 HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                            const char *name, HdCurve curve, HdError *error) {
     *texture = (HdTexture){0};
-    HdStatus status =
-        format_of_texture(bytes, size)->decode(texture, bytes, size, name, curve, error);
-    if (status != HD_OK)
+    HdStatus status = format_of_texture(bytes, size)->decode(texture, bytes, size, name, error);
+    if (status == HD_OK)
+        hd_curve_decode16(curve, texture->texels,
+                          (size_t)texture->width * (size_t)texture->height * 3);
+    else
         hd_texture_clear(texture);
     return status;
 }

@@ -46,7 +46,7 @@ HdStatus hd_format_check_style(const char *path, const HdPictureStyle *style, Hd
    hd_atomic_file_discard to end; missing folders are made. A film's format is an error. The data
    format: int32 width, int32 height, then r g b a, 8 bits each, little endian. PNG: RGB, with an
    sRGB chunk where the values are on that curve, and a gAMA chunk of 1 where they are linear. PFM:
-   float, little endian, rows from the bottom. A frame that is encoded already must be so on the
+   float, rows from the bottom. A frame that is encoded already must be so on the
    style's curve; only what has 8 bits can be made of it. PNG gets what the label says; NULL:
    nothing. On failure nothing is left of `file`, and a file that was there before is untouched. */
 HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdFormat *format,

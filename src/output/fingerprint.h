@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The identity of a run and of its frames: what decides their pixels, as one number. When it is the
-   same, so are they. Finished pictures bear their frame's (image/png.h), segments of films are
+   same, so are they. Finished pictures bear their frame's (image/format.h), segments of films are
    named by the run's. */
 #ifndef HD_OUTPUT_FINGERPRINT_H
 #define HD_OUTPUT_FINGERPRINT_H

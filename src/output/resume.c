@@ -7,7 +7,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "image/png.h"
+#include "image/format.h"
 #include "output/fingerprint.h"
 #include "system/interrupt.h"
 #include "system/path.h"

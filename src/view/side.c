@@ -25,11 +25,9 @@ enum { PART_ROWS = 8 };
 
 /* ---- what others see ---- */
 
-static bool is_stale(HdViewSide *side, int serial) {
-    pthread_mutex_lock(&side->mutex);
-    const bool stale = side->serial != serial || side->must_end;
-    pthread_mutex_unlock(&side->mutex);
-    return stale;
+/* What is under way is for an earlier wish. */
+static bool is_stale(HdViewSide *side) {
+    return atomic_load(&side->watch.is_unwanted);
 }
 
 static void tell(HdViewSide *side, const char *device) {
@@ -86,9 +84,7 @@ static HdStatus upload(HdViewSide *side, const HdScene *scene, HdError *error) {
     side->is_uploaded = false;
     if (hd_renderer_device(renderer)->backend->functions->kernels != NULL)
         tell(side, "building kernels ...");
-    HdStatus status = hd_put_scene(renderer, scene, NULL, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_put_scene(renderer, scene, NULL, error));
     side->is_uploaded = true;
     side->has_survey = hd_scene_is_surveyed(scene);
     const HdDevice *opened = hd_renderer_device(renderer);
@@ -99,12 +95,11 @@ static HdStatus upload(HdViewSide *side, const HdScene *scene, HdError *error) {
 }
 
 static HdStatus make_ready(HdViewSide *side, const HdScene *scene, HdError *error) {
-    HdStatus status = HD_OK;
     if (!side->is_opened)
-        status = open_device(side, error);
-    if (status == HD_OK && (!side->is_uploaded || side->has_survey != hd_scene_is_surveyed(scene)))
-        status = upload(side, scene, error);
-    return status;
+        HD_TRY(open_device(side, error));
+    if (!side->is_uploaded || side->has_survey != hd_scene_is_surveyed(scene))
+        HD_TRY(upload(side, scene, error));
+    return HD_OK;
 }
 
 /* ---- pictures ---- */
@@ -119,8 +114,8 @@ static HdStatus fit_frame(HdFrame *frame, int width, int height, HdError *error)
 static HdStatus render_scene(HdViewSide *side, const HdScene *scene, const HdViewWish *wish,
                              HdFrame *frame, HdError *error) {
     const HdFrameMaker maker = {.renderer = side->team.list[0].renderer, .scene = scene};
-    HdStatus status = fit_frame(frame, scene->width, scene->height, error);
-    return status == HD_OK ? hd_frame_render(&maker, &wish->camera, frame, error) : status;
+    HD_TRY(fit_frame(frame, scene->width, scene->height, error));
+    return hd_frame_render(&maker, &wish->camera, frame, error);
 }
 
 /* The scene as quick pictures have it. */
@@ -138,12 +133,9 @@ static HdStatus render_moving(HdViewSide *side, const HdViewWish *wish, HdError 
     const HdScene scene = quick_scene(side, &wish->detail);
     HdScene uploaded = side->file.scene; /* what it owns stays there */
     hd_scene_drop_survey(&uploaded);     /* its depth is that of all quick pictures, at most */
-    HdStatus status = make_ready(side, &uploaded, error);
+    HD_TRY(make_ready(side, &uploaded, error));
     const double start = hd_monotonic_seconds();
-    if (status == HD_OK)
-        status = render_scene(side, &scene, wish, &side->part, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(render_scene(side, &scene, wish, &side->part, error));
     const HdViewImage facts = {
         .width = scene.width,
         .height = scene.height,
@@ -163,29 +155,26 @@ static int next_rows(int rows, double seconds) {
 
 /* All rows of a scene that is not surveyed, from the top, each as the whole picture has it. */
 static HdStatus render_rows(HdViewSide *side, const HdScene *whole, const HdViewWish *wish,
-                            int serial, HdViewImage *facts, HdError *error) {
+                            HdViewImage *facts, HdError *error) {
     HdScene scene = *whole;
     int rows = PART_ROWS;
-    HdStatus status = HD_OK;
-    for (int top = 0; status == HD_OK && top < whole->height && !is_stale(side, serial);) {
+    for (int top = 0; top < whole->height && !is_stale(side);) {
         const int height = rows < whole->height - top ? rows : whole->height - top;
         const double start = hd_monotonic_seconds();
         scene.crop = (HdCrop){whole->width, whole->height, 0, top};
         scene.height = height;
-        status = render_scene(side, &scene, wish, &side->part, error);
-        if (status != HD_OK)
-            return status;
+        HD_TRY(render_scene(side, &scene, wish, &side->part, error));
         const double seconds = hd_monotonic_seconds() - start;
         memcpy(side->frame.rgb + 3 * (size_t)whole->width * (size_t)top, side->part.rgb,
                3 * sizeof(float) * (size_t)whole->width * (size_t)height);
         facts->seconds += seconds;
         facts->rays += hd_frame_rays(&side->part);
         facts->share = (double)(top + height) / whole->height;
-        status = show_rows(side, &side->part, top, height, facts, error);
+        HD_TRY(show_rows(side, &side->part, top, height, facts, error));
         rows = next_rows(height, seconds);
         top += height;
     }
-    return status;
+    return HD_OK;
 }
 
 /* Adaptive samples hang on their neighbours: such a picture is made in one piece, or given up. */
@@ -193,19 +182,18 @@ static HdStatus render_surveyed(HdViewSide *side, const HdViewWish *wish, HdView
                                 HdError *error) {
     const HdScene *scene = &side->file.scene;
     const double start = hd_monotonic_seconds();
-    HdStatus status = make_ready(side, scene, error);
+    HD_TRY(make_ready(side, scene, error));
     const HdFrameMaker maker = {.renderer = side->team.list[0].renderer,
                                 .scene = scene,
                                 .wish.curve = side->file.output.style.picture.curve,
                                 .watch = &side->watch};
-    if (status == HD_OK)
-        status = hd_frame_render(&maker, &wish->camera, &side->frame, error);
+    HD_TRY(hd_frame_render(&maker, &wish->camera, &side->frame, error));
     facts->seconds = hd_monotonic_seconds() - start;
     facts->rays = hd_frame_rays(&side->frame);
     facts->share = 1.0;
     facts->has_bound = side->frame.has_bound;
     facts->largest_bound = side->frame.largest_bound;
-    return status;
+    return HD_OK;
 }
 
 /* The whole picture is there: it is encoded once more, as a file is. */
@@ -219,43 +207,42 @@ static HdStatus finish(HdViewSide *side, HdViewImage *facts, HdError *error) {
     return status;
 }
 
-static HdStatus settle(HdViewSide *side, const HdViewWish *wish, int serial, HdError *error) {
+static HdStatus settle(HdViewSide *side, const HdViewWish *wish, HdError *error) {
     const HdScene *scene = &side->file.scene;
     const bool is_surveyed = hd_scene_is_surveyed(scene);
     const HdDetail full = {scene->width, scene->height, scene->samples_per_side, scene->depth};
     const HdDetail once = {scene->width, scene->height, 1, scene->depth};
     HdViewImage facts = {.width = scene->width, .height = scene->height, .detail = once};
     const HdScene quick = quick_scene(side, &once);
-    HdStatus status = make_ready(side, &quick, error);
-    if (status == HD_OK)
-        status = fit_frame(&side->frame, scene->width, scene->height, error);
-    if (status == HD_OK && (is_surveyed || full.samples > 1))
-        status = render_rows(side, &quick, wish, serial, &facts, error);
+    HD_TRY(make_ready(side, &quick, error));
+    HD_TRY(fit_frame(&side->frame, scene->width, scene->height, error));
+    if (is_surveyed || full.samples > 1)
+        HD_TRY(render_rows(side, &quick, wish, &facts, error));
     facts = (HdViewImage){.width = scene->width, .height = scene->height, .detail = full};
-    if (status != HD_OK || is_stale(side, serial))
-        return status;
-    status = is_surveyed ? render_surveyed(side, wish, &facts, error)
-                         : render_rows(side, scene, wish, serial, &facts, error);
-    return status == HD_OK && !is_stale(side, serial) ? finish(side, &facts, error) : status;
+    if (is_stale(side))
+        return HD_OK;
+    HD_TRY(is_surveyed ? render_surveyed(side, wish, &facts, error)
+                       : render_rows(side, scene, wish, &facts, error));
+    return is_stale(side) ? HD_OK : finish(side, &facts, error);
 }
 
 /* ---- the thread ---- */
 
-static void fulfil(HdViewSide *side, const HdViewWish *wish, int serial) {
+static void fulfil(HdViewSide *side, const HdViewWish *wish) {
     HdError error;
     HdStatus status =
-        wish->is_moving ? render_moving(side, wish, &error) : settle(side, wish, serial, &error);
+        wish->is_moving ? render_moving(side, wish, &error) : settle(side, wish, &error);
     pthread_mutex_lock(&side->mutex);
-    side->is_done = side->is_done || side->serial == serial;
+    side->is_done = side->is_done || !is_stale(side);
     side->is_busy = false;
-    if (status == HD_INTERRUPTED && side->serial != serial)
+    if (status == HD_INTERRUPTED && is_stale(side))
         status = HD_OK; /* it was given up */
     snprintf(side->problem, sizeof side->problem, "%.4000s", status == HD_OK ? "" : error.message);
     pthread_cond_broadcast(&side->changed);
     pthread_mutex_unlock(&side->mutex);
 }
 
-static bool take_wish(HdViewSide *side, HdViewWish *wish, int *serial) {
+static bool take_wish(HdViewSide *side, HdViewWish *wish) {
     pthread_mutex_lock(&side->mutex);
     while (!side->must_end && (!side->has_wish || side->is_done))
         pthread_cond_wait(&side->changed, &side->mutex);
@@ -264,7 +251,6 @@ static bool take_wish(HdViewSide *side, HdViewWish *wish, int *serial) {
     side->is_saveable = side->is_saveable && !has_work;
     atomic_store(&side->watch.is_unwanted, false);
     *wish = side->wish;
-    *serial = side->serial;
     pthread_mutex_unlock(&side->mutex);
     return has_work;
 }
@@ -272,9 +258,8 @@ static bool take_wish(HdViewSide *side, HdViewWish *wish, int *serial) {
 static void *work(void *argument) {
     HdViewSide *side = argument;
     HdViewWish wish;
-    int serial;
-    while (take_wish(side, &wish, &serial))
-        fulfil(side, &wish, serial);
+    while (take_wish(side, &wish))
+        fulfil(side, &wish);
     hd_close_devices(&side->team);
     return NULL;
 }
@@ -289,19 +274,12 @@ static HdStatus start_thread(HdViewSide *side, HdError *error) {
                                  strerror(reason));
 }
 
-/* What is under way is for an earlier wish. */
-static void give_up(HdViewSide *side) {
-    side->serial++;
-    atomic_store(&side->watch.is_unwanted, true);
-}
-
 void hd_view_side_show(HdViewSide *side, const HdViewWish *wish) {
     pthread_mutex_lock(&side->mutex);
     side->wish = *wish;
-    give_up(side);
+    atomic_store(&side->watch.is_unwanted, true);
     side->has_wish = true;
     side->is_done = false;
-    side->is_saveable = false;
     pthread_cond_broadcast(&side->changed);
     pthread_mutex_unlock(&side->mutex);
 }
@@ -310,7 +288,7 @@ void hd_view_side_show(HdViewSide *side, const HdViewWish *wish) {
 static void rest(HdViewSide *side) {
     pthread_mutex_lock(&side->mutex);
     side->has_wish = false;
-    give_up(side);
+    atomic_store(&side->watch.is_unwanted, true);
     while (side->is_busy)
         pthread_cond_wait(&side->changed, &side->mutex);
     pthread_mutex_unlock(&side->mutex);
@@ -358,7 +336,7 @@ HdStatus hd_view_side_save(HdViewSide *side, const char *path, HdError *error) {
 static void end_thread(HdViewSide *side) {
     pthread_mutex_lock(&side->mutex);
     side->must_end = true;
-    give_up(side);
+    atomic_store(&side->watch.is_unwanted, true);
     pthread_cond_broadcast(&side->changed);
     pthread_mutex_unlock(&side->mutex);
     pthread_join(side->thread, NULL);
@@ -411,11 +389,9 @@ static void take_file(HdViewSide *side, const HdSceneFile *file) {
 HdStatus hd_view_side_open(HdViewSide *side, const HdViewPlan *plan, HdError *error) {
     HdSceneFile file;
     *side = (HdViewSide){.plan = *plan};
-    HdStatus status = read_file(side, &file, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(read_file(side, &file, error));
     take_file(side, &file);
-    status = start_thread(side, error);
+    const HdStatus status = start_thread(side, error);
     if (status != HD_OK)
         hd_view_side_close(side);
     return status;

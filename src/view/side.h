@@ -44,11 +44,10 @@ typedef struct HdViewSide {
     bool has_survey;   /* the kernels' tables are those of a surveyed scene */
     HdFrame frame;     /* of the scene's own size */
     HdFrame part;
-    HdWatch watch;         /* of passes: unwanted once the wish is an earlier one */
+    HdWatch watch;         /* unwanted once the wish under way is an earlier one */
     pthread_mutex_t mutex; /* of what follows */
     pthread_cond_t changed;
     HdViewWish wish;
-    int serial; /* of the wish */
     bool has_wish, is_done, is_busy, must_end;
     bool is_saveable; /* `frame` is settled, in `style` */
     HdPictureStyle style;

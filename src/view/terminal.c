@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <termios.h>
@@ -45,7 +46,9 @@ typedef struct Terminal {
     int line_count;
     char lines[HD_VIEW_LINES][HD_VIEW_LINE];
     gchar **shown; /* owned; rows of a picture of symbols; NULL: none is on the screen */
-    GString *said; /* owned; for the end */
+    FILE *out;  /* standard output; where that is the terminal, a stream into `said`; owned then */
+    char *said; /* owned; for the end */
+    size_t said_size;
 } Terminal;
 
 /* ---- bytes to and fro ---- */
@@ -105,8 +108,8 @@ static bool tells_sixel(const char *answer) {
 static HdStatus find_protocol(Terminal *t, HdError *error) {
     char answer[512] = "";
     int length = 0, got = 1;
-    HdStatus status = send_text(t, "\033_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\033\\\033[c", error);
-    while (status == HD_OK && got > 0 && length < (int)sizeof answer - 1) {
+    HD_TRY(send_text(t, "\033_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\033\\\033[c", error));
+    while (got > 0 && length < (int)sizeof answer - 1) {
         got = receive(t, answer + length, (int)sizeof answer - 1 - length, ANSWER_WAIT_MS);
         length += got;
         answer[length] = '\0';
@@ -117,7 +120,7 @@ static HdStatus find_protocol(Terminal *t, HdError *error) {
     t->protocol = strstr(answer, "\033_Gi=31;OK") != NULL ? CHAFA_PIXEL_MODE_KITTY
                   : tells_sixel(answer)                   ? CHAFA_PIXEL_MODE_SIXELS
                                                           : CHAFA_PIXEL_MODE_SYMBOLS;
-    return status;
+    return HD_OK;
 }
 
 /* Colours are those of the environment, pictures have the sequences that any terminal has. A kitty
@@ -130,9 +133,9 @@ static HdStatus find_sequences(Terminal *t, HdError *error) {
     g_strfreev(environment);
     t->symbols = chafa_symbol_map_new();
     chafa_symbol_map_add_by_tags(t->symbols, CHAFA_SYMBOL_TAG_BLOCK);
-    HdStatus status = find_protocol(t, error);
-    if (status != HD_OK || t->protocol == CHAFA_PIXEL_MODE_SYMBOLS)
-        return status;
+    HD_TRY(find_protocol(t, error));
+    if (t->protocol == CHAFA_PIXEL_MODE_SYMBOLS)
+        return HD_OK;
     ChafaTermInfo *any = chafa_term_db_get_fallback_info(all);
     chafa_term_info_supplement(t->info, any);
     chafa_term_info_unref(any);
@@ -282,27 +285,16 @@ static HdStatus draw(Terminal *t, HdError *error) {
 /* ---- the loop ---- */
 
 static HdStatus run(Terminal *t, HdError *error) {
-    HdStatus status = HD_OK;
-    while (status == HD_OK && hd_viewer_tick(t->viewer, hd_monotonic_seconds())) {
-        status = draw(t, error);
+    while (hd_viewer_tick(t->viewer, hd_monotonic_seconds())) {
+        HD_TRY(draw(t, error));
         take_keys(t);
         if (hd_interrupt_signal() != 0)
             return hd_fail(error, HD_INTERRUPTED, "interrupted");
     }
-    return status;
+    return HD_OK;
 }
 
 /* ---- from open to close ---- */
-
-static void say(void *context, const char *lines) {
-    const Terminal *t = context;
-    if (isatty(STDOUT_FILENO)) {
-        g_string_append(t->said, lines);
-        return;
-    }
-    fputs(lines, stdout);
-    fflush(stdout);
-}
 
 static HdStatus open_terminal(Terminal *t, HdError *error) {
     t->file = open("/dev/tty", O_RDWR | O_NOCTTY | O_CLOEXEC);
@@ -312,7 +304,8 @@ static HdStatus open_terminal(Terminal *t, HdError *error) {
                        strerror(errno));
     if (tcgetattr(t->file, &t->before) != 0)
         return hd_fail(error, HD_UNAVAILABLE, "--terminal needs a terminal: %s", strerror(errno));
-    return HD_OK;
+    t->out = isatty(STDOUT_FILENO) ? open_memstream(&t->said, &t->said_size) : stdout;
+    return t->out != NULL ? HD_OK : hd_fail(error, HD_FAILED, "out of memory: no room for a view");
 }
 
 static HdStatus take_terminal(Terminal *t, HdError *error) {
@@ -325,8 +318,8 @@ static HdStatus take_terminal(Terminal *t, HdError *error) {
         return hd_fail(error, HD_FAILED, "cannot read single keys from the terminal: %s",
                        strerror(errno));
     measure(t);
-    HdStatus status = send_text(t, "\033[?1049h\033[?25l\033[2J", error);
-    return status == HD_OK ? find_sequences(t, error) : status;
+    HD_TRY(send_text(t, "\033[?1049h\033[?25l\033[2J", error));
+    return find_sequences(t, error);
 }
 
 /* Before anything is waited for, so that nobody is left with a terminal that does not echo. */
@@ -345,21 +338,23 @@ static void close_terminal(Terminal *t) {
     hd_viewer_close(t->viewer);
     if (t->file >= 0)
         close(t->file);
-    fputs(t->said->str, stdout);
+    if (t->out != NULL && t->out != stdout)
+        fclose(t->out);
+    if (t->said != NULL)
+        fputs(t->said, stdout);
+    free(t->said);
     if (t->info != NULL)
         chafa_term_info_unref(t->info);
     if (t->symbols != NULL)
         chafa_symbol_map_unref(t->symbols);
     g_strfreev(t->shown);
-    g_string_free(t->said, TRUE);
 }
 
 HdStatus hd_view_in_terminal(const HdViewPlan *plan, HdError *error) {
-    Terminal t = {.file = -1, .version = -1, .said = g_string_new(NULL)};
-    const HdViewHost host = {say, &t};
+    Terminal t = {.file = -1, .version = -1};
     HdStatus status = open_terminal(&t, error);
     if (status == HD_OK)
-        status = hd_viewer_open(&t.viewer, plan, &host, error);
+        status = hd_viewer_open(&t.viewer, plan, t.out, error);
     if (status == HD_OK)
         status = take_terminal(&t, error);
     if (status == HD_OK)

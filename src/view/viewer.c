@@ -27,7 +27,7 @@
 enum { FIRST_GAIN = 16, MOST_GAIN = 128 };
 
 struct HdViewer {
-    HdViewHost host;
+    FILE *out; /* the host's */
     HdViewSide sides[2];
     int side_count, active;
     HdPose pose;
@@ -62,10 +62,6 @@ static const HdSceneFile *file_of(const HdViewer *viewer) {
     return &viewer->sides[0].file;
 }
 
-static int frames_per_second(const HdViewer *viewer) {
-    return file_of(viewer)->output.style.frames_per_second;
-}
-
 /* ---- where the eye is ---- */
 
 static void leave_flight(HdViewer *viewer) {
@@ -90,11 +86,11 @@ static void show_frame(HdViewer *viewer, int frame) {
 }
 
 static void fly_on(HdViewer *viewer) {
-    const double passed = (viewer->now - viewer->played_from) * frames_per_second(viewer);
+    const double passed =
+        (viewer->now - viewer->played_from) * file_of(viewer)->output.style.frames_per_second;
     const int frame = (int)fmod(passed, file_of(viewer)->scene.frame_count);
-    if (!viewer->is_playing || frame == viewer->frame)
-        return;
-    show_frame(viewer, frame);
+    if (viewer->is_playing && frame != viewer->frame)
+        show_frame(viewer, frame);
 }
 
 static HdStatus find_camera(const HdViewer *viewer, HdCamera *camera, HdError *error) {
@@ -195,29 +191,23 @@ const HdViewImage *hd_viewer_picture(HdViewer *viewer, int *version) {
 
 /* ---- what is kept ---- */
 
-/* The scene's name without its folder and ending. */
-static void base_name(const HdViewer *viewer, char name[128]) {
-    const char *path = viewer->sides[0].plan.scene.path;
-    path = path != NULL ? path : "hedron";
-    const char *slash = strrchr(path, '/');
-    snprintf(name, 128, "%s", slash != NULL ? slash + 1 : path);
+/* The scene's name without its folder and ending, and the first number that is free. */
+static void free_name(const HdViewer *viewer, char path[160]) {
+    char name[128];
+    const char *scene = viewer->sides[0].plan.scene.path;
+    const char *slash = scene != NULL ? strrchr(scene, '/') : NULL;
+    snprintf(name, sizeof name, "%s", slash != NULL ? slash + 1 : scene != NULL ? scene : "hedron");
     char *dot = strrchr(name, '.');
     if (dot != NULL && dot != name)
         *dot = '\0';
-}
-
-static void free_name(const HdViewer *viewer, char path[160]) {
-    char name[128];
-    base_name(viewer, name);
-    for (int number = 1; number < 1000; number++) {
+    int number = 1;
+    do
         snprintf(path, 160, "%s-%03d.png", name, number);
-        if (access(path, F_OK) != 0)
-            return;
-    }
+    while (access(path, F_OK) == 0 && ++number < 1000);
 }
 
 static void save_when_whole(HdViewer *viewer) {
-    char path[160], line[192];
+    char path[160];
     HdError error;
     if (!viewer->saves || viewer->settling != viewer->change || !all_idle(viewer))
         return;
@@ -228,24 +218,17 @@ static void save_when_whole(HdViewer *viewer) {
         return;
     }
     snprintf(viewer->note, sizeof viewer->note, "saved %s", path);
-    snprintf(line, sizeof line, "%s\n", path);
-    viewer->host.say(viewer->host.context, line);
+    fprintf(viewer->out, "%s\n", path);
+    fflush(viewer->out);
 }
 
 static void print_camera(HdViewer *viewer, int by) {
-    char *text = NULL;
-    size_t size = 0;
     const HdScene *scene = &file_of(viewer)->scene;
     const HdPose pose = viewer->is_free ? viewer->pose : hd_pose_of_flight(scene, viewer->frame);
-    FILE *stream = open_memstream(&text, &size);
     (void)by;
-    if (stream == NULL)
-        return;
-    hd_pose_print(stream, &pose, scene->field_of_view_degrees);
-    fclose(stream);
+    hd_pose_print(viewer->out, &pose, scene->field_of_view_degrees);
+    fflush(viewer->out);
     snprintf(viewer->note, sizeof viewer->note, "the camera goes to standard output");
-    viewer->host.say(viewer->host.context, text);
-    free(text);
 }
 
 /* ---- what keys do ---- */
@@ -255,7 +238,8 @@ static void play(HdViewer *viewer, int by) {
     viewer->is_playing = !viewer->is_playing;
     if (viewer->is_playing)
         viewer->is_free = false;
-    viewer->played_from = viewer->now - (double)viewer->frame / frames_per_second(viewer);
+    viewer->played_from =
+        viewer->now - (double)viewer->frame / file_of(viewer)->output.style.frames_per_second;
     change_view(viewer);
 }
 
@@ -568,12 +552,11 @@ void hd_viewer_limit(HdViewer *viewer, int width) {
     viewer->most_width = width;
 }
 
-HdStatus hd_viewer_open(HdViewer **viewer, const HdViewPlan *plan, const HdViewHost *host,
-                        HdError *error) {
+HdStatus hd_viewer_open(HdViewer **viewer, const HdViewPlan *plan, FILE *out, HdError *error) {
     HdViewer *v = calloc(1, sizeof *v);
     if (v == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for a view");
-    v->host = *host;
+    v->out = out;
     v->gain = FIRST_GAIN;
     v->change = 1;
     v->side_count = 1;

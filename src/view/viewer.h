@@ -5,6 +5,8 @@
 #ifndef HD_VIEW_VIEWER_H
 #define HD_VIEW_VIEWER_H
 
+#include <stdio.h>
+
 #include "view/image.h"
 #include "view/view.h"
 
@@ -13,17 +15,11 @@ enum { HD_VIEW_LINE = 80, HD_VIEW_LINES = 40 };
 /* Keys that are no characters, in the order of terminals. */
 enum { HD_KEY_UP = 256, HD_KEY_DOWN, HD_KEY_RIGHT, HD_KEY_LEFT };
 
-/* Who shows it takes lines for standard output. */
-typedef struct HdViewHost {
-    void (*say)(void *context, const char *lines);
-    void *context;
-} HdViewHost;
-
 typedef struct HdViewer HdViewer;
 
-/* Reads the scene, and starts to render its first frame. */
-HdStatus hd_viewer_open(HdViewer **viewer, const HdViewPlan *plan, const HdViewHost *host,
-                        HdError *error);
+/* Reads the scene, and starts to render its first frame. `out`, which must live on, gets names of
+   saved pictures and cameras. */
+HdStatus hd_viewer_open(HdViewer **viewer, const HdViewPlan *plan, FILE *out, HdError *error);
 
 /* A key, a character or one of the above, was pressed, or repeats. `now` is that of
    hd_monotonic_seconds, here and below. */

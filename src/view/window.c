@@ -2,7 +2,6 @@
 #include "view/view.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <SDL.h>
@@ -19,18 +18,11 @@ enum { LEAST_WIDTH = 960, MARGIN = 6 };
 #define GLIDE_AFTER 0.2
 #define GLIDE       0.3
 
-/* A picture of r, g, b and alpha to write on. */
-typedef struct Canvas {
-    uint8_t *rgba;
-    int width, height;
-} Canvas;
-
 typedef struct Window {
     SDL_Window *window;
     SDL_Renderer *renderer;
-    SDL_Texture *picture, *text;
-    int picture_width, picture_height, text_width, text_height;
-    Canvas canvas; /* of the text; its pixels are owned */
+    SDL_Texture *picture;
+    int picture_width, picture_height;
     HdViewer *viewer;
     int version;                             /* of the picture that is shown */
     char lines[HD_VIEW_LINES][HD_VIEW_LINE]; /* that are shown */
@@ -69,30 +61,16 @@ static const uint64_t letters[] = {
     0x0007c4447c00, 0x022110420800, 0x042108421000, 0x082104422000, 0x00022a200000,
 };
 
-/* Gives a rectangle, cut to the picture, one colour. */
-static void fill(const Canvas *canvas, int left, int top, int width, int height,
-                 const uint8_t colour[4]) {
-    const int right = left + width < canvas->width ? left + width : canvas->width;
-    const int bottom = top + height < canvas->height ? top + height : canvas->height;
-    for (int y = top > 0 ? top : 0; y < bottom; y++)
-        for (int x = left > 0 ? left : 0; x < right; x++)
-            memcpy(canvas->rgba + 4 * ((size_t)y * (size_t)canvas->width + (size_t)x), colour, 4);
-}
-
-static void write_letter(const Canvas *canvas, char letter, int left, int top, int scale,
-                         const uint8_t colour[4]) {
+/* Every pixel of a letter becomes scale x scale pixels. What is not ASCII is a question mark. */
+static void draw_letter(SDL_Renderer *renderer, char letter, int left, int top, int scale) {
     const uint64_t bits = letters[(letter < ' ' || letter > '~' ? '?' : letter) - ' '];
+    SDL_Rect pixels[LETTER_BITS];
+    int count = 0;
     for (int i = 0; i < LETTER_BITS; i++)
         if ((bits >> (LETTER_BITS - 1 - i) & 1) != 0)
-            fill(canvas, left + i % LETTER_COLUMNS * scale, top + i / LETTER_COLUMNS * scale, scale,
-                 scale, colour);
-}
-
-/* Every pixel of a letter becomes scale x scale pixels. ASCII; anything else is a question mark. */
-static void write_text(const Canvas *canvas, const char *text, int left, int top, int scale,
-                       const uint8_t colour[4]) {
-    for (; *text != '\0'; text++, left += LETTER_WIDTH * scale)
-        write_letter(canvas, *text, left, top, scale, colour);
+            pixels[count++] = (SDL_Rect){left + i % LETTER_COLUMNS * scale,
+                                         top + i / LETTER_COLUMNS * scale, scale, scale};
+    SDL_RenderFillRects(renderer, pixels, count);
 }
 
 /* ---- drawing ---- */
@@ -101,30 +79,24 @@ static HdStatus fail(HdError *error, const char *what) {
     return hd_fail(error, HD_FAILED, "%s: %s", what, SDL_GetError());
 }
 
-static HdStatus fit_texture(SDL_Renderer *renderer, SDL_Texture **texture, int width, int height,
-                            HdError *error) {
-    if (*texture != NULL)
-        SDL_DestroyTexture(*texture);
-    *texture = SDL_CreateTexture(renderer, SDL_PIXELFORMAT_RGBA32, SDL_TEXTUREACCESS_STREAMING,
-                                 width, height);
-    return *texture != NULL ? HD_OK : fail(error, "no room for a picture on the screen");
-}
-
 static HdStatus update_picture(Window *w, HdError *error) {
     int version = w->version;
     const HdViewImage *image = hd_viewer_picture(w->viewer, &version);
-    HdStatus status = HD_OK;
     if (version == w->version || image->width == 0)
         return HD_OK;
     w->version = version;
     if (image->width != w->picture_width || image->height != w->picture_height) {
-        status = fit_texture(w->renderer, &w->picture, image->width, image->height, error);
+        if (w->picture != NULL)
+            SDL_DestroyTexture(w->picture);
+        w->picture = SDL_CreateTexture(w->renderer, SDL_PIXELFORMAT_RGBA32,
+                                       SDL_TEXTUREACCESS_STREAMING, image->width, image->height);
+        if (w->picture == NULL)
+            return fail(error, "no room for a picture on the screen");
         w->picture_width = image->width;
         w->picture_height = image->height;
     }
-    if (status == HD_OK)
-        SDL_UpdateTexture(w->picture, NULL, image->rgba, 4 * image->width);
-    return status;
+    SDL_UpdateTexture(w->picture, NULL, image->rgba, 4 * image->width);
+    return HD_OK;
 }
 
 /* Beside the edges where the picture has another shape than the window. */
@@ -141,47 +113,29 @@ static SDL_Rect place_of_picture(const Window *w, int width, int height) {
     return place;
 }
 
-static HdStatus fit_text(Window *w, int width, int height, HdError *error) {
-    if (width == w->text_width && height == w->text_height)
-        return HD_OK;
-    uint8_t *rgba = realloc(w->canvas.rgba, 4 * (size_t)width * (size_t)height);
-    if (rgba == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for text on the picture");
-    w->canvas = (Canvas){rgba, width, height};
-    HdStatus status = fit_texture(w->renderer, &w->text, width, height, error);
-    if (status == HD_OK)
-        SDL_SetTextureBlendMode(w->text, SDL_BLENDMODE_BLEND);
-    w->text_width = width;
-    w->text_height = height;
-    return status;
-}
-
 /* Lines on a dark ground, at the top left, or where a split view has room; mistakes in red. */
-static HdStatus draw_text(Window *w, int width, int height, HdError *error) {
-    static const uint8_t ground[4] = {8, 10, 16, 190}, ink[4] = {235, 240, 245, 255},
-                         alarm[4] = {255, 140, 120, 255}, clear[4] = {0, 0, 0, 0};
-    const int count = w->line_count;
+static void draw_text(const Window *w, int width, int height) {
     const int scale = width >= 1600 ? 3 : width >= 800 ? 2 : 1;
     const bool is_split = hd_viewer_is_split(w->viewer);
     const int room = is_split ? width / 2 : width;
     const int fitting = scale > 1 && room < HD_VIEW_LINE * LETTER_WIDTH * scale ? scale - 1 : scale;
-    const int left = is_split ? width / 2 : 0, top = is_split ? height / 2 : 0;
-    HdStatus status = fit_text(w, width, height, error);
-    int longest = 0;
-    if (status != HD_OK)
-        return status;
-    fill(&w->canvas, 0, 0, width, height, clear);
-    for (int i = 0; i < count; i++)
-        longest = hd_max(longest, (int)strlen(w->lines[i]));
-    if (count > 0)
-        fill(&w->canvas, left, top, longest * LETTER_WIDTH * fitting + 2 * MARGIN,
-             count * LETTER_HEIGHT * fitting + 2 * MARGIN, ground);
-    for (int i = 0; i < count; i++)
-        write_text(&w->canvas, w->lines[i], left + MARGIN,
-                   top + MARGIN + i * LETTER_HEIGHT * fitting, fitting,
-                   w->lines[i][0] == '!' ? alarm : ink);
-    SDL_UpdateTexture(w->text, NULL, w->canvas.rgba, 4 * width);
-    return HD_OK;
+    const int across = LETTER_WIDTH * fitting, down = LETTER_HEIGHT * fitting;
+    SDL_Rect ground = {is_split ? width / 2 : 0, is_split ? height / 2 : 0, 0,
+                       w->line_count * down + 2 * MARGIN};
+    for (int i = 0; i < w->line_count; i++)
+        ground.w = hd_max(ground.w, (int)strlen(w->lines[i]) * across + 2 * MARGIN);
+    SDL_SetRenderDrawBlendMode(w->renderer, SDL_BLENDMODE_BLEND);
+    SDL_SetRenderDrawColor(w->renderer, 8, 10, 16, 190);
+    SDL_RenderFillRect(w->renderer, &ground);
+    for (int i = 0; i < w->line_count; i++) {
+        const char *line = w->lines[i];
+        const SDL_Color ink = line[0] == '!' ? (SDL_Color){255, 140, 120, SDL_ALPHA_OPAQUE}
+                                             : (SDL_Color){235, 240, 245, SDL_ALPHA_OPAQUE};
+        SDL_SetRenderDrawColor(w->renderer, ink.r, ink.g, ink.b, ink.a);
+        for (int x = 0; line[x] != '\0'; x++)
+            draw_letter(w->renderer, line[x], ground.x + MARGIN + x * across,
+                        ground.y + MARGIN + i * down, fitting);
+    }
 }
 
 /* Whether the lines are other than those that are shown, whose place they take. */
@@ -196,22 +150,20 @@ static bool update_lines(Window *w) {
 static HdStatus draw(Window *w, HdError *error) {
     int width, height;
     const int before = w->version;
-    HdStatus status = update_picture(w, error);
+    HD_TRY(update_picture(w, error));
     w->is_changed = update_lines(w) || w->is_changed || before != w->version;
-    if (status != HD_OK || !w->is_changed)
-        return status;
+    if (!w->is_changed)
+        return HD_OK;
     w->is_changed = false;
     SDL_GetRendererOutputSize(w->renderer, &width, &height);
-    SDL_SetRenderDrawColor(w->renderer, 0, 0, 0, 255);
+    SDL_SetRenderDrawColor(w->renderer, 0, 0, 0, SDL_ALPHA_OPAQUE);
     SDL_RenderClear(w->renderer);
     const SDL_Rect place = place_of_picture(w, width, height);
     if (w->picture != NULL)
         SDL_RenderCopy(w->renderer, w->picture, NULL, &place);
-    status = draw_text(w, width, height, error);
-    if (status == HD_OK)
-        SDL_RenderCopy(w->renderer, w->text, NULL, NULL);
+    draw_text(w, width, height);
     SDL_RenderPresent(w->renderer);
-    return status;
+    return HD_OK;
 }
 
 /* ---- events ---- */
@@ -277,9 +229,8 @@ static void take_event(Window *w, const SDL_Event *event) {
 }
 
 static HdStatus run(Window *w, HdError *error) {
-    HdStatus status = HD_OK;
-    while (status == HD_OK && hd_viewer_tick(w->viewer, hd_monotonic_seconds())) {
-        status = draw(w, error);
+    while (hd_viewer_tick(w->viewer, hd_monotonic_seconds())) {
+        HD_TRY(draw(w, error));
         SDL_Event event;
         if (SDL_WaitEventTimeout(&event, hd_viewer_wait_ms(w->viewer)) != 0)
             do
@@ -289,16 +240,10 @@ static HdStatus run(Window *w, HdError *error) {
             return hd_fail(error, HD_INTERRUPTED, "interrupted");
         glide(w, hd_monotonic_seconds());
     }
-    return status;
+    return HD_OK;
 }
 
 /* ---- from open to close ---- */
-
-static void say(void *context, const char *lines) {
-    (void)context;
-    fputs(lines, stdout);
-    fflush(stdout);
-}
 
 static HdStatus open_window(Window *w, HdError *error) {
     int width, height;
@@ -316,9 +261,8 @@ static HdStatus open_window(Window *w, HdError *error) {
 }
 
 static HdStatus show(Window *w, const HdViewPlan *plan, HdError *error) {
-    const HdViewHost host = {say, NULL};
     w->is_changed = true;
-    HdStatus status = hd_viewer_open(&w->viewer, plan, &host, error);
+    HdStatus status = hd_viewer_open(&w->viewer, plan, stdout, error);
     if (status == HD_OK)
         status = open_window(w, error);
     if (status == HD_OK)
@@ -348,7 +292,6 @@ HdStatus hd_view_in_window(const HdViewPlan *plan, HdError *error) {
     HdStatus status = open_display(error);
     if (status == HD_OK)
         status = show(&w, plan, error);
-    free(w.canvas.rgba);
     SDL_Quit();
     return status;
 }

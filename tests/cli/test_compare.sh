@@ -136,7 +136,7 @@ expect_exit 0 "$hedron" render --quiet --backend c --frames 0 --samples 1 --size
 head -c 2000 one.png >damaged.png
 expect_refusal 2 "$hedron" compare one.png damaged.png --diff full/heat.png
 expect_stderr_contains 'damaged.png'
-expect_files full
+[ ! -e full ] || fail "a folder was made for a map that failed"
 
 # ---- what cannot be compared
 expect_refusal 2 "$hedron" compare a.png half.png

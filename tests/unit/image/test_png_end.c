@@ -4,7 +4,6 @@
 
 #include <zlib.h>
 
-#include "image/png.h"
 #include "picture_files.h"
 
 enum { WIDTH = 23, HEIGHT = 17 };
