@@ -7,6 +7,8 @@
 #include <pthread.h>
 #include <string.h>
 
+#include "base/minmax.h"
+
 /* A value has the code c where it lies between the curve's inverse at c - 1/2 and at c + 1/2, and
    these thresholds alone decide. Where to look is known from the value's bits: floats that share
    exponent and leading bits of the fraction form a bucket.
@@ -158,11 +160,7 @@ static inline uint8_t linear8(float value) {
 
 /* In double, where the product is exact. */
 static uint16_t linear16(float value) {
-    if (!(value > 0.0f))
-        return 0;
-    if (value >= 1.0f)
-        return 65535;
-    return (uint16_t)((double)value * 65535.0 + 0.5);
+    return (uint16_t)((double)clamp(value, 0.0f) * 65535.0 + 0.5);
 }
 
 void hd_curve_encode8(HdCurve curve, const float *restrict values, size_t count,
@@ -182,7 +180,7 @@ void hd_curve_encode_rgba(HdCurve curve, const float *rgb, size_t pixels, uint8_
     enum { AT_ONCE = 256 };
     uint8_t encoded[AT_ONCE * 3];
     for (size_t first = 0; first < pixels; first += AT_ONCE) {
-        size_t count = pixels - first < AT_ONCE ? pixels - first : AT_ONCE;
+        const size_t count = hd_min_size(pixels - first, AT_ONCE);
         hd_curve_encode8(curve, rgb + 3 * first, 3 * count, encoded);
         for (size_t i = 0; i < count; i++) {
             memcpy(rgba + 4 * (first + i), encoded + 3 * i, 3);

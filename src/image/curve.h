@@ -9,7 +9,8 @@
 
 typedef enum HdCurve {
     HD_CURVE_LINEAR,
-    HD_CURVE_SRGB /* IEC 61966-2-1 */
+    HD_CURVE_SRGB, /* IEC 61966-2-1 */
+    HD_CURVES
 } HdCurve;
 
 /* Each value is clamped to 0..1 (NaN counts as 0), put on the curve, and rounded to the nearest of

@@ -35,22 +35,6 @@ typedef struct HdPictureLabel {
     uint64_t fingerprint; /* of the frame (output/fingerprint.h): by it, it is known as finished */
 } HdPictureLabel;
 
-enum { HD_MAX_TEXTURE_PIXELS = 1 << 28 };
-
-/* Linear values, 16 bits a channel, row by row from the top: r, g, b, r, g, b, ... */
-typedef struct HdTexture {
-    int width, height;
-    uint16_t *texels; /* owned; width * height * 3 */
-} HdTexture;
-
-/* Checks the size against HD_MAX_TEXTURE_SIDE and the limit above and allocates the texels, which
-   are not cleared. `name` is for messages. */
-HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, const char *name,
-                           HdError *error);
-
-/* Frees what the texture owns and clears it; it may be clear already. */
-void hd_texture_clear(HdTexture *texture);
-
 enum { HD_MOST_FURTHER = 64 }; /* what is beyond is passed over */
 
 /* Of a picture that is read row by row. */
@@ -64,14 +48,16 @@ typedef struct HdPictureFacts {
     const char *const *names; /* theirs, by the alphabet */
 } HdPictureFacts;
 
+enum { HD_SLICED_SIDE = 64 };
+
 /* Functions are NULL where the format has no such thing; `path` and `name` are for messages. */
 typedef struct HdFormat HdFormat;
 struct HdFormat {
     const char *name; /* for people */
 
-    /* Of films: the arguments by which FFmpeg makes one of that size, which says that its values
-       are on that curve; NULL ends them. */
-    const char *const *(*film_arguments)(int width, int height, HdCurve curve);
+    /* Of films: the arguments by which FFmpeg makes one, which says that its values are on that
+       curve; NULL ends them. Small ones have a side below HD_SLICED_SIDE; NULL: as others. */
+    const char *const *film_arguments[HD_CURVES], *const *small_film_arguments[HD_CURVES];
     bool is_srgb_alone;                /* no other curve can be said */
     const HdFormat *segment_format;    /* which segments of such a film have */
     const char *const *join_arguments; /* by which FFmpeg joins them; NULL: film_arguments do */

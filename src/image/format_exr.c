@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/limits.h"
 #include "image/format.h"
@@ -94,18 +93,11 @@ static int64_t write_at(exr_const_context_t context, void *data, const void *byt
     File *file = data;
     (void)context;
     (void)report;
-    for (uint64_t done = 0; done < size;) {
-        const ssize_t count = pwrite(fileno(file->stream), (const char *)bytes + done,
-                                     (size_t)(size - done), (off_t)(offset + done));
-        if (count < 0 && errno == EINTR)
-            continue;
-        if (count < 0) {
-            snprintf(file->message, sizeof file->message, "%s", strerror(errno));
-            return -1;
-        }
-        done += (uint64_t)count;
-    }
-    return (int64_t)size;
+    if (fseeko(file->stream, (off_t)offset, SEEK_SET) == 0 &&
+        fwrite(bytes, 1, (size_t)size, file->stream) == size)
+        return (int64_t)size;
+    snprintf(file->message, sizeof file->message, "%s", strerror(errno));
+    return -1;
 }
 
 /* To the nearest half, the even one of two; NaN stays one, and what is too large for a finite half
@@ -290,21 +282,12 @@ static int64_t file_size(exr_const_context_t context, void *data) {
 static int64_t read_at(exr_const_context_t context, void *data, void *bytes, uint64_t size,
                        uint64_t offset, exr_stream_error_func_ptr_t report) {
     const File *file = data;
-    uint64_t done = 0;
     (void)context;
     (void)report;
-    while (done < size && offset + done <= INT64_MAX) {
-        const ssize_t count = pread(fileno(file->stream), (char *)bytes + done,
-                                    (size_t)(size - done), (off_t)(offset + done));
-        if (count < 0 && errno == EINTR)
-            continue;
-        if (count < 0)
-            return -1;
-        if (count == 0)
-            break;
-        done += (uint64_t)count;
-    }
-    return (int64_t)done;
+    if (offset > INT64_MAX || fseeko(file->stream, (off_t)offset, SEEK_SET) != 0)
+        return 0;
+    const size_t count = fread(bytes, 1, (size_t)size, file->stream);
+    return ferror(file->stream) != 0 ? -1 : (int64_t)count;
 }
 
 /* The library has the code of short memory for data, too, that it cannot unpack; the words differ.

@@ -2,8 +2,6 @@
 /* Films: what FFmpeg is told about the file. */
 #include "image/format.h"
 
-enum { MIN_SLICED_SIDE = 64 };
-
 /* clang-format off */
 #define MP4_FILE "-movflags", "+faststart", "-f", "mp4"
 #define MP4_ARGUMENTS(CURVE) \
@@ -45,40 +43,23 @@ static const char *const gif_arguments[] = {
     "-filter_complex", gif_filters, "-loop", "0", "-f", "gif", NULL};
 /* clang-format on */
 
-static const char *const *mp4(int width, int height, HdCurve curve) {
-    (void)width;
-    (void)height;
-    return curve == HD_CURVE_LINEAR ? linear_mp4_arguments : mp4_arguments;
-}
-
-static const char *const *mkv(int width, int height, HdCurve curve) {
-    bool is_sliced = width >= MIN_SLICED_SIDE && height >= MIN_SLICED_SIDE;
-    return is_sliced ? sliced_mkv_arguments[curve] : whole_mkv_arguments[curve];
-}
-
-static const char *const *gif(int width, int height, HdCurve curve) {
-    (void)width;
-    (void)height;
-    (void)curve;
-    return gif_arguments;
-}
-
 const HdFormat hd_format_mp4 = {
     .name = "MP4",
-    .film_arguments = mp4,
+    .film_arguments = {linear_mp4_arguments, mp4_arguments},
     .segment_format = &hd_format_mp4,
     .join_arguments = mp4_join,
 };
 const HdFormat hd_format_mkv = {
     .name = "MKV",
-    .film_arguments = mkv,
+    .film_arguments = {sliced_mkv_arguments[0], sliced_mkv_arguments[1]},
+    .small_film_arguments = {whole_mkv_arguments[0], whole_mkv_arguments[1]},
     .segment_format = &hd_format_mkv,
     .join_arguments = mkv_join,
 };
 /* Its pictures build on each other, so that it cannot be cut. */
 const HdFormat hd_format_gif = {
     .name = "GIF",
-    .film_arguments = gif,
+    .film_arguments = {gif_arguments, gif_arguments},
     .is_srgb_alone = true,
     .segment_format = &hd_format_mkv,
 };

@@ -120,7 +120,8 @@ static HdStatus fail_reading(const PngReader *reader, HdError *error) {
                    "cannot read %s as PNG: %s", reader->name, reader->message);
 }
 
-static void close_reader(PngReader *reader) {
+static void close_reader(void *rows) {
+    PngReader *reader = rows;
     png_destroy_read_struct(&reader->png, &reader->info, NULL);
     free(reader);
 }
@@ -429,10 +430,6 @@ static HdStatus next_row(void *rows, float *rgb, HdError *error) {
     return status;
 }
 
-static void close_rows(void *rows) {
-    close_reader(rows);
-}
-
 const HdFormat hd_format_png = {
     .name = "PNG",
     .write = write_frame,
@@ -442,6 +439,6 @@ const HdFormat hd_format_png = {
     .begins = begins,
     .open_rows = open_rows,
     .next_row = next_row,
-    .close_rows = close_rows,
+    .close_rows = close_reader,
     .is_on_curve = true,
 };

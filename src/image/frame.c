@@ -6,6 +6,7 @@
 
 #include "base/hash.h"
 #include "base/limits.h"
+#include "system/machine.h"
 
 const char *const hd_layer_names[] = {"depth", "normal", "object", "samples", "bound", NULL};
 
@@ -34,9 +35,7 @@ HdStatus hd_frame_check_size(const HdFrame *frame, HdError *error) {
 }
 
 HdStatus hd_frame_add_rgba(HdFrame *frame, HdError *error) {
-    HdStatus status = hd_frame_check_size(frame, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_frame_check_size(frame, error));
     frame->rgba = calloc((size_t)frame->width * (size_t)frame->height, 4);
     if (frame->rgba == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for a picture of %d x %d pixels",
@@ -111,21 +110,39 @@ uint64_t hd_frame_rays(const HdFrame *frame) {
     return frame->primary_rays + frame->mirrored_rays + frame->transmitted_rays;
 }
 
-/* The bytes of an integer, the lowest first. */
-static uint64_t hash_integer(uint64_t hash, uint64_t value, int bytes) {
-    unsigned char low_first[8];
-    for (int i = 0; i < bytes; i++)
-        low_first[i] = (unsigned char)(value >> (8 * i) & 0xff);
-    return hd_hash_bytes(hash, low_first, (size_t)bytes);
+uint64_t hd_frame_hash(const HdFrame *frame) {
+    const size_t values = (size_t)frame->width * (size_t)frame->height * (size_t)frame->floats;
+    const int32_t size[] = {frame->width, frame->height};
+    const uint64_t counts[] = {hd_frame_rays(frame), frame->shadow_tests, frame->clamps};
+    uint64_t hash = hd_hash_bytes(HD_HASH_START, size, sizeof size);
+    hash = hd_hash_bytes(hash, counts, sizeof counts);
+    return hd_hash_bytes(hash, frame->rgb, values * sizeof *frame->rgb);
 }
 
-uint64_t hd_frame_hash(const HdFrame *frame) {
-    uint64_t hash = HD_HASH_START;
-    size_t values = (size_t)frame->width * (size_t)frame->height * (size_t)frame->floats;
-    hash = hash_integer(hash, (uint32_t)frame->width, 4);
-    hash = hash_integer(hash, (uint32_t)frame->height, 4);
-    hash = hash_integer(hash, hd_frame_rays(frame), 8);
-    hash = hash_integer(hash, frame->shadow_tests, 8);
-    hash = hash_integer(hash, frame->clamps, 8);
-    return hd_hash_bytes(hash, frame->rgb, values * sizeof *frame->rgb);
+/* ---- textures ---- */
+
+HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, const char *name,
+                           HdError *error) {
+    if (width < 1 || width > HD_MAX_TEXTURE_SIDE || height < 1 || height > HD_MAX_TEXTURE_SIDE)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the texture %s has %lu x %lu pixels, expected 1..%d each", name,
+                       (unsigned long)width, (unsigned long)height, HD_MAX_TEXTURE_SIDE);
+    if ((uint64_t)width * height > HD_MAX_TEXTURE_PIXELS)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the texture %s has %lu x %lu pixels, expected at most %d in all", name,
+                       (unsigned long)width, (unsigned long)height, HD_MAX_TEXTURE_PIXELS);
+    texture->texels =
+        hd_large_allocate((size_t)width * (size_t)height * 3 * sizeof *texture->texels);
+    if (texture->texels == NULL)
+        return hd_fail(error, HD_FAILED,
+                       "out of memory: no room for the texture %s of %lu x %lu pixels", name,
+                       (unsigned long)width, (unsigned long)height);
+    texture->width = (int)width;
+    texture->height = (int)height;
+    return HD_OK;
+}
+
+void hd_texture_clear(HdTexture *texture) {
+    free(texture->texels);
+    *texture = (HdTexture){0};
 }

@@ -4,11 +4,9 @@
 #include "image/picture.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "system/path.h"
 
@@ -29,7 +27,7 @@ const HdFormat *hd_format_of(const char *path) {
 }
 
 bool hd_format_is_film(const HdFormat *format) {
-    return format != NULL && format->film_arguments != NULL;
+    return format != NULL && format->film_arguments[0] != NULL;
 }
 
 HdStatus hd_format_check_style(const char *path, const HdPictureStyle *style, HdError *error) {
@@ -78,16 +76,13 @@ HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, con
 static const int64_t MAX_TEXTURE_FILE = INT64_C(4) << 30;
 
 /* What is neither PNG nor JPEG may be in the data format, which has no signature. */
-static const HdFormat *format_of_texture(const unsigned char *bytes, size_t size) {
-    if (hd_format_png.begins(bytes, size))
-        return &hd_format_png;
-    return hd_format_jpeg.begins(bytes, size) ? &hd_format_jpeg : &hd_format_data;
-}
-
 HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                            const char *name, HdCurve curve, HdError *error) {
     *texture = (HdTexture){0};
-    HdStatus status = format_of_texture(bytes, size)->decode(texture, bytes, size, name, error);
+    const HdFormat *format = hd_format_png.begins(bytes, size)    ? &hd_format_png
+                             : hd_format_jpeg.begins(bytes, size) ? &hd_format_jpeg
+                                                                  : &hd_format_data;
+    const HdStatus status = format->decode(texture, bytes, size, name, error);
     if (status == HD_OK)
         hd_curve_decode16(curve, texture->texels,
                           (size_t)texture->width * (size_t)texture->height * 3);
@@ -100,9 +95,8 @@ HdStatus hd_texture_read(HdTexture *texture, const char *path, HdCurve curve, Hd
     unsigned char *bytes = NULL;
     size_t size = 0;
     *texture = (HdTexture){0};
-    HdStatus status = hd_file_read(path, "texture", MAX_TEXTURE_FILE, &bytes, &size, error);
-    if (status == HD_OK)
-        status = hd_texture_decode(texture, bytes, size, path, curve, error);
+    HD_TRY(hd_file_read(path, "texture", MAX_TEXTURE_FILE, &bytes, &size, error));
+    const HdStatus status = hd_texture_decode(texture, bytes, size, path, curve, error);
     free(bytes);
     return status;
 }
@@ -121,24 +115,17 @@ struct HdPictureReader {
     HdPictureValue *by_code; /* owned; CODES of them, of a picture on a curve */
 };
 
-/* Not blocking, lest a named pipe stops the program before it is refused. */
+/* A named pipe would stop the program before it is refused. */
 static HdStatus open_file(HdPictureReader *reader, HdError *error) {
     struct stat found;
-    int descriptor = open(reader->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor >= 0 && fstat(descriptor, &found) == 0 && !S_ISREG(found.st_mode)) {
-        close(descriptor);
+    const bool is_there = stat(reader->path, &found) == 0;
+    if (is_there && !S_ISREG(found.st_mode))
         return hd_fail(error, HD_BAD_INPUT, "cannot read the picture %s: it is not a regular file",
                        reader->path);
-    }
-    if (descriptor >= 0)
-        reader->file = fdopen(descriptor, "rb");
-    if (reader->file != NULL)
-        return HD_OK;
-    int reason = errno;
-    if (descriptor >= 0)
-        close(descriptor);
-    return hd_fail(error, HD_BAD_INPUT, "cannot read the picture %s: %s", reader->path,
-                   strerror(reason));
+    reader->file = is_there ? fopen(reader->path, "rb") : NULL;
+    return reader->file != NULL ? HD_OK
+                                : hd_fail(error, HD_BAD_INPUT, "cannot read the picture %s: %s",
+                                          reader->path, strerror(errno));
 }
 
 static HdStatus open_format(HdPictureReader *reader, HdError *error) {
@@ -177,27 +164,18 @@ const HdPictureFacts *hd_picture_reader_facts(const HdPictureReader *reader) {
     return &reader->facts;
 }
 
-/* With 8 bits only every 257th code is there. */
-static void fill_codes(HdPictureReader *reader) {
-    int step = reader->facts.bits == 8 ? 257 : 1;
-    for (int code = 0; code < CODES; code += step) {
-        reader->by_code[code] = (HdPictureValue){
-            .linear = hd_curve_to_linear(reader->curve, code / HD_DISPLAY_TOP),
-            .display = code,
-        };
-    }
-}
-
 HdStatus hd_picture_reader_start(HdPictureReader *reader, HdCurve curve, HdError *error) {
     const bool is_on_curve = reader->facts.format->is_on_curve;
+    const int step = reader->facts.bits == 8 ? 257 : 1; /* with 8 bits no other code is there */
     reader->curve = curve;
     reader->row = malloc((size_t)reader->facts.width * 3 * sizeof *reader->row);
     if (is_on_curve)
         reader->by_code = malloc(CODES * sizeof *reader->by_code);
     if (reader->row == NULL || (is_on_curve && reader->by_code == NULL))
         return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", reader->path);
-    if (is_on_curve)
-        fill_codes(reader);
+    for (int code = 0; code < CODES && is_on_curve; code += step)
+        reader->by_code[code] =
+            (HdPictureValue){hd_curve_to_linear(curve, code / HD_DISPLAY_TOP), code};
     return HD_OK;
 }
 

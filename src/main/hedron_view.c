@@ -4,24 +4,24 @@
 #include <string.h>
 
 #include "main/program.h"
-#include "view/view.h"
+#include "view/viewer.h"
 
-static HdStatus show_terminal(const HdViewPlan *plan, HdError *error) {
+static HdStatus show_terminal(const HdOptions *options, HdError *error) {
 #if HD_HAS_CHAFA
-    return hd_view_in_terminal(plan, error);
+    return hd_view_in_terminal(&options->scene, &options->devices, error);
 #else
-    (void)plan;
+    (void)options;
     return hd_fail(error, HD_UNAVAILABLE,
                    "hedron-view was built without chafa (libchafa-dev), so that it has no "
                    "--terminal");
 #endif
 }
 
-static HdStatus show_window(const HdViewPlan *plan, HdError *error) {
+static HdStatus show_window(const HdOptions *options, HdError *error) {
 #if HD_HAS_SDL
-    return hd_view_in_window(plan, error);
+    return hd_view_in_window(&options->scene, &options->devices, error);
 #else
-    (void)plan;
+    (void)options;
     return hd_fail(error, HD_UNAVAILABLE,
                    "hedron-view was built without SDL 2 (libsdl2-dev), so that it has no window; "
                    "'hedron view --terminal' shows the scene in a terminal");
@@ -29,14 +29,13 @@ static HdStatus show_window(const HdViewPlan *plan, HdError *error) {
 }
 
 static HdStatus run(const HdOptions *options, HdError *error) {
-    const HdViewPlan plan = {options->scene, options->devices};
     if (options->command != HD_COMMAND_VIEW)
         return hd_fail(error, HD_BAD_INPUT, "'hedron-view' is what 'hedron view' starts");
-    if (plan.scene.path != NULL && strcmp(plan.scene.path, "-") == 0)
+    if (options->scene.path != NULL && strcmp(options->scene.path, "-") == 0)
         return hd_fail(error, HD_BAD_INPUT,
                        "'hedron view' needs a scene's file, which it reads again when it changes, "
                        "and not standard input");
-    return (options->terminal ? show_terminal : show_window)(&plan, error);
+    return (options->terminal ? show_terminal : show_window)(options, error);
 }
 
 int main(int count, char **arguments) {

@@ -47,7 +47,11 @@ static const char *const join_input[] = {
 static const char *const *output_arguments(const HdVideoPlan *plan) {
     if (plan->is_joined && plan->format->join_arguments != NULL)
         return plan->format->join_arguments;
-    return plan->format->film_arguments(plan->width, plan->height, plan->style.picture.curve);
+    const HdCurve curve = plan->style.picture.curve;
+    const bool is_small = plan->width < HD_SLICED_SIDE || plan->height < HD_SLICED_SIDE;
+    return is_small && plan->format->small_film_arguments[curve] != NULL
+               ? plan->format->small_film_arguments[curve]
+               : plan->format->film_arguments[curve];
 }
 
 /* "file:" keeps FFmpeg from reading a protocol or an option into the name. */

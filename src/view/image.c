@@ -4,12 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void hd_view_image_describe(HdViewImage *image, const HdViewImage *facts) {
-    uint8_t *rgba = image->rgba;
-    *image = *facts;
-    image->rgba = rgba;
-}
-
 void hd_view_image_free(HdViewImage *image) {
     free(image->rgba);
     *image = (HdViewImage){.width = 0};

@@ -26,9 +26,6 @@ typedef struct HdViewImage {
    none. */
 HdStatus hd_view_image_resize(HdViewImage *image, int width, int height, HdError *error);
 
-/* Takes all of `facts` but the pixels, of which the image keeps its own. */
-void hd_view_image_describe(HdViewImage *image, const HdViewImage *facts);
-
 void hd_view_image_free(HdViewImage *image);
 
 typedef struct HdSplitFigures {

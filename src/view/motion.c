@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "base/minmax.h"
 #include "base/text.h"
 #include "base/trigonometry.h"
 #include "scene/camera.h"
@@ -93,11 +94,6 @@ void hd_pace_note(HdPace *pace, const HdDetail *detail, double seconds) {
     pace->seconds_per_sample = before > 0.0 ? before + weight * (now - before) : now;
 }
 
-static int scaled(int side, double scale) {
-    const int pixels = (int)(side * scale);
-    return pixels > 1 ? pixels : 1;
-}
-
 /* A step at a time, for what a step saves is known when it was measured. */
 static void adapt_depth(HdPace *pace, const HdDetail *full, double width) {
     const int depth = pace->depth > 0 && pace->depth < full->depth ? pace->depth : full->depth;
@@ -108,23 +104,21 @@ static void adapt_depth(HdPace *pace, const HdDetail *full, double width) {
         pace->depth = depth < full->depth ? depth + 1 : 0;
 }
 
-static HdDetail smaller(const HdDetail *full, double scale) {
-    const double least = fmin(1.0, (double)LEAST_WIDTH / full->width);
-    const double kept = fmax(scale, least);
-    return (HdDetail){scaled(full->width, kept), scaled(full->height, kept), 1, full->depth};
-}
-
 HdDetail hd_pace_choose(HdPace *pace, const HdDetail *full) {
     const double each = pace->seconds_per_sample > 0.0 ? pace->seconds_per_sample : USUAL_SECONDS;
     const double share = HD_MOVING_SECONDS / each / ((double)full->width * full->height);
+    const double side = sqrt(share);
     HdDetail detail = *full;
-    adapt_depth(pace, full, sqrt(share) * full->width);
+    adapt_depth(pace, full, side * full->width);
     if (pace->depth > 0 && pace->depth < full->depth)
         detail.depth = pace->depth;
-    if (share < 1.0)
-        return smaller(&detail, sqrt(share));
-    const double side = sqrt(share);
-    if (side < full->samples)
+    if (share < 1.0) {
+        const double kept = fmax(side, fmin(1.0, (double)LEAST_WIDTH / full->width));
+        detail.width = hd_max((int)(full->width * kept), 1);
+        detail.height = hd_max((int)(full->height * kept), 1);
+        detail.samples = 1;
+    } else if (side < full->samples) {
         detail.samples = (int)side;
+    }
     return detail;
 }

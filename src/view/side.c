@@ -45,7 +45,9 @@ static HdStatus show_rows(HdViewSide *side, const HdFrame *frame, int top, int h
     if (status == HD_OK) {
         hd_curve_encode_rgba(curve, frame->rgb, (size_t)frame->width * (size_t)height,
                              side->made.rgba + 4 * (size_t)facts->width * (size_t)top);
-        hd_view_image_describe(&side->made, facts);
+        uint8_t *rgba = side->made.rgba;
+        side->made = *facts;
+        side->made.rgba = rgba;
         side->has_news = true;
     }
     pthread_mutex_unlock(&side->mutex);
@@ -56,11 +58,11 @@ static HdStatus show_rows(HdViewSide *side, const HdFrame *frame, int top, int h
 
 static HdStatus open_device(HdViewSide *side, HdError *error) {
     HdScene plain = side->file.scene; /* what it owns stays with the other */
-    HdRenderOptions render = side->plan.devices.render;
+    HdRenderOptions render = side->devices.render;
     const HdJob job = {.scene = &plain, .frame_count = plain.frame_count};
     const HdDeviceWish device = {
-        .backend = side->plan.devices.backend,
-        .device = side->plan.devices.device,
+        .backend = side->devices.backend,
+        .device = side->devices.device,
         .kind = HD_WANT_ANY,
         .is_for_one = true,
         .options = &render,
@@ -264,16 +266,6 @@ static void *work(void *argument) {
     return NULL;
 }
 
-static HdStatus start_thread(HdViewSide *side, HdError *error) {
-    pthread_mutex_init(&side->mutex, NULL);
-    pthread_cond_init(&side->changed, NULL);
-    const int reason = hd_start_thread(&side->thread, work, side);
-    side->has_thread = reason == 0;
-    return reason == 0 ? HD_OK
-                       : hd_fail(error, HD_FAILED, "cannot start a thread that renders: %s",
-                                 strerror(reason));
-}
-
 void hd_view_side_show(HdViewSide *side, const HdViewWish *wish) {
     pthread_mutex_lock(&side->mutex);
     side->wish = *wish;
@@ -304,12 +296,13 @@ bool hd_view_side_is_idle(HdViewSide *side) {
 bool hd_view_side_fetch(HdViewSide *side) {
     HdError ignored;
     pthread_mutex_lock(&side->mutex);
-    const HdViewImage *made = &side->made;
-    const bool is_newer = side->has_news && hd_view_image_resize(&side->image, made->width,
-                                                                 made->height, &ignored) == HD_OK;
+    HdViewImage made = side->made;
+    const bool is_newer = side->has_news && hd_view_image_resize(&side->image, made.width,
+                                                                 made.height, &ignored) == HD_OK;
     if (is_newer) {
-        memcpy(side->image.rgba, made->rgba, 4 * (size_t)made->width * (size_t)made->height);
-        hd_view_image_describe(&side->image, made);
+        made.rgba = side->image.rgba;
+        memcpy(made.rgba, side->made.rgba, 4 * (size_t)made.width * (size_t)made.height);
+        side->image = made;
         side->has_news = false;
     }
     pthread_mutex_unlock(&side->mutex);
@@ -370,8 +363,8 @@ static uint64_t hash_files(const char *path, const HdSceneFile *file) {
 }
 
 static HdStatus read_file(HdViewSide *side, HdSceneFile *file, HdError *error) {
-    side->files = hash_files(side->plan.scene.path, &side->file);
-    HdStatus status = hd_load_scene(file, &side->plan.scene, NULL, error);
+    side->files = hash_files(side->scene_plan.path, &side->file);
+    HdStatus status = hd_load_scene(file, &side->scene_plan, NULL, error);
     snprintf(side->mistake, sizeof side->mistake, "%.4000s", status == HD_OK ? "" : error->message);
     return status;
 }
@@ -383,18 +376,23 @@ static void take_file(HdViewSide *side, const HdSceneFile *file) {
     side->file = *file;
     side->is_uploaded = false;
     side->is_opened = side->is_opened && was_deep == hd_scene_has_deep_trees(&file->scene);
-    side->files = hash_files(side->plan.scene.path, &side->file);
+    side->files = hash_files(side->scene_plan.path, &side->file);
 }
 
-HdStatus hd_view_side_open(HdViewSide *side, const HdViewPlan *plan, HdError *error) {
+HdStatus hd_view_side_open(HdViewSide *side, const HdScenePlan *scene, const HdDevicePlan *devices,
+                           HdError *error) {
     HdSceneFile file;
-    *side = (HdViewSide){.plan = *plan};
+    *side = (HdViewSide){.scene_plan = *scene, .devices = *devices};
     HD_TRY(read_file(side, &file, error));
     take_file(side, &file);
-    const HdStatus status = start_thread(side, error);
-    if (status != HD_OK)
-        hd_view_side_close(side);
-    return status;
+    pthread_mutex_init(&side->mutex, NULL);
+    pthread_cond_init(&side->changed, NULL);
+    const int reason = hd_start_thread(&side->thread, work, side);
+    side->has_thread = reason == 0;
+    if (side->has_thread)
+        return HD_OK;
+    hd_view_side_close(side);
+    return hd_fail(error, HD_FAILED, "cannot start a thread that renders: %s", strerror(reason));
 }
 
 static void read_again(HdViewSide *side) {
@@ -406,7 +404,7 @@ static void read_again(HdViewSide *side) {
 }
 
 bool hd_view_side_follow_files(HdViewSide *side) {
-    if (hash_files(side->plan.scene.path, &side->file) == side->files)
+    if (hash_files(side->scene_plan.path, &side->file) == side->files)
         return false;
     read_again(side);
     return true;
@@ -415,7 +413,7 @@ bool hd_view_side_follow_files(HdViewSide *side) {
 /* ---- settings ---- */
 
 static void next_backend(HdViewSide *side) {
-    HdDevicePlan *plan = &side->plan.devices;
+    HdDevicePlan *plan = &side->devices;
     int next = 0;
     while (plan->backend != NULL && next < HD_BACKEND_COUNT &&
            strcmp(hd_backends[next++]->name, plan->backend) != 0)
@@ -441,13 +439,13 @@ static void next_device(HdViewSide *side) {
         was_here = strcmp(name, side->device) == 0;
     }
     memcpy(side->device, first, sizeof first);
-    side->plan.devices.backend = NULL;
-    side->plan.devices.device = side->device;
+    side->devices.backend = NULL;
+    side->devices.device = side->device;
 }
 
 static void change_scene(HdViewSide *side, HdViewSetting setting, int by) {
     const HdScene *scene = &side->file.scene;
-    HdScenePlan *plan = &side->plan.scene;
+    HdScenePlan *plan = &side->scene_plan;
     if (setting == HD_VIEW_DEPTH)
         plan->depth = hd_min(hd_max(scene->depth + by, 0), HD_MAX_DEPTH);
     else if (setting == HD_VIEW_SAMPLES)
@@ -458,7 +456,7 @@ static void change_scene(HdViewSide *side, HdViewSetting setting, int by) {
 }
 
 void hd_view_side_change(HdViewSide *side, HdViewSetting setting, int by) {
-    HdPrecision *precision = &side->plan.devices.render.precision;
+    HdPrecision *precision = &side->devices.render.precision;
     rest(side); /* it reads the plan */
     if (setting == HD_VIEW_BACKEND)
         next_backend(side);

@@ -9,9 +9,9 @@
 
 #include "choice/devices.h"
 #include "image/picture.h"
+#include "run/plan.h"
 #include "scene/camera.h"
 #include "view/image.h"
-#include "view/view.h"
 
 typedef enum HdViewSetting {
     HD_VIEW_BACKEND,
@@ -30,8 +30,9 @@ typedef struct HdViewWish {
 } HdViewWish;
 
 typedef struct HdViewSide {
-    HdViewPlan plan; /* this and the file change while the thread rests */
-    char device[32]; /* that the plan may name */
+    HdScenePlan scene_plan; /* this, the next and the file change while the thread rests */
+    HdDevicePlan devices;
+    char device[32]; /* that the latter may name */
     HdSceneFile file;
     uint64_t files;     /* as they were when read last */
     char mistake[4096]; /* why the last reading failed; "": it did not */
@@ -57,7 +58,8 @@ typedef struct HdViewSide {
 } HdViewSide;
 
 /* Reads the scene and starts the thread. On failure nothing is open. */
-HdStatus hd_view_side_open(HdViewSide *side, const HdViewPlan *plan, HdError *error);
+HdStatus hd_view_side_open(HdViewSide *side, const HdScenePlan *scene, const HdDevicePlan *devices,
+                           HdError *error);
 
 /* Reads the scene again if a file has changed; true where it did. With a mistake in it the side
    keeps what it had. */

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L
-#include "view/view.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -350,11 +349,12 @@ static void close_terminal(Terminal *t) {
     g_strfreev(t->shown);
 }
 
-HdStatus hd_view_in_terminal(const HdViewPlan *plan, HdError *error) {
+HdStatus hd_view_in_terminal(const HdScenePlan *scene, const HdDevicePlan *devices,
+                             HdError *error) {
     Terminal t = {.file = -1, .version = -1};
     HdStatus status = open_terminal(&t, error);
     if (status == HD_OK)
-        status = hd_viewer_open(&t.viewer, plan, t.out, error);
+        status = hd_viewer_open(&t.viewer, scene, devices, t.out, error);
     if (status == HD_OK)
         status = take_terminal(&t, error);
     if (status == HD_OK)

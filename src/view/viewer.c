@@ -24,6 +24,9 @@
 #define PAN_STEP   0.03
 #define DOLLY_STEP 1.06
 
+/* Flags of a viewer; it saves once the picture is whole. */
+enum { SAVES = 1, HIDES_FIGURES = 2, SHOWS_HELP = 4, HAS_ENDED = 8 };
+
 enum { FIRST_GAIN = 16, MOST_GAIN = 128 };
 
 struct HdViewer {
@@ -48,8 +51,7 @@ struct HdViewer {
     HdSplitFigures figures;
     int version; /* of what is shown */
     int gain;
-    bool saves; /* once the picture is whole */
-    bool hides_figures, shows_help, has_ended;
+    unsigned flags;
     char note[512]; /* what the last key came to */
 };
 
@@ -194,7 +196,7 @@ const HdViewImage *hd_viewer_picture(HdViewer *viewer, int *version) {
 /* The scene's name without its folder and ending, and the first number that is free. */
 static void free_name(const HdViewer *viewer, char path[160]) {
     char name[128];
-    const char *scene = viewer->sides[0].plan.scene.path;
+    const char *scene = viewer->sides[0].scene_plan.path;
     const char *slash = scene != NULL ? strrchr(scene, '/') : NULL;
     snprintf(name, sizeof name, "%s", slash != NULL ? slash + 1 : scene != NULL ? scene : "hedron");
     char *dot = strrchr(name, '.');
@@ -209,9 +211,9 @@ static void free_name(const HdViewer *viewer, char path[160]) {
 static void save_when_whole(HdViewer *viewer) {
     char path[160];
     HdError error;
-    if (!viewer->saves || viewer->settling != viewer->change || !all_idle(viewer))
+    if ((viewer->flags & SAVES) == 0 || viewer->settling != viewer->change || !all_idle(viewer))
         return;
-    viewer->saves = false;
+    viewer->flags ^= SAVES;
     free_name(viewer, path);
     if (hd_view_side_save(&viewer->sides[viewer->active], path, &error) != HD_OK) {
         snprintf(viewer->note, sizeof viewer->note, "%.500s", error.message);
@@ -263,7 +265,7 @@ static void split(HdViewer *viewer, int by) {
     if (viewer->side_count == 2)
         hd_view_side_close(&viewer->sides[1]);
     else
-        status = hd_view_side_open(&viewer->sides[1], &first->plan, &error);
+        status = hd_view_side_open(&viewer->sides[1], &first->scene_plan, &first->devices, &error);
     if (status != HD_OK)
         snprintf(viewer->note, sizeof viewer->note, "%.500s", error.message);
     viewer->side_count = status == HD_OK && viewer->side_count == 1 ? 2 : 1;
@@ -281,28 +283,8 @@ static void change_gain(HdViewer *viewer, int by) {
     viewer->version++;
 }
 
-static void keep_picture(HdViewer *viewer, int by) {
-    (void)by;
-    viewer->saves = true;
-}
-
-static void hide_figures(HdViewer *viewer, int by) {
-    (void)by;
-    viewer->hides_figures = !viewer->hides_figures;
-}
-
-static void show_help(HdViewer *viewer, int by) {
-    (void)by;
-    viewer->shows_help = !viewer->shows_help;
-}
-
-static void end(HdViewer *viewer, int by) {
-    (void)by;
-    viewer->has_ended = true;
-}
-
-/* What a key does: something of the above, a step of the eye, or else a change of a setting of the
-   active side. */
+/* What a key does: something of the above, a step of the eye, a change of a setting of the active
+   side, or none but flags that it sets or turns. */
 static const struct Key {
     int key;
     void (*act)(HdViewer *viewer, int by);
@@ -310,6 +292,7 @@ static const struct Key {
     double right, up;
     HdViewSetting setting;
     int by;
+    unsigned sets, turns;
 } keys[] = {
     {.key = ' ', .act = play},
     {.key = '0', .act = step, .by = 0},
@@ -338,14 +321,14 @@ static const struct Key {
     {.key = '\t', .act = other_side},
     {.key = 'g', .act = change_gain, .by = -1},
     {.key = 'G', .act = change_gain, .by = 1},
-    {.key = 'p', .act = keep_picture},
+    {.key = 'p', .sets = SAVES},
     {.key = 'c', .act = print_camera},
-    {.key = 'o', .act = hide_figures},
-    {.key = 'h', .act = show_help},
-    {.key = '?', .act = show_help},
-    {.key = 'q', .act = end},
-    {.key = 27, .act = end},
-    {.key = 3, .act = end}, /* Ctrl-C in a terminal that sends it as a character */
+    {.key = 'o', .turns = HIDES_FIGURES},
+    {.key = 'h', .turns = SHOWS_HELP},
+    {.key = '?', .turns = SHOWS_HELP},
+    {.key = 'q', .sets = HAS_ENDED},
+    {.key = 27, .sets = HAS_ENDED},
+    {.key = 3, .sets = HAS_ENDED}, /* Ctrl-C in a terminal that sends it as a character */
 };
 
 /* What keys do, for people; each line below 64 characters. */
@@ -383,11 +366,12 @@ void hd_viewer_key(HdViewer *viewer, int code, double now) {
         return;
     viewer->now = now;
     viewer->note[0] = '\0';
+    viewer->flags = (viewer->flags | key->sets) ^ key->turns;
     if (key->act != NULL) {
         key->act(viewer, key->by);
     } else if (key->move != NULL) {
         move_eye(viewer, key->move, key->right, key->up);
-    } else {
+    } else if (key->by != 0) {
         hd_view_side_change(&viewer->sides[viewer->active], key->setting, key->by);
         settings_changed(viewer);
     }
@@ -409,7 +393,16 @@ typedef struct Lines {
 } Lines;
 
 /* Cuts what is too long for a line where there is a space, and goes on below. */
-static void add_text(Lines *lines, const char *text) {
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+static void
+add(Lines *lines, const char *format, ...) {
+    char all[4600], *text = all;
+    va_list values;
+    va_start(values, format);
+    vsnprintf(all, sizeof all, format, values);
+    va_end(values);
     while (*text != '\0' && lines->count < HD_VIEW_LINES) {
         size_t length = strcspn(text, "\n");
         if (length > HD_VIEW_LINE - 2) {
@@ -423,19 +416,6 @@ static void add_text(Lines *lines, const char *text) {
     }
 }
 
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-static void
-add(Lines *lines, const char *format, ...) {
-    char text[4600];
-    va_list values;
-    va_start(values, format);
-    vsnprintf(text, sizeof text, format, values);
-    va_end(values);
-    add_text(lines, text);
-}
-
 static void add_settings(Lines *lines, HdViewer *viewer, int number) {
     HdViewSide *side = &viewer->sides[number];
     const HdScene *scene = &side->file.scene;
@@ -447,9 +427,9 @@ static void add_settings(Lines *lines, HdViewer *viewer, int number) {
                  viewer->active == number ? " *" : "");
     add(lines, "%s%s", prefix, device);
     add(lines, "%s%s, depth %d, %s, %d x %d samples", prefix,
-        side->plan.devices.render.precision == HD_PRECISION_DOUBLE ? "double" : "float",
-        scene->depth, scene->sampling == HD_SAMPLING_ADAPTIVE ? "adaptive" : "grid",
-        scene->samples_per_side, scene->samples_per_side);
+        side->devices.render.precision == HD_PRECISION_DOUBLE ? "double" : "float", scene->depth,
+        scene->sampling == HD_SAMPLING_ADAPTIVE ? "adaptive" : "grid", scene->samples_per_side,
+        scene->samples_per_side);
     if (problem[0] != '\0')
         add(lines, "! %s", problem);
     if (side->mistake[0] != '\0' && number == 0)
@@ -500,20 +480,22 @@ static void add_place(Lines *lines, const HdViewer *viewer) {
 
 int hd_viewer_lines(HdViewer *viewer, char text[HD_VIEW_LINES][HD_VIEW_LINE]) {
     Lines lines = {.text = text};
-    for (int i = 0; i < viewer->side_count && !viewer->hides_figures; i++) {
+    const bool has_figures = (viewer->flags & HIDES_FIGURES) == 0;
+    for (int i = 0; i < viewer->side_count && has_figures; i++) {
         add_settings(&lines, viewer, i);
         add_speed(&lines, viewer, &viewer->sides[i].image);
     }
-    if (!viewer->hides_figures && viewer->side_count > 1)
+    if (has_figures && viewer->side_count > 1)
         add_difference(&lines, viewer);
-    if (!viewer->hides_figures)
+    if (has_figures)
         add_place(&lines, viewer);
-    if (viewer->saves)
+    if ((viewer->flags & SAVES) != 0)
         add(&lines, "once the picture is finished, it goes to a file");
-    if (viewer->hides_figures && viewer->sides[0].mistake[0] != '\0')
+    if (!has_figures && viewer->sides[0].mistake[0] != '\0')
         add(&lines, "! %s", viewer->sides[0].mistake);
     add(&lines, "%s", viewer->note);
-    for (size_t i = 0; viewer->shows_help && i < sizeof key_lines / sizeof key_lines[0]; i++)
+    for (size_t i = 0;
+         (viewer->flags & SHOWS_HELP) != 0 && i < sizeof key_lines / sizeof key_lines[0]; i++)
         add(&lines, "%s", key_lines[i]);
     return lines.count;
 }
@@ -536,7 +518,7 @@ bool hd_viewer_tick(HdViewer *viewer, double now) {
     fly_on(viewer);
     ask_workers(viewer);
     save_when_whole(viewer);
-    return !viewer->has_ended;
+    return (viewer->flags & HAS_ENDED) == 0;
 }
 
 bool hd_viewer_is_split(const HdViewer *viewer) {
@@ -552,7 +534,8 @@ void hd_viewer_limit(HdViewer *viewer, int width) {
     viewer->most_width = width;
 }
 
-HdStatus hd_viewer_open(HdViewer **viewer, const HdViewPlan *plan, FILE *out, HdError *error) {
+HdStatus hd_viewer_open(HdViewer **viewer, const HdScenePlan *scene, const HdDevicePlan *devices,
+                        FILE *out, HdError *error) {
     HdViewer *v = calloc(1, sizeof *v);
     if (v == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for a view");
@@ -560,7 +543,7 @@ HdStatus hd_viewer_open(HdViewer **viewer, const HdViewPlan *plan, FILE *out, Hd
     v->gain = FIRST_GAIN;
     v->change = 1;
     v->side_count = 1;
-    HdStatus status = hd_view_side_open(&v->sides[0], plan, error);
+    HdStatus status = hd_view_side_open(&v->sides[0], scene, devices, error);
     if (status == HD_OK)
         *viewer = v;
     else

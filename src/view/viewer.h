@@ -7,8 +7,8 @@
 
 #include <stdio.h>
 
+#include "run/plan.h"
 #include "view/image.h"
-#include "view/view.h"
 
 enum { HD_VIEW_LINE = 80, HD_VIEW_LINES = 40 };
 
@@ -19,7 +19,8 @@ typedef struct HdViewer HdViewer;
 
 /* Reads the scene, and starts to render its first frame. `out`, which must live on, gets names of
    saved pictures and cameras. */
-HdStatus hd_viewer_open(HdViewer **viewer, const HdViewPlan *plan, FILE *out, HdError *error);
+HdStatus hd_viewer_open(HdViewer **viewer, const HdScenePlan *scene, const HdDevicePlan *devices,
+                        FILE *out, HdError *error);
 
 /* A key, a character or one of the above, was pressed, or repeats. `now` is that of
    hd_monotonic_seconds, here and below. */
@@ -53,5 +54,16 @@ int hd_viewer_lines(HdViewer *viewer, char lines[HD_VIEW_LINES][HD_VIEW_LINE]);
 
 /* Waits for what is under way. NULL is allowed. */
 void hd_viewer_close(HdViewer *viewer);
+
+/* ---- the whole of it; what the plans point to must live on ---- */
+
+/* Shows the scene until the user closes the window. HD_UNAVAILABLE where there is no display,
+   HD_INTERRUPTED after a signal. Names of saved pictures and cameras go to standard output. */
+HdStatus hd_view_in_window(const HdScenePlan *scene, const HdDevicePlan *devices, HdError *error);
+
+/* Shows the scene in the terminal that controls this program until the user ends it, and leaves the
+   terminal as it was. HD_UNAVAILABLE where there is none, HD_INTERRUPTED after a signal. Names of
+   saved pictures and cameras go to standard output; where that is the terminal, at the end. */
+HdStatus hd_view_in_terminal(const HdScenePlan *scene, const HdDevicePlan *devices, HdError *error);
 
 #endif

@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: MIT */
-#include "view/view.h"
-
 #include <stdio.h>
 #include <string.h>
 
@@ -260,17 +258,6 @@ static HdStatus open_window(Window *w, HdError *error) {
     return HD_OK;
 }
 
-static HdStatus show(Window *w, const HdViewPlan *plan, HdError *error) {
-    w->is_changed = true;
-    HdStatus status = hd_viewer_open(&w->viewer, plan, stdout, error);
-    if (status == HD_OK)
-        status = open_window(w, error);
-    if (status == HD_OK)
-        status = run(w, error);
-    hd_viewer_close(w->viewer);
-    return status;
-}
-
 /* Where there is no display SDL takes a driver that shows nothing, if it has one. */
 static HdStatus open_display(HdError *error) {
     const char *why = SDL_Init(SDL_INIT_VIDEO) != 0 ? SDL_GetError() : NULL;
@@ -285,13 +272,18 @@ static HdStatus open_display(HdError *error) {
                    why);
 }
 
-HdStatus hd_view_in_window(const HdViewPlan *plan, HdError *error) {
-    Window w = {.version = 0};
+HdStatus hd_view_in_window(const HdScenePlan *scene, const HdDevicePlan *devices, HdError *error) {
+    Window w = {.is_changed = true};
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     SDL_SetHint(SDL_HINT_RENDER_SCALE_QUALITY, "linear");
     HdStatus status = open_display(error);
     if (status == HD_OK)
-        status = show(&w, plan, error);
+        status = hd_viewer_open(&w.viewer, scene, devices, stdout, error);
+    if (status == HD_OK)
+        status = open_window(&w, error);
+    if (status == HD_OK)
+        status = run(&w, error);
+    hd_viewer_close(w.viewer);
     SDL_Quit();
     return status;
 }
