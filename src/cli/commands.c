@@ -6,11 +6,8 @@
 
 #include "image/picture.h"
 
-const char hd_program_summary[] =
-    "renders mirrored, transparent platonic solids with lights along their edges";
-
 const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
-    {HD_COMMAND_RENDER, "render", "[SCENE.json]", ".json", 1,
+    {HD_COMMAND_RENDER, hd_command_render, "render", "[SCENE.json]", ".json", 1,
      "render a scene, or the built-in one, to films and pictures",
      "Renders the frames of SCENE.json (-: standard input), or of the built-in scene, and prints "
      "the name of each output.\n\n"
@@ -26,7 +23,7 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "camera.field_of_view=40, --set camera.eye=[4,0,2], --set image.exposure=2, --set "
      "output.curve=linear or --set output.bits=16. A value is JSON, or else a string. --size, "
      "--samples, --depth and --cutoff come last."},
-    {HD_COMMAND_VIEW, "view", "[SCENE.json]", ".json", 1,
+    {HD_COMMAND_VIEW, NULL, "view", "[SCENE.json]", ".json", 1,
      "fly through a scene in a window or a terminal",
      "Shows SCENE.json, or the built-in scene, live: space plays its flight, mouse and arrows "
      "turn the view, and h lists all keys. While something moves, size and samples are what the "
@@ -37,22 +34,24 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "Both are in a program of their own, hedron-view, which needs SDL 2 for the window and chafa "
      "for --terminal: block symbols in the colours that the terminal has, or pictures where it "
      "says that it can (the kitty protocol or sixels)."},
-    {HD_COMMAND_NEW, "new", "[SCENE.json]", ".json", 1,
+    {HD_COMMAND_NEW, hd_command_new, "new", "[SCENE.json]", ".json", 1,
      "write a scene to start from, with comments",
      "Writes a small scene in which comments tell what is what, to SCENE.json (default: "
      "scene.json), and never over a file that is there. 'hedron help scene' explains every key."},
-    {HD_COMMAND_CHECK, "check", "SCENE.json...", ".json", -1,
+    {HD_COMMAND_CHECK, hd_command_check, "check", "SCENE.json...", ".json", -1,
      "look for mistakes in scenes without rendering",
      "Reads each scene (-: standard input) and its texture, and prints a line about each that is "
      "right, or every mistake that is in it; one wrong scene makes the exit code 2. Notes tell "
      "what is allowed and seldom meant."},
-    {HD_COMMAND_CONVERT, "convert", "[CLASSIC_INPUT]", NULL, 1,
+    {HD_COMMAND_CONVERT, hd_command_convert, "convert", "[CLASSIC_INPUT]", NULL, 1,
      "turn a classic input into a scene file",
      "Reads the input of the classic mode from a file, or from standard input, and writes the "
      "same scene as JSON. 'hedron render' makes the same pictures of it, byte for byte."},
-    {HD_COMMAND_DEVICES, "devices", "", NULL, 0, "list backends and devices, and what is missing",
+    {HD_COMMAND_DEVICES, hd_command_devices, "devices", "", NULL, 0,
+     "list backends and devices, and what is missing",
      "Lists backends and devices; for what is missing, the reason."},
-    {HD_COMMAND_SELFTEST, "selftest", "", NULL, 0, "test whether devices compute rightly",
+    {HD_COMMAND_SELFTEST, hd_command_selftest, "selftest", "", NULL, 0,
+     "test whether devices compute rightly",
      "Tests every device, or those of --device and --backend, and prints a certificate for each: "
      "the device, its driver, what compiled its kernels, this program's version, what was tested, "
      "what came of it, the time, and a hash of all but times. Tested are, in float and, where "
@@ -62,7 +61,7 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "with the first difference. What is found is remembered with the driver's version: 'hedron "
      "render' passes over a device that computes wrongly.\n\n"
      "The exit code is 1 if a device computes wrongly, and 3 if there is none that can be tested."},
-    {HD_COMMAND_TUNE, "tune", "[SCENE.json]", ".json", 1,
+    {HD_COMMAND_TUNE, hd_command_tune, "tune", "[SCENE.json]", ".json", 1,
      "measure what suits a device and a scene best, and remember it",
      "Measures, on the device that 'hedron render' would take for SCENE.json (-: standard input) "
      "or the built-in scene, which pipeline is the fastest, with how many lanes on a CPU, and on "
@@ -71,7 +70,8 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "the ratio to the device's default, and remembers the best in the cache folder: 'hedron "
      "render' uses it for scenes of this kind and size with the same options, and says so with "
      "--verbose. The bytes of strict pictures do not depend on it."},
-    {HD_COMMAND_COMPARE, "compare", "FIRST SECOND", NULL, 2, "tell how far two pictures are apart",
+    {HD_COMMAND_COMPARE, hd_command_compare, "compare", "FIRST SECOND", NULL, 2,
+     "tell how far two pictures are apart",
      "Compares two pictures of the same size, PNG (8 or 16 bits), OpenEXR or PFM, in two spaces. "
      "Display: the values clamped to 0..1 and on the curve, in steps of 255. Linear: light, 1 is "
      "white; clamped to 0..1 as well if one of them is a PNG. Prints RMSE, PSNR, mean and largest "
@@ -85,15 +85,16 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "below 1/4 of a step of 255, dark violet at 1/4, then purple (1), red (4), orange (16), "
      "yellow (128) and pale yellow (255), lighter by the same step with each doubling; cyan for "
      "NaN and infinite values."},
-    {HD_COMMAND_HELP, "help", "[TOPIC]", NULL, 1, "explain a command",
+    {HD_COMMAND_HELP, hd_command_help, "help", "[TOPIC]", NULL, 1, "explain a command",
      "TOPIC is a command; 'scene' for every key of a scene file; 'man' for the man page (in "
      "troff); or 'completion', 'completion-zsh' or 'completion-fish' for what completes this "
      "program's arguments in bash, zsh or fish."},
-    {HD_COMMAND_COMPLETE, "complete", "-- WORD...", NULL, -1, "tell shells what may follow",
+    {HD_COMMAND_COMPLETE, hd_command_complete, "complete", "-- WORD...", NULL, -1,
+     "tell shells what may follow",
      "Prints how the last WORD of a command line, which may be empty, can go on: a line for each "
      "way, with a tab and what it is about; ':.json' stands for the names of files that end so, "
      "':' for those of all files. For the scripts of 'hedron help completion'."},
-    {HD_COMMAND_CLASSIC, NULL, "< INPUT", NULL, 0,
+    {HD_COMMAND_CLASSIC, hd_command_classic, NULL, "< INPUT", NULL, 0,
      "the classic mode: a configuration on standard input",
      "In the classic mode standard output has one line for each frame and nothing else: frame TAB "
      "milliseconds TAB rays."},
@@ -126,41 +127,3 @@ const HdCommandSpec *hd_command_spec(HdCommand command) {
             return &hd_command_specs[i];
     return NULL;
 }
-
-const HdExplained hd_exit_codes[HD_EXIT_CODE_COUNT] = {
-    {"0", "done"},
-    {"1", "failed"},
-    {"2", "wrong usage or input"},
-    {"3", "no such backend, device, display or program (FFmpeg, hedron-view)"},
-    {"129, 130, 143", "interrupted by SIGHUP, SIGINT or SIGTERM"},
-};
-
-const HdExplained hd_examples[HD_EXAMPLE_COUNT] = {
-    {"hedron render -o film.mp4", "the built-in scene, all frames"},
-    {"hedron render scene.json -o out/%04d.png -o film.mkv", "pictures and a film in one run"},
-    {"hedron render scene.json -o big.png --frames 0 --size 1920x1080 --samples 4",
-     "one frame, large"},
-    {"hedron render scene.json --set camera.field_of_view=40 --set image.exposure=2",
-     "values of the scene replaced"},
-    {"hedron render scene.json -o film.mp4 --stats frames.jsonl",
-     "times and rays of each frame, a line of JSON each"},
-    {"hedron new first.json && hedron render first.json -o first.mp4", "a scene of your own"},
-    {"hedron view scene.json", "the scene in a window, shown again whenever its file is saved"},
-    {"hedron check scene.json", "mistakes of a scene"},
-    {"hedron tune scene.json --backend cuda", "what renders this kind of scene fastest there"},
-    {"hedron compare a.png b.png --diff heat.png --fail-above 1",
-     "how far apart two pictures are, where, and whether that is too much"},
-    {"hedron convert old.in -o scene.json", "from the classic input to JSON"},
-    {"hedron --default | hedron --cpu --frames 0-2", "the classic mode"},
-    {"source <(hedron help completion)", "completion for this bash"},
-};
-
-const HdExplained hd_variables[HD_VARIABLE_COUNT] = {
-    {"HEDRON_CACHE", "folder of compiled kernels and of what was measured (default "
-                     "$XDG_CACHE_HOME/hedron, else ~/.cache/hedron); off: none"},
-    {"HEDRON_NVRTC",
-     "file of the NVRTC library that compiles for CUDA, or off (default: the newest one that "
-     "suits the driver)"},
-    {"HEDRON_FFMPEG_PATIENCE", "whole seconds for which FFmpeg may stand still (default 600)"},
-    {"HEDRON_STOP_PATIENCE", "seconds from a signal to the end, whatever hangs (default 1.5)"},
-};

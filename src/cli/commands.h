@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The program's commands: the table of them, the texts that help and man page share, and what they
-   do. */
+/* The program's commands: the table of them, with what they do, and the topics of help. */
 #ifndef HD_CLI_COMMANDS_H
 #define HD_CLI_COMMANDS_H
 
@@ -30,12 +29,20 @@ typedef struct HdExplained {
 /* What there is help about, apart from commands. */
 enum { HD_HELP_SCENE, HD_HELP_MAN, HD_HELP_BASH, HD_HELP_ZSH, HD_HELP_FISH, HD_HELP_TOPIC_COUNT };
 extern const HdExplained hd_help_topics[HD_HELP_TOPIC_COUNT];
+int hd_help_topic_named(const char *name); /* negative: none has it */
 
-/* Negative where there is none of that name. */
-int hd_help_topic_named(const char *name);
+typedef struct HdOptions HdOptions;
+
+/* What a command does; the status becomes the exit code. */
+typedef HdStatus HdCommandFunction(const HdOptions *options, HdError *error);
+
+HdCommandFunction hd_command_classic, hd_command_render, hd_command_check, hd_command_convert,
+    hd_command_devices, hd_command_selftest, hd_command_tune, hd_command_compare, hd_command_new,
+    hd_command_complete, hd_command_help;
 
 typedef struct HdCommandSpec {
     HdCommand command;
+    HdCommandFunction *run;  /* NULL: another program does it */
     const char *name;        /* NULL: the classic mode */
     const char *operands;    /* as the usage shows them; "" where there are none */
     const char *ending;      /* of the files that are operands; NULL: any, or no files */
@@ -50,22 +57,5 @@ extern const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT];
 /* NULL where no command has that name. */
 const HdCommandSpec *hd_command_named(const char *name);
 const HdCommandSpec *hd_command_spec(HdCommand command);
-
-/* The program in half a sentence. */
-extern const char hd_program_summary[];
-
-enum { HD_EXIT_CODE_COUNT = 5, HD_EXAMPLE_COUNT = 13, HD_VARIABLE_COUNT = 4 };
-extern const HdExplained hd_exit_codes[HD_EXIT_CODE_COUNT];
-extern const HdExplained hd_examples[HD_EXAMPLE_COUNT];
-extern const HdExplained hd_variables[HD_VARIABLE_COUNT]; /* of the environment */
-
-typedef struct HdOptions HdOptions;
-
-/* What a command does; the status becomes the exit code. */
-typedef HdStatus HdCommandFunction(const HdOptions *options, HdError *error);
-
-HdCommandFunction hd_command_classic, hd_command_render, hd_command_check, hd_command_convert,
-    hd_command_devices, hd_command_selftest, hd_command_tune, hd_command_compare, hd_command_new,
-    hd_command_complete, hd_command_help;
 
 #endif

@@ -30,7 +30,7 @@ typedef struct Comparison {
     HdPictureFacts facts[PICTURES];
     HdCurve curve;
     HdPictureValue *rows[PICTURES];
-    double *errors; /* of a row; NULL without a heat map */
+    double *errors; /* of a row */
     HdHeatMap *map; /* NULL: none is asked for, or it is written */
     HdPictureDifference *difference;
     HdPictureFigures figures;
@@ -209,12 +209,12 @@ static json_t *describe_further(const Comparison *comparison) {
     for (int i = 0; i < comparison->further_count; i++) {
         const Further *further = &comparison->further[i];
         const HdChannelDifference *difference = &further->difference;
-        json_array_append_new(
-            list, json_pack("{s:o, s:o, s:o}", "name", hd_json_device_text(further->name),
-                            "largest", number_or_null(difference->largest), "at",
-                            difference->largest > 0.0
-                                ? json_pack("{s:i, s:i}", "x", difference->x, "y", difference->y)
-                                : json_null()));
+        json_t *at = difference->largest > 0.0
+                         ? json_pack("{s:i, s:i}", "x", difference->x, "y", difference->y)
+                         : json_null();
+        list = hd_json_append(list, json_pack("{s:o, s:o, s:o}", "name",
+                                              hd_json_device_text(further->name), "largest",
+                                              number_or_null(difference->largest), "at", at));
     }
     return list;
 }
@@ -230,7 +230,7 @@ static HdStatus print_json(const Comparison *comparison, HdError *error) {
         is_identical(comparison), "display", describe_figures(&figures->display), "linear",
         describe_figures(&figures->linear), "above_1", number_or_null(figures->above_1), "above_8",
         number_or_null(figures->above_8), "channels", describe_further(comparison),
-        "most_different", most != NULL ? hd_json_device_text(most->name) : json_null());
+        "most_different", hd_json_text_or_null(most != NULL ? most->name : NULL));
     return hd_json_print(root, "the figures", error);
 }
 
@@ -266,26 +266,18 @@ static HdStatus choose_curve(Comparison *comparison, HdError *error) {
 }
 
 static HdStatus open_pictures(Comparison *comparison, HdError *error) {
-    HdStatus status = HD_OK;
-    for (int i = 0; i < PICTURES && status == HD_OK; i++) {
-        status = hd_picture_reader_open(&comparison->readers[i], comparison->names[i], error);
-        if (status == HD_OK)
-            comparison->facts[i] = *hd_picture_reader_facts(comparison->readers[i]);
+    for (int i = 0; i < PICTURES; i++) {
+        HD_TRY(hd_picture_reader_open(&comparison->readers[i], comparison->names[i], error));
+        comparison->facts[i] = *hd_picture_reader_facts(comparison->readers[i]);
     }
-    if (status == HD_OK)
-        status = check_sizes(comparison, error);
-    if (status == HD_OK)
-        status = choose_curve(comparison, error);
-    if (status == HD_OK)
-        match_further(comparison);
-    return status;
+    HD_TRY(check_sizes(comparison, error));
+    match_further(comparison);
+    return choose_curve(comparison, error);
 }
 
 static HdStatus open_map(Comparison *comparison, HdError *error) {
     char path[HD_MAX_PATH];
-    HdStatus status = hd_path_expand_home(comparison->options->diff, path, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_path_expand_home(comparison->options->diff, path, error));
     for (int i = 0; i < PICTURES; i++)
         if (hd_path_is_same(path, comparison->names[i]))
             return hd_fail(error, HD_BAD_INPUT, "--diff %s would replace the picture %s", path,
@@ -298,27 +290,20 @@ static HdStatus start(Comparison *comparison, HdError *error) {
     const HdPictureFacts *facts = comparison->facts;
     const size_t width = (size_t)facts[0].width;
     const bool clamps = facts[0].format == &hd_format_png || facts[1].format == &hd_format_png;
-    HdStatus status = hd_difference_create(&comparison->difference, clamps, error);
-    for (int i = 0; i < PICTURES && status == HD_OK; i++) {
-        comparison->rows[i] = malloc(width * 3 * sizeof *comparison->rows[i]);
-        status = hd_picture_reader_start(comparison->readers[i], comparison->curve, error);
-        if (status == HD_OK && comparison->rows[i] == NULL)
-            status = hd_fail(error, HD_FAILED, "out of memory: no room for a row of pixels");
-    }
-    if (status != HD_OK || comparison->options->diff == NULL)
-        return status;
+    HD_TRY(hd_difference_create(&comparison->difference, clamps, error));
     comparison->errors = malloc(width * sizeof *comparison->errors);
-    if (comparison->errors == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a row of pixels");
-    return open_map(comparison, error);
+    for (int i = 0; i < PICTURES; i++) {
+        comparison->rows[i] = malloc(width * 3 * sizeof *comparison->rows[i]);
+        HD_TRY(hd_picture_reader_start(comparison->readers[i], comparison->curve, error));
+        if (comparison->rows[i] == NULL || comparison->errors == NULL)
+            return hd_fail(error, HD_FAILED, "out of memory: no room for a row of pixels");
+    }
+    return comparison->options->diff != NULL ? open_map(comparison, error) : HD_OK;
 }
 
 static HdStatus compare_row(Comparison *comparison, int y, HdError *error) {
-    HdStatus status = HD_OK;
-    for (int i = 0; i < PICTURES && status == HD_OK; i++)
-        status = hd_picture_reader_next(comparison->readers[i], comparison->rows[i], error);
-    if (status != HD_OK)
-        return status;
+    for (int i = 0; i < PICTURES; i++)
+        HD_TRY(hd_picture_reader_next(comparison->readers[i], comparison->rows[i], error));
     hd_difference_add_row(comparison->difference, comparison->rows[0], comparison->rows[1],
                           comparison->facts[0].width, comparison->errors);
     compare_further(comparison, y);
@@ -327,18 +312,14 @@ static HdStatus compare_row(Comparison *comparison, int y, HdError *error) {
 }
 
 static HdStatus compare_rows(Comparison *comparison, HdError *error) {
-    HdStatus status = HD_OK;
-    for (int y = 0; y < comparison->facts[0].height && status == HD_OK; y++) {
+    for (int y = 0; y < comparison->facts[0].height; y++) {
         if (hd_interrupt_signal() != 0)
             return hd_fail(error, HD_INTERRUPTED, "interrupted after %d rows", y);
-        status = compare_row(comparison, y, error);
+        HD_TRY(compare_row(comparison, y, error));
     }
-    if (status == HD_OK && comparison->map != NULL) {
-        HdHeatMap *map = comparison->map;
-        comparison->map = NULL;
-        status = hd_heat_map_commit(map, error);
-    }
-    return status;
+    HdHeatMap *map = comparison->map;
+    comparison->map = NULL;
+    return map != NULL ? hd_heat_map_commit(map, error) : HD_OK;
 }
 
 /* ---- the command ---- */

@@ -37,52 +37,40 @@ static void print_backend(const HdBackend *backend, const HdDevice *devices, int
         print_device(&devices[i]);
 }
 
-static json_t *text_or_null(const char *text) {
-    return text[0] != '\0' ? hd_json_device_text(text) : json_null();
-}
-
 static json_t *describe_device(const HdDevice *device) {
-    return json_pack("{s:s, s:i, s:o, s:o, s:b, s:i, s:i, s:b, s:o, s:b, s:o}", "backend",
-                     device->backend->name, "index", device->index, "name",
-                     hd_json_device_text(device->name), "driver",
-                     hd_json_device_text(device->driver), "is_cpu", device->is_cpu, "compute_units",
-                     device->compute_units, "clock_mhz", device->clock_mhz, "has_double",
-                     device->has_double, "unusable", text_or_null(device->unusable), "is_measured",
-                     device->is_measured, "not_strict", text_or_null(device->not_strict));
+    return json_pack(
+        "{s:s, s:i, s:o, s:o, s:b, s:i, s:i, s:b, s:o, s:b, s:o}", "backend", device->backend->name,
+        "index", device->index, "name", hd_json_device_text(device->name), "driver",
+        hd_json_device_text(device->driver), "is_cpu", device->is_cpu, "compute_units",
+        device->compute_units, "clock_mhz", device->clock_mhz, "has_double", device->has_double,
+        "unusable", hd_json_text_or_null(device->unusable), "is_measured", device->is_measured,
+        "not_strict", hd_json_text_or_null(device->not_strict));
 }
 
 static json_t *describe_backend(const HdBackend *backend, const HdDevice *devices, int count,
                                 const char *obstacle) {
     json_t *list = json_array();
     for (int i = 0; i < count; i++)
-        if (json_array_append_new(list, describe_device(&devices[i])) != 0) {
-            json_decref(list);
-            return NULL;
-        }
+        list = hd_json_append(list, describe_device(&devices[i]));
     return json_pack("{s:s, s:b, s:o, s:o}", "name", backend->name, "available", obstacle == NULL,
-                     "reason", obstacle != NULL ? hd_json_device_text(obstacle) : json_null(),
-                     "devices", list);
+                     "reason", hd_json_text_or_null(obstacle), "devices", list);
 }
 
 HdStatus hd_command_devices(const HdOptions *options, HdError *error) {
     static HdDevice devices[HD_MAX_DEVICES];
     json_t *list = options->json ? json_array() : NULL;
-    bool list_failed = false;
     for (int i = 0; i < HD_BACKEND_COUNT; i++) {
         const HdBackend *backend = hd_backends[i];
         int count = 0;
         bool found = hd_backend_enumerate(backend, devices, HD_MAX_DEVICES, &count, error) == HD_OK;
         const char *obstacle = found ? NULL : error->message;
-        if (!options->json)
+        if (options->json)
+            list = hd_json_append(list, describe_backend(backend, devices, count, obstacle));
+        else
             print_backend(backend, devices, count, obstacle);
-        else if (json_array_append_new(list, describe_backend(backend, devices, count, obstacle)))
-            list_failed = true;
     }
-    if (!options->json)
-        return HD_OK;
-    if (list_failed)
-        json_decref(list);
-    return hd_json_print(
-        list_failed ? NULL : json_pack("{s:s, s:o}", "kernels", hd_kernels_hash, "backends", list),
-        "the list of devices", error);
+    return options->json ? hd_json_print(json_pack("{s:s, s:o}", "kernels", hd_kernels_hash,
+                                                   "backends", list),
+                                         "the list of devices", error)
+                         : HD_OK;
 }

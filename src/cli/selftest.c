@@ -50,10 +50,6 @@ static void print_certificate(const HdCertificate *certificate) {
 
 /* ---- JSON ---- */
 
-static json_t *text_or_null(const char *text) {
-    return text[0] != '\0' ? hd_json_device_text(text) : json_null();
-}
-
 static json_t *count_or_null(int count) {
     return count > 0 ? json_integer(count) : json_null();
 }
@@ -62,55 +58,47 @@ static json_t *describe_test(const HdCertificateTest *test) {
     char hash[HASH_SIZE];
     snprintf(hash, sizeof hash, "%016" PRIx64, test->hash);
     return json_pack("{s:s, s:s, s:o, s:o, s:o, s:b, s:s, s:f}", "name", test->name, "verdict",
-                     hd_verdict_names[test->verdict], "reason", text_or_null(test->reason),
+                     hd_verdict_names[test->verdict], "reason", hd_json_text_or_null(test->reason),
                      "tuples", count_or_null(test->tuples), "frames", count_or_null(test->frames),
                      "division_by_fma", test->by_fma, "hash", hash, "seconds", test->seconds);
 }
 
-static json_t *describe_tests(const HdCertificate *certificate) {
-    json_t *list = json_array();
-    for (int i = 0; i < certificate->test_count; i++)
-        if (json_array_append_new(list, describe_test(&certificate->tests[i])) != 0) {
-            json_decref(list);
-            return NULL;
-        }
-    return list;
-}
-
 static json_t *describe_certificate(const HdCertificate *certificate) {
     const HdDevice *device = &certificate->device;
+    json_t *tests = json_array();
     char when[TIME_SIZE];
     write_time(certificate, when);
-    return json_pack(
-        "{s:s, s:s, s:i, s:o, s:o, s:o, s:s, s:o, s:s, s:f}", "hedron", HD_VERSION, "backend",
-        device->backend->name, "index", device->index, "name", hd_json_device_text(device->name),
-        "driver", hd_json_device_text(device->driver), "compiler",
-        text_or_null(certificate->compiler), "verdict", hd_verdict_names[certificate->verdict],
-        "tests", describe_tests(certificate), "time", when, "seconds", certificate->seconds);
+    for (int i = 0; i < certificate->test_count; i++)
+        tests = hd_json_append(tests, describe_test(&certificate->tests[i]));
+    return json_pack("{s:s, s:s, s:i, s:o, s:o, s:o, s:s, s:o, s:s, s:f}", "hedron", HD_VERSION,
+                     "backend", device->backend->name, "index", device->index, "name",
+                     hd_json_device_text(device->name), "driver",
+                     hd_json_device_text(device->driver), "compiler",
+                     hd_json_text_or_null(certificate->compiler), "verdict",
+                     hd_verdict_names[certificate->verdict], "tests", tests, "time", when,
+                     "seconds", certificate->seconds);
 }
 
 /* ---- the command ---- */
 
 typedef struct Tally {
     int tested, wrong;
-    bool list_failed;
+    json_t *list; /* of certificates */
 } Tally;
 
-static HdStatus certify(const HdOptions *options, const HdDevice *device, json_t *list,
-                        Tally *tally, HdError *error) {
+static HdStatus certify(const HdOptions *options, const HdDevice *device, Tally *tally,
+                        HdError *error) {
     static HdCertificate certificate;
     const HdTestEffort effort = options->deep    ? HD_TEST_DEEP
                                 : options->quick ? HD_TEST_QUICK
                                                  : HD_TEST_WHOLE;
-    HdStatus status = hd_certify(&certificate, device, effort, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_certify(&certificate, device, effort, error));
     tally->tested += certificate.verdict != HD_VERDICT_UNTESTED;
     tally->wrong += certificate.verdict == HD_VERDICT_WRONG;
-    if (list == NULL)
+    if (options->json)
+        tally->list = hd_json_append(tally->list, describe_certificate(&certificate));
+    else
         print_certificate(&certificate);
-    else if (json_array_append_new(list, describe_certificate(&certificate)) != 0)
-        tally->list_failed = true;
     fflush(stdout);
     return HD_OK;
 }
@@ -126,18 +114,16 @@ static HdStatus judge(const Tally *tally, int count, HdError *error) {
 
 HdStatus hd_command_selftest(const HdOptions *options, HdError *error) {
     static HdDevice devices[HD_BACKEND_COUNT * HD_MAX_DEVICES];
-    Tally tally = {0};
     int count;
-    HdStatus status =
-        hd_devices_named(options->devices.backend, options->devices.device, devices, &count, error);
-    if (status != HD_OK)
-        return status;
-    json_t *list = options->json ? json_array() : NULL;
+    HD_TRY(hd_devices_named(options->devices.backend, options->devices.device, devices, &count,
+                            error));
+    HdStatus status = HD_OK;
+    Tally tally = {.list = json_array()};
     for (int i = 0; status == HD_OK && i < count; i++)
-        status = certify(options, &devices[i], list, &tally, error);
+        status = certify(options, &devices[i], &tally, error);
     if (status == HD_OK && options->json)
-        status = hd_json_print(tally.list_failed ? NULL : json_pack("{s:O}", "certificates", list),
-                               "the certificates", error);
-    json_decref(list);
+        status = hd_json_print(json_pack("{s:O}", "certificates", tally.list), "the certificates",
+                               error);
+    json_decref(tally.list);
     return status == HD_OK ? judge(&tally, count, error) : status;
 }

@@ -25,15 +25,6 @@ static double ratio(const HdTuning *tuning, int index) {
     return tuning->candidates[index].seconds / tuning->candidates[0].seconds;
 }
 
-static void print_heading(const Run *run) {
-    const HdDevice *device = run->device;
-    printf("%s on %s %d, %s (%s)\n", hd_scene_name(run->options->scene.path), device->backend->name,
-           device->index, device->name, device->driver);
-    printf("pictures of %d x %d pixels, %d x %d samples\n\n", run->tuning.width, run->tuning.height,
-           run->scene->samples_per_side, run->scene->samples_per_side);
-    printf("%-52s %10s %7s\n", "candidate", "ms", "ratio");
-}
-
 static void print_candidate(const HdTuning *tuning, int index) {
     const HdTuningCandidate *candidate = &tuning->candidates[index];
     char name[128];
@@ -45,8 +36,13 @@ static void print_candidate(const HdTuning *tuning, int index) {
 }
 
 static void print_table(const Run *run) {
+    const HdDevice *device = run->device;
     char name[128];
-    print_heading(run);
+    printf("%s on %s %d, %s (%s)\n", hd_scene_name(run->options->scene.path), device->backend->name,
+           device->index, device->name, device->driver);
+    printf("pictures of %d x %d pixels, %d x %d samples\n\n", run->tuning.width, run->tuning.height,
+           run->scene->samples_per_side, run->scene->samples_per_side);
+    printf("%-52s %10s %7s\n", "candidate", "ms", "ratio");
     for (int i = 0; i < run->tuning.count; i++)
         print_candidate(&run->tuning, i);
     hd_launch_describe(&run->tuning.candidates[run->tuning.best].options, name, sizeof name);
@@ -73,30 +69,23 @@ static json_t *describe_candidate(const HdTuning *tuning, int index) {
                      "registers", number_or_null(launch->registers), "ms",
                      works ? json_real(1e3 * candidate->seconds) : json_null(), "ratio",
                      works ? json_real(ratio(tuning, index)) : json_null(), "failure",
-                     works ? json_null() : hd_json_device_text(candidate->failure));
-}
-
-static json_t *describe_candidates(const HdTuning *tuning) {
-    json_t *list = json_array();
-    for (int i = 0; i < tuning->count; i++)
-        if (json_array_append_new(list, describe_candidate(tuning, i)) != 0) {
-            json_decref(list);
-            return NULL;
-        }
-    return list;
+                     hd_json_text_or_null(candidate->failure));
 }
 
 static HdStatus print_json(const Run *run, HdError *error) {
     const HdDevice *device = run->device;
     const HdTuning *tuning = &run->tuning;
-    json_t *root = json_pack(
-        "{s:o, s:s, s:i, s:o, s:o, s:i, s:i, s:i, s:o, s:i, s:b, s:o}", "scene",
-        hd_json_device_text(hd_scene_name(run->options->scene.path)), "backend",
-        device->backend->name, "index", device->index, "name", hd_json_device_text(device->name),
-        "driver", hd_json_device_text(device->driver), "width", tuning->width, "height",
-        tuning->height, "samples", run->scene->samples_per_side, "candidates",
-        describe_candidates(tuning), "best", tuning->best, "remembered", run->obstacle == NULL,
-        "reason", run->obstacle != NULL ? hd_json_device_text(run->obstacle) : json_null());
+    json_t *list = json_array();
+    for (int i = 0; i < tuning->count; i++)
+        list = hd_json_append(list, describe_candidate(tuning, i));
+    json_t *root = json_pack("{s:o, s:s, s:i, s:o, s:o, s:i, s:i, s:i, s:o, s:i, s:b, s:o}",
+                             "scene", hd_json_device_text(hd_scene_name(run->options->scene.path)),
+                             "backend", device->backend->name, "index", device->index, "name",
+                             hd_json_device_text(device->name), "driver",
+                             hd_json_device_text(device->driver), "width", tuning->width, "height",
+                             tuning->height, "samples", run->scene->samples_per_side, "candidates",
+                             list, "best", tuning->best, "remembered", run->obstacle == NULL,
+                             "reason", hd_json_text_or_null(run->obstacle));
     return hd_json_print(root, "the candidates", error);
 }
 
@@ -135,10 +124,8 @@ static HdStatus measure(Run *run, const HdJob *job, HdError *error) {
 }
 
 static HdStatus tune(Run *run, const HdJob *job, HdError *error) {
-    HdStatus status = measure(run, job, error);
-    if (status != HD_OK)
-        return status;
-    status = remember(run, error);
+    HD_TRY(measure(run, job, error));
+    const HdStatus status = remember(run, error);
     if (!run->options->json) {
         print_table(run);
         return status;
@@ -154,8 +141,7 @@ HdStatus hd_command_tune(const HdOptions *options, HdError *error) {
     HdProblems notes = {.count = 0};
     HdStatus status = hd_load_scene(&file, &options->scene, &notes, error);
     hd_problems_print(&notes, stderr, "hedron", ": ");
-    if (status != HD_OK)
-        return status;
+    HD_TRY(status);
     run = (Run){.options = options, .scene = &file.scene, .device = &run.team.list[0].device};
     run.render = options->devices.render;
     run.render.has_deep_trees = hd_scene_has_deep_trees(&file.scene);

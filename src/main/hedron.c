@@ -15,10 +15,9 @@ static char **original_arguments; /* as parsing them changes their order; owned,
 
 /* Becomes hedron-view, with the same arguments; it is looked for beside this program, then in PATH.
    Returns only where that fails. */
-static HdStatus view(const HdOptions *options, HdError *error) {
+static HdStatus view(HdError *error) {
     static const char program[] = "hedron-view";
     char folder[HD_MAX_PATH], path[HD_MAX_PATH + sizeof program + 1];
-    (void)options;
     if (original_arguments == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for the arguments");
     if (hd_path_of_program(folder)) {
@@ -31,29 +30,12 @@ static HdStatus view(const HdOptions *options, HdError *error) {
                    program, strerror(errno));
 }
 
-static HdStatus print_version(const HdOptions *options, HdError *error) {
-    (void)options;
-    (void)error;
-    printf("hedron %s\n", HD_VERSION);
-    return HD_OK;
-}
-
 static HdStatus run(const HdOptions *options, HdError *error) {
-    static const struct {
-        HdCommand command;
-        HdCommandFunction *run;
-    } commands[] = {
-        {HD_COMMAND_CLASSIC, hd_command_classic},   {HD_COMMAND_RENDER, hd_command_render},
-        {HD_COMMAND_CHECK, hd_command_check},       {HD_COMMAND_CONVERT, hd_command_convert},
-        {HD_COMMAND_DEVICES, hd_command_devices},   {HD_COMMAND_SELFTEST, hd_command_selftest},
-        {HD_COMMAND_TUNE, hd_command_tune},         {HD_COMMAND_COMPARE, hd_command_compare},
-        {HD_COMMAND_NEW, hd_command_new},           {HD_COMMAND_VIEW, view},
-        {HD_COMMAND_COMPLETE, hd_command_complete}, {HD_COMMAND_HELP, hd_command_help},
-        {HD_COMMAND_VERSION, print_version},
-    };
-    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
-        if (commands[i].command == options->command)
-            return commands[i].run(options, error);
+    if (options->command == HD_COMMAND_VIEW)
+        return view(error);
+    if (options->command != HD_COMMAND_VERSION)
+        return hd_command_spec(options->command)->run(options, error);
+    printf("hedron %s\n", HD_VERSION);
     return HD_OK;
 }
 

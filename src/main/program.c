@@ -8,13 +8,6 @@
 #include "system/interrupt.h"
 #include "system/thread_pool.h"
 
-/* Output that never reached its file is a failure like any other. */
-static HdStatus close_standard_output(HdError *error) {
-    if (fflush(stdout) == 0 && !ferror(stdout))
-        return HD_OK;
-    return hd_fail(error, HD_FAILED, "cannot write to standard output");
-}
-
 int hd_program_run(int count, char **arguments, HdCommandFunction *run) {
     static HdError error;
     HdOptions options;
@@ -28,8 +21,8 @@ int hd_program_run(int count, char **arguments, HdCommandFunction *run) {
         options.command = HD_COMMAND_HELP;
     if (status == HD_OK)
         status = run(&options, &error);
-    if (status == HD_OK)
-        status = close_standard_output(&error);
+    if (status == HD_OK && (fflush(stdout) != 0 || ferror(stdout)))
+        status = hd_fail(&error, HD_FAILED, "cannot write to standard output");
     if (status == HD_OK)
         return 0;
     fprintf(stderr, "hedron: %s\n", error.message);
