@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
 #include "cli/commands.h"
 
-#include <stddef.h>
+#include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "cli/options.h"
 #include "image/picture.h"
+#include "system/interrupt.h"
+#include "system/thread_pool.h"
 
 const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
     {HD_COMMAND_RENDER, hd_command_render, "render", "[SCENE.json]", ".json", 1,
@@ -100,20 +105,6 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "milliseconds TAB rays."},
 };
 
-const HdExplained hd_help_topics[HD_HELP_TOPIC_COUNT] = {
-    [HD_HELP_SCENE] = {"scene", "every key of a scene file"},
-    [HD_HELP_MAN] = {"man", "the man page"},
-    [HD_HELP_BASH] = {"completion", "completion for bash"},
-    [HD_HELP_ZSH] = {"completion-zsh", "completion for zsh"},
-    [HD_HELP_FISH] = {"completion-fish", "completion for fish"}};
-
-int hd_help_topic_named(const char *name) {
-    int topic = HD_HELP_TOPIC_COUNT - 1;
-    while (topic >= 0 && strcmp(hd_help_topics[topic].text, name) != 0)
-        topic--;
-    return topic;
-}
-
 const HdCommandSpec *hd_command_named(const char *name) {
     for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
         if (hd_command_specs[i].name != NULL && strcmp(hd_command_specs[i].name, name) == 0)
@@ -126,4 +117,27 @@ const HdCommandSpec *hd_command_spec(HdCommand command) {
         if (hd_command_specs[i].command == command)
             return &hd_command_specs[i];
     return NULL;
+}
+
+int hd_program_run(int count, char **arguments, HdCommandFunction *run) {
+    static HdError error;
+    HdOptions options;
+    hd_interrupt_install();
+    HdStatus status = hd_check_stack(&error);
+    if (status == HD_OK)
+        status = hd_interrupt_read_patience(&error);
+    if (status == HD_OK)
+        status = hd_options_parse(&options, count, arguments, &error);
+    if (status == HD_OK && count == 1 && isatty(STDIN_FILENO))
+        options.command = HD_COMMAND_HELP;
+    if (status == HD_OK)
+        status = run(&options, &error);
+    if (status == HD_OK && (fflush(stdout) != 0 || ferror(stdout)))
+        status = hd_fail(&error, HD_FAILED, "cannot write to standard output");
+    if (status == HD_OK)
+        return 0;
+    fprintf(stderr, "hedron: %s\n", error.message);
+    if (status == HD_INTERRUPTED)
+        return 128 + hd_interrupt_signal();
+    return (int)status;
 }

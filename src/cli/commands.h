@@ -22,14 +22,15 @@ typedef enum HdCommand {
     HD_COMMAND_VIEW = 4096
 } HdCommand;
 
-typedef struct HdExplained {
-    const char *text, *meaning;
-} HdExplained;
-
 /* What there is help about, apart from commands. */
-enum { HD_HELP_SCENE, HD_HELP_MAN, HD_HELP_BASH, HD_HELP_ZSH, HD_HELP_FISH, HD_HELP_TOPIC_COUNT };
-extern const HdExplained hd_help_topics[HD_HELP_TOPIC_COUNT];
-int hd_help_topic_named(const char *name); /* negative: none has it */
+typedef struct HdHelpTopic {
+    const char *name, *about; /* NULL ends the table */
+    void (*print)(void);
+    const unsigned char *script; /* instead of `print` */
+    const size_t *script_size;
+} HdHelpTopic;
+extern const HdHelpTopic hd_help_topics[];
+const HdHelpTopic *hd_help_topic_named(const char *name); /* NULL: none has it */
 
 typedef struct HdOptions HdOptions;
 
@@ -57,5 +58,9 @@ extern const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT];
 /* NULL where no command has that name. */
 const HdCommandSpec *hd_command_named(const char *name);
 const HdCommandSpec *hd_command_spec(HdCommand command);
+
+/* What the programs share, from the arguments to the exit code: parses the command line, which the
+   options point into afterwards, calls `run` and prints its error. */
+int hd_program_run(int count, char **arguments, HdCommandFunction *run);
 
 #endif

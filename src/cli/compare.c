@@ -75,12 +75,12 @@ static void compare_further(Comparison *comparison, int y) {
 /* The one with the largest difference; NULL: there is none. */
 static const Further *most_different(const Comparison *comparison) {
     const Further *most = NULL;
-    for (int i = 0; i < comparison->further_count; i++) {
-        const Further *further = &comparison->further[i];
-        const double least = most != NULL ? most->difference.largest : 0.0;
-        if (further->difference.largest > least)
-            most = further;
-    }
+    double largest = 0.0;
+    for (int i = 0; i < comparison->further_count; i++)
+        if (comparison->further[i].difference.largest > largest) {
+            most = &comparison->further[i];
+            largest = most->difference.largest;
+        }
     return most;
 }
 
@@ -90,19 +90,19 @@ static bool is_identical(const Comparison *comparison) {
 
 /* ---- text ---- */
 
+static void print_figure(double value, const char *unit) {
+    char text[32] = "none";
+    if (isinf(value))
+        snprintf(text, sizeof text, "identical");
+    else if (!isnan(value))
+        snprintf(text, sizeof text, "%.6g%s", value, unit);
+    printf("%*s", FIGURE_WIDTH, text);
+}
+
 static void print_figures(const char *name, const char *unit, double display, double linear) {
-    const double values[] = {display, linear};
     printf("%-20s", name);
-    for (int i = 0; i < 2; i++) {
-        char text[32];
-        if (isnan(values[i]))
-            snprintf(text, sizeof text, "none");
-        else if (isinf(values[i]))
-            snprintf(text, sizeof text, "identical");
-        else
-            snprintf(text, sizeof text, "%.6g%s", values[i], unit);
-        printf("%*s", FIGURE_WIDTH, text);
-    }
+    print_figure(display, unit);
+    print_figure(linear, unit);
     printf("\n");
 }
 
@@ -121,10 +121,9 @@ static void print_place(const HdDifferenceFigures *display, const HdDifferenceFi
 }
 
 static void print_share(const char *name, double share) {
-    char text[32] = "none";
-    if (!isnan(share))
-        snprintf(text, sizeof text, "%.6g %%", 100.0 * share);
-    printf("%-20s%*s\n", name, FIGURE_WIDTH, text);
+    printf("%-20s", name);
+    print_figure(100.0 * share, " %");
+    printf("\n");
 }
 
 static void print_further(const Comparison *comparison) {

@@ -142,7 +142,7 @@ static void offer_paths(const Line *line) {
 
 static void offer_value(const Line *line) {
     const HdOptionSpec *spec = line->option;
-    if (spec->type == HD_OPTION_CHANGES)
+    if (strcmp(spec->name, "--set") == 0)
         offer_paths(line);
     else if (spec->choices != NULL)
         offer_choices(line);
@@ -157,8 +157,8 @@ static void offer_operands(const Line *line) {
     if (command->command == HD_COMMAND_HELP || (command->name == NULL && line->is_first))
         offer_commands(line);
     if (command->command == HD_COMMAND_HELP)
-        for (int i = 0; i < HD_HELP_TOPIC_COUNT; i++)
-            offer(line, hd_help_topics[i].text, hd_help_topics[i].meaning);
+        for (const HdHelpTopic *topic = hd_help_topics; topic->name != NULL; topic++)
+            offer(line, topic->name, topic->about);
     else if (command->name != NULL && command->most_operands != 0)
         printf(":%s\n", command->ending != NULL ? command->ending : "");
 }

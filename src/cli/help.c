@@ -18,7 +18,11 @@ static const char program_summary[] =
 
 /* ---- what help and man page share; NULL ends lists ---- */
 
-static const HdExplained exit_codes[] = {
+typedef struct Explained {
+    const char *text, *meaning;
+} Explained;
+
+static const Explained exit_codes[] = {
     {"0", "done"},
     {"1", "failed"},
     {"2", "wrong usage or input"},
@@ -27,7 +31,7 @@ static const HdExplained exit_codes[] = {
     {NULL, NULL},
 };
 
-static const HdExplained examples[] = {
+static const Explained examples[] = {
     {"hedron render -o film.mp4", "the built-in scene, all frames"},
     {"hedron render scene.json -o out/%04d.png -o film.mkv", "pictures and a film in one run"},
     {"hedron render scene.json -o big.png --frames 0 --size 1920x1080 --samples 4",
@@ -48,7 +52,7 @@ static const HdExplained examples[] = {
     {NULL, NULL},
 };
 
-static const HdExplained variables[] = {
+static const Explained variables[] = {
     {"HEDRON_CACHE", "folder of compiled kernels and of what was measured (default "
                      "$XDG_CACHE_HOME/hedron, else ~/.cache/hedron); off: none"},
     {"HEDRON_NVRTC",
@@ -105,12 +109,12 @@ static void list_options(HdCommand command, Entry *entry) {
     char heading[64];
     const HdOptionSpec *spec = NULL;
     while ((spec = hd_option_next(spec, command)) != NULL) {
-        hd_option_heading(spec, heading, sizeof heading);
+        hd_option_heading(spec, heading);
         entry(heading, spec->help);
     }
 }
 
-static void list_explained(const HdExplained *list, Entry *entry) {
+static void list_explained(const Explained *list, Entry *entry) {
     for (; list->text != NULL; list++)
         entry(list->text, list->meaning);
 }
@@ -313,23 +317,37 @@ static void print_man_page(void) {
            ".BR ffmpeg (1)\n");
 }
 
+/* ---- topics ---- */
+
+const HdHelpTopic hd_help_topics[] = {
+    {"scene", "every key of a scene file", .print = print_scene_format},
+    {"man", "the man page", .print = print_man_page},
+    {"completion", "completion for bash", .script = hd_bash_completion,
+     .script_size = &hd_bash_completion_size},
+    {"completion-zsh", "completion for zsh", .script = hd_zsh_completion,
+     .script_size = &hd_zsh_completion_size},
+    {"completion-fish", "completion for fish", .script = hd_fish_completion,
+     .script_size = &hd_fish_completion_size},
+    {.name = NULL}};
+
+const HdHelpTopic *hd_help_topic_named(const char *name) {
+    const HdHelpTopic *topic = hd_help_topics;
+    while (topic->name != NULL && strcmp(topic->name, name) != 0)
+        topic++;
+    return topic->name != NULL ? topic : NULL;
+}
+
 HdStatus hd_command_help(const HdOptions *options, HdError *error) {
     (void)error;
     const char *name = options->topic;
-    const HdCommandSpec *command = name != NULL ? hd_command_named(name) : NULL;
+    const HdHelpTopic *topic = name != NULL ? hd_help_topic_named(name) : NULL;
     if (name == NULL)
         print_program();
-    else if (command != NULL)
-        print_command(command);
-    else if (hd_help_topic_named(name) == HD_HELP_SCENE)
-        print_scene_format();
-    else if (hd_help_topic_named(name) == HD_HELP_MAN)
-        print_man_page();
-    else if (hd_help_topic_named(name) == HD_HELP_BASH)
-        fwrite(hd_bash_completion, 1, hd_bash_completion_size, stdout);
-    else if (hd_help_topic_named(name) == HD_HELP_ZSH)
-        fwrite(hd_zsh_completion, 1, hd_zsh_completion_size, stdout);
+    else if (topic == NULL)
+        print_command(hd_command_named(name));
+    else if (topic->print != NULL)
+        topic->print();
     else
-        fwrite(hd_fish_completion, 1, hd_fish_completion_size, stdout);
+        fwrite(topic->script, 1, *topic->script_size, stdout);
     return HD_OK;
 }

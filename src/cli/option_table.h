@@ -17,11 +17,11 @@ ROW("--variant", NULL, "1..10",
     .unset = HD_CLASSIC_DEFAULT_VARIANT, .role = HD_DECIDES_PIXELS)
 ROW("--output", "-o", "OUT",
     "film.mp4, picture.png or a sequence such as out/%04d.png; up to 8 times", HD_COMMAND_RENDER,
-    TEXTS(HD_OPTION_TEXTS, store.names, store.count, HD_MAX_OUTPUTS), .check = hd_output_check_name,
+    TEXTS(store.names, store.count, HD_MAX_OUTPUTS), .check = hd_output_check_name,
     .expected = "the name of a file", .takes_file = true)
 ROW("--output", "-o", "SCENE", "the scene file to be written (default: standard output)",
-    HD_COMMAND_CONVERT, TEXTS(HD_OPTION_TEXTS, store.names, store.count, 1),
-    .expected = "the name of a file", .takes_file = true)
+    HD_COMMAND_CONVERT, TEXTS(store.names, store.count, 1), .expected = "the name of a file",
+    .takes_file = true)
 ROW("--layers", NULL, "LIST",
     "further channels of the OpenEXR outputs, such as depth,object: depth and normal of what is "
     "met first, its number (object), how many samples the pixel took (samples), what was left "
@@ -30,8 +30,8 @@ ROW("--layers", NULL, "LIST",
 ROW("--set", NULL, "PATH=VALUE",
     "replace a value of the scene file, for example camera.field_of_view=40; up to 64 times",
     HD_COMMAND_RENDER | HD_COMMAND_TUNE | HD_COMMAND_VIEW,
-    TEXTS(HD_OPTION_CHANGES, scene.changes, scene.change_count, HD_MAX_CHANGES),
-    .expected = "PATH=VALUE such as camera.field_of_view=40", .role = HD_DECIDES_PIXELS)
+    TEXTS(scene.changes, scene.change_count, HD_MAX_CHANGES), .check = check_change,
+    .role = HD_DECIDES_PIXELS)
 OPTION(const char *frames, "--frames", "-f", "LIST", "render these frames only, for example 0-9,20",
        MEASURING, TEXT(frames, NULL))
 ROW("--again", NULL, NULL,

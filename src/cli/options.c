@@ -36,6 +36,13 @@ static HdStatus check_diff(const char *text, const char *option, HdError *error)
                    text);
 }
 
+static HdStatus check_change(const char *text, const char *option, HdError *error) {
+    if (strchr(text, '=') != NULL && text[0] != '=')
+        return HD_OK;
+    return hd_fail(error, HD_BAD_INPUT,
+                   "%s is '%s', expected PATH=VALUE such as camera.field_of_view=40", option, text);
+}
+
 /* The columns of the table that a type needs. */
 #define AT(member)   .offset = offsetof(HdOptions, member)
 #define FLAG(member) .type = HD_OPTION_FLAG, AT(member)
@@ -48,8 +55,8 @@ static HdStatus check_diff(const char *text, const char *option, HdError *error)
     }
 #define CHOICE(member, ...)  ONE_OF(HD_OPTION_CHOICE, member, __VA_ARGS__)
 #define TEXT(member, wanted) .type = HD_OPTION_TEXT, AT(member), .expected = (wanted)
-#define TEXTS(kind, member, count, most)                                                           \
-    .type = (kind), AT(member), .count_offset = offsetof(HdOptions, count), .high = (most)
+#define TEXTS(member, count, most)                                                                 \
+    .type = HD_OPTION_TEXTS, AT(member), .count_offset = offsetof(HdOptions, count), .high = (most)
 #define COMMAND(taken) .type = HD_OPTION_COMMAND, .command = (taken)
 
 #define ROW(...)            {__VA_ARGS__},
@@ -93,8 +100,8 @@ const HdOptionSpec *hd_option_find(const char *argument, HdCommand command, cons
     return found;
 }
 
-void hd_option_heading(const HdOptionSpec *spec, char *text, int capacity) {
-    snprintf(text, (size_t)capacity, "%s%s%s%s%s", spec->short_name ? spec->short_name : "",
+void hd_option_heading(const HdOptionSpec *spec, char text[64]) {
+    snprintf(text, 64, "%s%s%s%s%s", spec->short_name ? spec->short_name : "",
              spec->short_name ? ", " : "", spec->name, spec->value ? " " : "",
              spec->value ? spec->value : "");
 }
@@ -228,20 +235,17 @@ static int choice_of(const char *const *choices, const char *word, size_t length
 }
 
 /* "auto, c, opencl or cuda" */
-static void list_choices(const char *const *choices, char *text, int capacity) {
-    size_t used = 0, room = (size_t)capacity;
+static void list_choices(const char *const *choices, char text[256]) {
     text[0] = '\0';
-    for (int i = 0; choices[i] != NULL && used < room; i++) {
-        const char *separator = i == 0 ? "" : choices[i + 1] == NULL ? " or " : ", ";
-        used += (size_t)snprintf(text + used, room - used, "%s%s", separator, choices[i]);
-    }
+    for (int i = 0; choices[i] != NULL; i++)
+        hd_add_text(text, 256, choices[i + 1] == NULL ? " or " : ", ", "%s", choices[i]);
 }
 
 /* With the first choice that begins with the text; nothing completes an empty one. */
 static HdStatus fail_choosing(const Given *given, HdError *error) {
     const size_t length = strlen(given->text);
     char list[256];
-    list_choices(given->spec->choices, list, sizeof list);
+    list_choices(given->spec->choices, list);
     for (const char *const *choice = given->spec->choices; *choice != NULL && length > 0; choice++)
         if (strncmp(given->text, *choice, length) == 0)
             return hd_fail(error, HD_BAD_INPUT, "%s is '%s', expected %s; did you mean '%s'?",
@@ -269,7 +273,7 @@ static HdStatus apply_set(const Given *given, HdError *error) {
         const int number = choice_of(spec->choices, word, length);
         if (number < 0) {
             char list[256];
-            list_choices(spec->choices, list, sizeof list);
+            list_choices(spec->choices, list);
             return hd_fail(error, HD_BAD_INPUT,
                            "%s has '%.*s', expected some of %s, separated by commas", spec->name,
                            (int)length, word, list);
@@ -284,34 +288,22 @@ static HdStatus apply_set(const Given *given, HdError *error) {
     }
 }
 
-static HdStatus set_text(const Given *given, const char **out, HdError *error) {
+static HdStatus apply_text(const Given *given, HdError *error) {
     const HdOptionSpec *spec = given->spec;
+    const char **out = given->member;
+    if (spec->type == HD_OPTION_TEXTS) {
+        int *count = at(given->options, spec->count_offset);
+        if (*count == (int)spec->high)
+            return hd_fail(error, HD_BAD_INPUT, "%s '%.4000s' is one too many, expected at most %d",
+                           spec->name, given->text, *count);
+        out += (*count)++;
+    }
     *out = given->text;
-    if (spec->check != NULL && spec->check(given->text, spec->name, error) != HD_OK)
-        return error->status;
+    if (spec->check != NULL)
+        HD_TRY(spec->check(given->text, spec->name, error));
     if (given->text[0] == '\0' && spec->expected != NULL)
         return hd_fail(error, HD_BAD_INPUT, "%s is empty, expected %s", spec->name, spec->expected);
     return HD_OK;
-}
-
-static HdStatus apply_text(const Given *given, HdError *error) {
-    return set_text(given, given->member, error);
-}
-
-static HdStatus apply_texts(const Given *given, HdError *error) {
-    const char **texts = given->member;
-    int *count = at(given->options, given->spec->count_offset);
-    if (*count == (int)given->spec->high)
-        return hd_fail(error, HD_BAD_INPUT, "%s '%.4000s' is one too many, expected at most %d",
-                       given->spec->name, given->text, *count);
-    return set_text(given, &texts[(*count)++], error);
-}
-
-static HdStatus apply_change(const Given *given, HdError *error) {
-    const char *equals = strchr(given->text, '=');
-    if (equals == NULL || equals == given->text)
-        return fail_expecting(given, given->spec->expected, error);
-    return apply_texts(given, error);
 }
 
 /* What there is where no option is given. */
@@ -333,8 +325,7 @@ static HdStatus apply_option(HdOptions *options, const HdOptionSpec *spec, const
         [HD_OPTION_CHOICE] = apply_choice,   [HD_OPTION_NUMERAL] = apply_choice,
         [HD_OPTION_WORD] = apply_choice,     [HD_OPTION_SET] = apply_set,
         [HD_OPTION_SIZE] = apply_size,       [HD_OPTION_CROP] = apply_crop,
-        [HD_OPTION_TEXT] = apply_text,       [HD_OPTION_TEXTS] = apply_texts,
-        [HD_OPTION_CHANGES] = apply_change,
+        [HD_OPTION_TEXT] = apply_text,       [HD_OPTION_TEXTS] = apply_text,
     };
     const Given given = {options, spec, value, at(options, spec->offset)};
     return apply[spec->type](&given, error);
@@ -343,48 +334,43 @@ static HdStatus apply_option(HdOptions *options, const HdOptionSpec *spec, const
 /* ---- and back ---- */
 
 /* The value of an option that was given; false: it was not, or is at its default. */
-static bool spell_value(const HdOptionSpec *spec, const void *member, char *value, size_t size) {
+static bool spell_value(const HdOptionSpec *spec, const void *member, char value[64]) {
+    const size_t size = 64;
     const HdPlannedSize *area = member;
     const HdPlannedCrop *crop = member;
     const int *number = member;
     const double *real = member;
-    char text[HD_NUMBER_SIZE];
     switch (spec->type) {
     case HD_OPTION_FLAG:
         value[0] = '\0';
         return *(const bool *)member;
     case HD_OPTION_INTEGER:
-        snprintf(value, size, " %d", *number);
+        snprintf(value, size, "%d", *number);
         return *number != spec->unset;
     case HD_OPTION_REAL:
-        hd_short_number(*real, text);
-        snprintf(value, size, " %s", text);
+        hd_short_number(*real, value);
         return *real != spec->unset;
     case HD_OPTION_CHOICE:
-        snprintf(value, size, " %s", spec->choices[*number > 0 ? *number : 0]);
+        snprintf(value, size, "%s", spec->choices[*number > 0 ? *number : 0]);
         return *number > 0;
     case HD_OPTION_SIZE:
-        snprintf(value, size, " %dx%d", area->width, area->height);
+        snprintf(value, size, "%dx%d", area->width, area->height);
         return area->width > 0;
     case HD_OPTION_CROP:
-        snprintf(value, size, " %dx%d+%d+%d", crop->width, crop->height, crop->left, crop->top);
+        snprintf(value, size, "%dx%d+%d+%d", crop->width, crop->height, crop->left, crop->top);
         return crop->width > 0;
     default:
         return false;
     }
 }
 
-static void append(char *text, size_t size, const char *more) {
-    const size_t length = strlen(text);
-    hd_escape(more, text + length, size - length);
-}
-
-static void spell_changes(const HdOptions *options, const char *name, char *text, size_t size) {
-    for (int i = 0; i < options->scene.change_count; i++) {
-        append(text, size, text[0] != '\0' ? " " : "");
-        append(text, size, name);
-        append(text, size, " ");
-        append(text, size, options->scene.changes[i]);
+static void append(char *text, size_t size, const char *name, const char *value) {
+    const char *const parts[] = {text[0] != '\0' ? " " : "", name, value[0] != '\0' ? " " : "",
+                                 value};
+    size_t length = strlen(text);
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        hd_escape(parts[i], text + length, size - length);
+        length += strlen(text + length);
     }
 }
 
@@ -395,13 +381,10 @@ void hd_options_spell(const HdOptions *options, bool all, char *text, size_t siz
     while ((spec = hd_option_next(spec, options->command)) != NULL) {
         if (spec->role == HD_DECIDES_NO_PIXEL || (spec->role == HD_DECIDES_PIXELS && !all))
             continue;
-        if (spec->type == HD_OPTION_CHANGES)
-            spell_changes(options, spec->name, text, size);
-        else if (spell_value(spec, (const char *)options + spec->offset, value, sizeof value)) {
-            append(text, size, text[0] != '\0' ? " " : "");
-            append(text, size, spec->name);
-            append(text, size, value);
-        }
+        for (int i = 0; spec->type == HD_OPTION_TEXTS && i < options->scene.change_count; i++)
+            append(text, size, spec->name, options->scene.changes[i]);
+        if (spell_value(spec, (const char *)options + spec->offset, value))
+            append(text, size, spec->name, value);
     }
 }
 
@@ -452,7 +435,7 @@ static HdStatus fail_unknown_command(const Parser *parser, const char *argument,
     const size_t size = sizeof suggestion;
     if (hd_path_has_ending(argument, ".json"))
         snprintf(suggestion, size, "did you mean 'hedron render %s'?", argument);
-    else if (hd_help_topic_named(argument) >= 0)
+    else if (hd_help_topic_named(argument) != NULL)
         snprintf(suggestion, size, "did you mean 'hedron help %s'?", argument);
     else if (strcmp(argument, "version") == 0)
         snprintf(suggestion, size, "did you mean 'hedron --version'?");
@@ -527,10 +510,10 @@ static HdStatus parse_argument(Parser *parser, HdError *error) {
 static HdStatus check_topic(const char *name, HdError *error) {
     HdNearest nearest = {.word = name};
     char suggestion[128];
-    if (hd_command_named(name) != NULL || hd_help_topic_named(name) >= 0)
+    if (hd_command_named(name) != NULL || hd_help_topic_named(name) != NULL)
         return HD_OK;
-    for (int i = 0; i < HD_HELP_TOPIC_COUNT; i++)
-        hd_nearest_offer(&nearest, hd_help_topics[i].text);
+    for (const HdHelpTopic *topic = hd_help_topics; topic->name != NULL; topic++)
+        hd_nearest_offer(&nearest, topic->name);
     offer_commands(&nearest);
     suggest(&nearest, "hedron help ", hd_command_spec(HD_COMMAND_HELP), suggestion);
     return hd_fail(error, HD_BAD_INPUT, "there is no help on '%s'; %s", name, suggestion);
@@ -595,15 +578,11 @@ HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdErr
     };
     options->command = parser.command->command;
     options->operands = arguments + parser.next;
-    while (parser.next < count && options->command == parser.command->command) {
-        HdStatus status = parse_argument(&parser, error);
-        if (status != HD_OK)
-            return status;
-    }
+    while (parser.next < count && options->command == parser.command->command)
+        HD_TRY(parse_argument(&parser, error));
     if (options->command != parser.command->command)
         return HD_OK;
-    HdStatus status = check_together(options, error);
-    if (status == HD_OK)
-        complete_plan(options);
-    return status;
+    HD_TRY(check_together(options, error));
+    complete_plan(options);
+    return HD_OK;
 }

@@ -42,8 +42,7 @@ typedef enum HdOptionType {
     HD_OPTION_SIZE,    /* WxH; HdPlannedSize */
     HD_OPTION_CROP,    /* WxH+X+Y; HdPlannedCrop */
     HD_OPTION_TEXT,    /* const char * */
-    HD_OPTION_TEXTS,  /* a text each time, `high` times at most; const char *[], and their number */
-    HD_OPTION_CHANGES /* the same, PATH=VALUE each */
+    HD_OPTION_TEXTS /* a text each time, `high` times at most; const char *[], and their number */
 } HdOptionType;
 
 /* What an option decides. */
@@ -90,7 +89,7 @@ const HdOptionSpec *hd_option_next(const HdOptionSpec *spec, HdCommand command);
 const HdOptionSpec *hd_option_find(const char *argument, HdCommand command, const char **value);
 
 /* "-o, --output OUT" */
-void hd_option_heading(const HdOptionSpec *spec, char *text, int capacity);
+void hd_option_heading(const HdOptionSpec *spec, char text[64]);
 
 /* The options that were given to the command, in the table's order and not at their defaults, as
    they would stand on a command line: those of HD_DECIDES_NUMBERS, and with `all` those of

@@ -56,9 +56,7 @@ static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError
         status = hd_statistics_add(&run->statistics, &run->file->scene,
                                    &run->team.list[stored->tracer].device,
                                    run->lines[stored->tracer], stored, error);
-    hd_console_release(&run->console);
-    if (status == HD_OK)
-        hd_console_tell_frame(&run->console, stored);
+    hd_console_release(&run->console, status == HD_OK ? stored : NULL);
     return status;
 }
 
@@ -102,7 +100,6 @@ static HdStatus render_sequence(Run *run, HdError *error) {
     };
     if (run->team.count > 0 && run->team.list[0].device.backend->functions->kernels != NULL)
         hd_console_prepare(&run->console, "building kernels");
-    hd_console_announce_interrupt(&run->console);
     hd_console_watch(&run->console, &run->watch);
     HdStatus status = hd_sequence_render(&sequence, error);
     hd_console_end(&run->console, sequence.scene, &run->team, run->lines, status);

@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include "cli/options.h"
-#include "main/program.h"
 #include "system/path.h"
 
 static char **original_arguments; /* as parsing them changes their order; owned, NULL ends them */

@@ -24,6 +24,10 @@ json_t *hd_json_text_or_null(const char *bytes) {
     return bytes != NULL && bytes[0] != '\0' ? hd_json_device_text(bytes) : json_null();
 }
 
+json_t *hd_json_count_or_null(int count) {
+    return count > 0 ? json_integer(count) : json_null();
+}
+
 json_t *hd_json_append(json_t *list, json_t *item) {
     if (json_array_append_new(list, item) == 0)
         return list;
