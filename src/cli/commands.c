@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L
-#include "cli/commands.h"
+#include "cli/options.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/options.h"
 #include "image/picture.h"
 #include "system/interrupt.h"
 #include "system/thread_pool.h"

@@ -235,16 +235,6 @@ static HdStatus print_json(const Comparison *comparison, HdError *error) {
 
 /* ---- what is compared ---- */
 
-static HdStatus check_sizes(const Comparison *comparison, HdError *error) {
-    const HdPictureFacts *first = &comparison->facts[0], *second = &comparison->facts[1];
-    if (first->width == second->width && first->height == second->height)
-        return HD_OK;
-    return hd_fail(error, HD_BAD_INPUT,
-                   "%s has %d x %d pixels, but %s has %d x %d; expected the same size",
-                   comparison->names[0], first->width, first->height, comparison->names[1],
-                   second->width, second->height);
-}
-
 /* PFM is on no curve, and shown on the one that most pictures are on. */
 static HdStatus choose_curve(Comparison *comparison, HdError *error) {
     const HdPictureFacts *facts = comparison->facts;
@@ -265,11 +255,16 @@ static HdStatus choose_curve(Comparison *comparison, HdError *error) {
 }
 
 static HdStatus open_pictures(Comparison *comparison, HdError *error) {
+    const HdPictureFacts *first = &comparison->facts[0], *second = &comparison->facts[1];
     for (int i = 0; i < PICTURES; i++) {
         HD_TRY(hd_picture_reader_open(&comparison->readers[i], comparison->names[i], error));
         comparison->facts[i] = *hd_picture_reader_facts(comparison->readers[i]);
     }
-    HD_TRY(check_sizes(comparison, error));
+    if (first->width != second->width || first->height != second->height)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s has %d x %d pixels, but %s has %d x %d; expected the same size",
+                       comparison->names[0], first->width, first->height, comparison->names[1],
+                       second->width, second->height);
     match_further(comparison);
     return choose_curve(comparison, error);
 }

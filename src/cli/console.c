@@ -24,7 +24,8 @@ static const double LONG_FRAME = 1.0, GLANCE = 0.2, LEAST_PART = 0.01;
 
 /* ---- progress ---- */
 
-void hd_progress_time(double seconds, char text[32]) {
+/* "m:ss", or "h:mm:ss" from an hour on; rounded to the nearest second. */
+static void format_time(double seconds, char text[32]) {
     const double most = MAX_HOURS * 3600.0;
     long whole = (long)((seconds < most ? seconds : most) + 0.5);
     if (whole < 3600)
@@ -57,7 +58,7 @@ void hd_progress_line(const HdProgress *progress, char text[128]) {
     if (progress->done > 0)
         hd_add_text(text, 128, ", ", "%.2f frames/s",
                     seconds > 0.0 ? progress->done / seconds : 0.0);
-    hd_progress_time(is_end ? seconds : seconds_left(progress), time);
+    format_time(is_end ? seconds : seconds_left(progress), time);
     hd_add_text(text, 128, ", ", "%s %s", time, is_end ? "in all" : "left");
 }
 

@@ -92,9 +92,6 @@ void hd_console_end(HdConsole *console, const HdScene *scene, const HdDeviceTeam
    and is cut where it is too long itself. */
 void hd_progress_bar(const HdProgress *progress, const char *line, int columns, char text[160]);
 
-/* "m:ss", or "h:mm:ss" from an hour on; rounded to the nearest second. */
-void hd_progress_time(double seconds, char text[32]);
-
 /* "12/120 frames, 1.41 frames/s, 1:16 left"; with all of them done, "..., 1:25 in all"; with a
    part, "12/120 frames, 40 % of the next, ...". */
 void hd_progress_line(const HdProgress *progress, char text[128]);

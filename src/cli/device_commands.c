@@ -272,14 +272,6 @@ static HdStatus print_json(const Run *run, HdError *error) {
     return hd_json_print(root, "the candidates", error);
 }
 
-/* Without a folder there is nothing to be done; a folder that fails is an error. */
-static HdStatus remember(Run *run, HdError *error) {
-    HdStatus status =
-        hd_tuning_remember(&run->tuning, run->device, &run->render, run->scene, error);
-    run->obstacle = status == HD_OK ? NULL : error->message;
-    return status == HD_UNAVAILABLE ? HD_OK : status;
-}
-
 /* On the device that 'hedron render' would take. */
 static HdStatus measure(Run *run, const HdJob *job, HdError *error) {
     const HdDeviceWish wish = {
@@ -304,14 +296,16 @@ static HdStatus measure(Run *run, const HdJob *job, HdError *error) {
     return status;
 }
 
+/* Without a folder nothing is remembered; a folder that fails is an error. */
 static HdStatus tune(Run *run, const HdJob *job, HdError *error) {
     HD_TRY(measure(run, job, error));
-    const HdStatus status = remember(run, error);
-    if (!run->options->json) {
+    HdStatus status =
+        hd_tuning_remember(&run->tuning, run->device, &run->render, run->scene, error);
+    run->obstacle = status == HD_OK ? NULL : error->message;
+    status = status == HD_UNAVAILABLE ? HD_OK : status;
+    if (!run->options->json)
         print_table(run);
-        return status;
-    }
-    HdStatus printed = print_json(run, error);
+    const HdStatus printed = run->options->json ? print_json(run, error) : HD_OK;
     return status == HD_OK ? printed : status;
 }
 

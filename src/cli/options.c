@@ -146,23 +146,6 @@ static size_t digits(const char *text) {
     return strspn(text, "0123456789");
 }
 
-/* "1", "0.5", ".5" and "1e-3": what strtod takes beyond it is no number on a command line. */
-static bool is_decimal(const char *text) {
-    size_t whole = digits(text), fraction = 0;
-    text += whole;
-    if (*text == '.') {
-        fraction = digits(text + 1);
-        text += 1 + fraction;
-    }
-    if (*text == 'e' || *text == 'E') {
-        text += 1 + (text[1] == '-' || text[1] == '+');
-        if (digits(text) == 0)
-            return false;
-        text += digits(text);
-    }
-    return whole + fraction > 0 && *text == '\0';
-}
-
 /* Moves `*text` past a whole number in the range and one of the characters `ends`, of "" the end of
    the text. */
 static bool take_number(const char **text, const char *ends, double low, double high, int *out) {
@@ -194,34 +177,31 @@ static HdStatus apply_integer(const Given *given, HdError *error) {
     return fail_expecting(given, expected, error);
 }
 
+/* "1", "0.5", ".5" and "1e-3": what else strtod takes is no number on a command line. */
 static HdStatus apply_real(const Given *given, HdError *error) {
     const HdOptionSpec *spec = given->spec;
-    const double value = is_decimal(given->text) ? strtod(given->text, NULL) : (double)NAN;
-    char expected[64];
+    const char *text = given->text;
+    char expected[64], *rest;
+    const double value = strtod(text, &rest);
+    const bool is_decimal = strchr("+-", text[0]) == NULL && *rest == '\0' &&
+                            text[strspn(text, "0123456789.eE+-")] == '\0';
     *(double *)given->member = value;
-    if (value >= spec->low && (spec->below_high ? value < spec->high : value <= spec->high))
+    if (is_decimal && value >= spec->low &&
+        (spec->below_high ? value < spec->high : value <= spec->high))
         return HD_OK;
     snprintf(expected, sizeof expected, "a number from %g to %s%g", spec->low,
              spec->below_high ? "below " : "", spec->high);
     return fail_expecting(given, expected, error);
 }
 
-static HdStatus apply_size(const Given *given, HdError *error) {
-    HdPlannedSize *size = given->member;
+static HdStatus apply_area(const Given *given, HdError *error) {
+    HdPlannedArea *area = given->member;
+    const bool is_size = given->spec->type == HD_OPTION_SIZE;
     const char *rest = given->text;
-    if (take_number(&rest, "xX", 1, HD_MAX_IMAGE_SIDE, &size->width) &&
-        take_number(&rest, "", 1, HD_MAX_IMAGE_SIDE, &size->height))
-        return HD_OK;
-    return fail_expecting(given, given->spec->expected, error);
-}
-
-static HdStatus apply_crop(const Given *given, HdError *error) {
-    HdPlannedCrop *crop = given->member;
-    const char *rest = given->text;
-    if (take_number(&rest, "x", 1, HD_MAX_IMAGE_SIDE, &crop->width) &&
-        take_number(&rest, "+", 1, HD_MAX_IMAGE_SIDE, &crop->height) &&
-        take_number(&rest, "+", 0, HD_MAX_IMAGE_SIDE, &crop->left) &&
-        take_number(&rest, "", 0, HD_MAX_IMAGE_SIDE, &crop->top))
+    if (take_number(&rest, is_size ? "xX" : "x", 1, HD_MAX_IMAGE_SIDE, &area->width) &&
+        take_number(&rest, is_size ? "" : "+", 1, HD_MAX_IMAGE_SIDE, &area->height) &&
+        (is_size || (take_number(&rest, "+", 0, HD_MAX_IMAGE_SIDE, &area->left) &&
+                     take_number(&rest, "", 0, HD_MAX_IMAGE_SIDE, &area->top))))
         return HD_OK;
     return fail_expecting(given, given->spec->expected, error);
 }
@@ -324,7 +304,7 @@ static HdStatus apply_option(HdOptions *options, const HdOptionSpec *spec, const
         [HD_OPTION_INTEGER] = apply_integer, [HD_OPTION_REAL] = apply_real,
         [HD_OPTION_CHOICE] = apply_choice,   [HD_OPTION_NUMERAL] = apply_choice,
         [HD_OPTION_WORD] = apply_choice,     [HD_OPTION_SET] = apply_set,
-        [HD_OPTION_SIZE] = apply_size,       [HD_OPTION_CROP] = apply_crop,
+        [HD_OPTION_SIZE] = apply_area,       [HD_OPTION_CROP] = apply_area,
         [HD_OPTION_TEXT] = apply_text,       [HD_OPTION_TEXTS] = apply_text,
     };
     const Given given = {options, spec, value, at(options, spec->offset)};
@@ -335,9 +315,7 @@ static HdStatus apply_option(HdOptions *options, const HdOptionSpec *spec, const
 
 /* The value of an option that was given; false: it was not, or is at its default. */
 static bool spell_value(const HdOptionSpec *spec, const void *member, char value[64]) {
-    const size_t size = 64;
-    const HdPlannedSize *area = member;
-    const HdPlannedCrop *crop = member;
+    const HdPlannedArea *area = member;
     const int *number = member;
     const double *real = member;
     switch (spec->type) {
@@ -345,20 +323,19 @@ static bool spell_value(const HdOptionSpec *spec, const void *member, char value
         value[0] = '\0';
         return *(const bool *)member;
     case HD_OPTION_INTEGER:
-        snprintf(value, size, "%d", *number);
+        snprintf(value, 64, "%d", *number);
         return *number != spec->unset;
     case HD_OPTION_REAL:
         hd_short_number(*real, value);
         return *real != spec->unset;
     case HD_OPTION_CHOICE:
-        snprintf(value, size, "%s", spec->choices[*number > 0 ? *number : 0]);
+        snprintf(value, 64, "%s", spec->choices[*number > 0 ? *number : 0]);
         return *number > 0;
     case HD_OPTION_SIZE:
-        snprintf(value, size, "%dx%d", area->width, area->height);
-        return area->width > 0;
     case HD_OPTION_CROP:
-        snprintf(value, size, "%dx%d+%d+%d", crop->width, crop->height, crop->left, crop->top);
-        return crop->width > 0;
+        snprintf(value, 64, spec->type == HD_OPTION_SIZE ? "%dx%d" : "%dx%d+%d+%d", area->width,
+                 area->height, area->left, area->top);
+        return area->width > 0;
     default:
         return false;
     }

@@ -16,14 +16,11 @@
 #include "run/sequence.h"
 #include "system/interrupt.h"
 
-/* Called after each frame is stored. Must return HD_OK to go on. */
-typedef HdStatus Stored(const HdStoredFrame *stored, HdError *error);
-
 typedef struct Run {
     const HdSceneFile *file;
     HdFrameList frames;
     HdOutputPlan outputs;
-    Stored *stored; /* NULL: the names of the outputs are printed at the end */
+    bool is_classic; /* standard output has a line for each frame, else the names of the outputs */
     HdResume resume;
     HdConsole console;
     HdStatistics statistics; /* stream NULL: not wanted */
@@ -46,12 +43,26 @@ static void device_dropped(void *context, int number, const HdError *error) {
     hd_console_tell_loss(&run->console, &run->team.list[number].device, error->message);
 }
 
+/* From the camera to the pixels in memory. */
+static HdStatus print_frame_line(const HdStoredFrame *stored, HdError *error) {
+    const HdFrameTimes *times = &stored->times;
+    double seconds = times->prepare.seconds + times->trace.seconds + times->copy.seconds;
+    if (!hd_wait_to_write(STDOUT_FILENO) ||
+        printf("%d\t%.3f\t%" PRIu64 "\n", stored->number, seconds * 1e3,
+               hd_frame_rays(stored->frame)) < 0 ||
+        fflush(stdout) != 0)
+        return hd_interrupt_signal() != 0
+                   ? hd_fail(error, HD_INTERRUPTED, "interrupted while writing to standard output")
+                   : hd_fail(error, HD_FAILED, "cannot write to standard output");
+    return HD_OK;
+}
+
 static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError *error) {
     Run *run = context;
     HdStatus status = HD_OK;
     hd_console_hold(&run->console); /* both may go to the same terminal */
-    if (run->stored != NULL)
-        status = run->stored(stored, error);
+    if (run->is_classic)
+        status = print_frame_line(stored, error);
     if (status == HD_OK && run->statistics.stream != NULL)
         status = hd_statistics_add(&run->statistics, &run->file->scene,
                                    &run->team.list[stored->tracer].device,
@@ -178,14 +189,14 @@ static HdStatus render_frames(Run *run, const HdOptions *options, HdError *error
         status = render_missing(run, &options->devices, error);
     }
     hd_resume_free(&run->resume);
-    return status == HD_OK && run->stored == NULL ? print_names(run, error) : status;
+    return status == HD_OK && !run->is_classic ? print_names(run, error) : status;
 }
 
 /* ---- the commands ---- */
 
-static HdStatus render(const HdOptions *options, Stored *stored, HdError *error) {
+HdStatus hd_command_render(const HdOptions *options, HdError *error) {
     HdSceneFile file;
-    Run run = {.file = &file, .stored = stored};
+    Run run = {.file = &file, .is_classic = options->scene.is_classic};
     HdProblems notes = {.count = 0};
     hd_console_open(&run.console, &options->telling);
     HdStatus status = hd_load_scene(&file, &options->scene, &notes, error);
@@ -200,24 +211,6 @@ static HdStatus render(const HdOptions *options, Stored *stored, HdError *error)
     return status;
 }
 
-/* From the camera to the pixels in memory. */
-static HdStatus print_frame_line(const HdStoredFrame *stored, HdError *error) {
-    const HdFrameTimes *times = &stored->times;
-    double seconds = times->prepare.seconds + times->trace.seconds + times->copy.seconds;
-    if (!hd_wait_to_write(STDOUT_FILENO) ||
-        printf("%d\t%.3f\t%" PRIu64 "\n", stored->number, seconds * 1e3,
-               hd_frame_rays(stored->frame)) < 0 ||
-        fflush(stdout) != 0)
-        return hd_interrupt_signal() != 0
-                   ? hd_fail(error, HD_INTERRUPTED, "interrupted while writing to standard output")
-                   : hd_fail(error, HD_FAILED, "cannot write to standard output");
-    return HD_OK;
-}
-
-HdStatus hd_command_render(const HdOptions *options, HdError *error) {
-    return render(options, NULL, error);
-}
-
 static HdStatus print_default(const HdScenePlan *plan, HdError *error) {
     HdSceneFile file;
     HD_TRY(hd_default_input(&file, error));
@@ -230,5 +223,5 @@ static HdStatus print_default(const HdScenePlan *plan, HdError *error) {
 
 HdStatus hd_command_classic(const HdOptions *options, HdError *error) {
     return options->prints_default ? print_default(&options->scene, error)
-                                   : render(options, print_frame_line, error);
+                                   : hd_command_render(options, error);
 }

@@ -90,7 +90,7 @@ static void set_numbers(HdScene *scene, const HdScenePlan *plan) {
         scene->max_error = plan->max_error;
 }
 
-static HdStatus crop(HdScene *scene, const HdPlannedCrop *part, HdError *error) {
+static HdStatus crop(HdScene *scene, const HdPlannedArea *part, HdError *error) {
     if (part->left + part->width > scene->width || part->top + part->height > scene->height)
         return hd_fail(error, HD_BAD_INPUT, "the picture has %d x %d pixels, which end before that",
                        scene->width, scene->height);
