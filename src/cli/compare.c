@@ -133,13 +133,13 @@ static void print_further(const Comparison *comparison) {
     for (int i = 0; i < comparison->further_count; i++) {
         const Further *further = &comparison->further[i];
         const HdChannelDifference *difference = &further->difference;
-        char name[64] = "  ";
-        hd_escape(further->name, name + 2, sizeof name - 2);
+        char name[62];
+        hd_escape(further->name, name, sizeof name);
         if (difference->largest > 0.0)
-            printf("%-20s%*.6g at %d, %d%s\n", name, FIGURE_WIDTH, difference->largest,
+            printf("  %-18s%*.6g at %d, %d%s\n", name, FIGURE_WIDTH, difference->largest,
                    difference->x, difference->y, further == most ? ", the largest" : "");
         else
-            printf("%-20s%*s\n", name, FIGURE_WIDTH, "none");
+            printf("  %-18s%*s\n", name, FIGURE_WIDTH, "none");
     }
     for (int p = 0; p < PICTURES; p++)
         for (int i = 0; i < comparison->facts[p].further; i++) {

@@ -63,13 +63,11 @@ void hd_progress_line(const HdProgress *progress, char text[128]) {
 }
 
 void hd_progress_bar(const HdProgress *progress, const char *line, int columns, char text[160]) {
-    char bar[BAR_WIDTH + 1];
+    char bar[BAR_WIDTH + 1] = "........................";
     int filled = progress->total > 0
                      ? (int)(frames_of(progress) * BAR_WIDTH / progress->total + 1e-9)
                      : BAR_WIDTH;
-    memset(bar, '.', BAR_WIDTH);
     memset(bar, '#', (size_t)filled);
-    bar[BAR_WIDTH] = '\0';
     if (BAR_WIDTH + 3 + (int)strlen(line) <= columns)
         snprintf(text, 160, "[%s] %s", bar, line);
     else

@@ -142,16 +142,12 @@ static HdStatus apply_command(const Given *given, HdError *error) {
     return HD_OK;
 }
 
-static size_t digits(const char *text) {
-    return strspn(text, "0123456789");
-}
-
 /* Moves `*text` past a whole number in the range and one of the characters `ends`, of "" the end of
    the text. */
 static bool take_number(const char **text, const char *ends, double low, double high, int *out) {
     char *rest;
     errno = 0;
-    if (digits(*text) == 0)
+    if (**text < '0' || **text > '9')
         return false;
     const long value = strtol(*text, &rest, 10);
     const bool has_end = *rest == '\0' ? *ends == '\0' : strchr(ends, *rest) != NULL;
@@ -287,14 +283,11 @@ static HdStatus apply_text(const Given *given, HdError *error) {
 }
 
 /* What there is where no option is given. */
-static void reset(HdOptions *options) {
-    memset(options, 0, sizeof *options);
-    for (const HdOptionSpec *spec = hd_option_specs; spec->name != NULL; spec++)
-        if (spec->type == HD_OPTION_REAL)
-            *(double *)at(options, spec->offset) = spec->unset;
-        else if (spec->type == HD_OPTION_INTEGER || spec->type == HD_OPTION_CHOICE)
-            *(int *)at(options, spec->offset) = spec->unset;
-}
+static const HdOptions defaults = {
+    .scene = {.variant = HD_CLASSIC_DEFAULT_VARIANT, .depth = -1, .cutoff = -1, .sampling = -1},
+    .fail_above = -1,
+    .curve = -1,
+};
 
 /* Lays one option over those read before; `value` is "" for one that takes none. */
 static HdStatus apply_option(HdOptions *options, const HdOptionSpec *spec, const char *value,
@@ -314,7 +307,9 @@ static HdStatus apply_option(HdOptions *options, const HdOptionSpec *spec, const
 /* ---- and back ---- */
 
 /* The value of an option that was given; false: it was not, or is at its default. */
-static bool spell_value(const HdOptionSpec *spec, const void *member, char value[64]) {
+static bool spell_value(const HdOptions *options, const HdOptionSpec *spec, char value[64]) {
+    const void *member = (const char *)options + spec->offset;
+    const void *unset = (const char *)&defaults + spec->offset;
     const HdPlannedArea *area = member;
     const int *number = member;
     const double *real = member;
@@ -324,17 +319,18 @@ static bool spell_value(const HdOptionSpec *spec, const void *member, char value
         return *(const bool *)member;
     case HD_OPTION_INTEGER:
         snprintf(value, 64, "%d", *number);
-        return *number != spec->unset;
+        return *number != *(const int *)unset;
     case HD_OPTION_REAL:
         hd_short_number(*real, value);
-        return *real != spec->unset;
+        return *real != *(const double *)unset;
     case HD_OPTION_CHOICE:
         snprintf(value, 64, "%s", spec->choices[*number > 0 ? *number : 0]);
         return *number > 0;
     case HD_OPTION_SIZE:
     case HD_OPTION_CROP:
-        snprintf(value, 64, spec->type == HD_OPTION_SIZE ? "%dx%d" : "%dx%d+%d+%d", area->width,
-                 area->height, area->left, area->top);
+        snprintf(value, 64, "%dx%d", area->width, area->height);
+        if (spec->type == HD_OPTION_CROP)
+            hd_add_text(value, 64, "", "+%d+%d", area->left, area->top);
         return area->width > 0;
     default:
         return false;
@@ -351,7 +347,11 @@ static void append(char *text, size_t size, const char *name, const char *value)
     }
 }
 
-void hd_options_spell(const HdOptions *options, bool all, char *text, size_t size) {
+/* The options that were given to the command, in the table's order and not at their defaults, as
+   they would stand on a command line: those of HD_DECIDES_NUMBERS, and with `all` those of
+   HD_DECIDES_PIXELS too, of which --set alone has texts. Escaped (text.h), and cut to `size` bytes
+   with the zero byte. */
+static void spell(const HdOptions *options, bool all, char *text, size_t size) {
     const HdOptionSpec *spec = NULL;
     char value[64];
     text[0] = '\0';
@@ -360,7 +360,7 @@ void hd_options_spell(const HdOptions *options, bool all, char *text, size_t siz
             continue;
         for (int i = 0; spec->type == HD_OPTION_TEXTS && i < options->scene.change_count; i++)
             append(text, size, spec->name, options->scene.changes[i]);
-        if (spell_value(spec, (const char *)options + spec->offset, value))
+        if (spell_value(options, spec, value))
             append(text, size, spec->name, value);
     }
 }
@@ -527,8 +527,8 @@ static void complete_plan(HdOptions *options) {
     HdScenePlan *scene = &options->scene;
     if (options->reference)
         options->devices.render.precision = HD_PRECISION_DOUBLE;
-    hd_options_spell(options, false, scene->given, sizeof scene->given);
-    hd_options_spell(options, true, options->store.given, sizeof options->store.given);
+    spell(options, false, scene->given, sizeof scene->given);
+    spell(options, true, options->store.given, sizeof options->store.given);
     if (options->reference) {
         scene->sampling = HD_SAMPLING_REFERENCE;
         scene->samples = scene->samples > 0 ? scene->samples : REFERENCE_SAMPLES;
@@ -544,7 +544,7 @@ static void complete_plan(HdOptions *options) {
 }
 
 HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdError *error) {
-    reset(options);
+    *options = defaults;
     const HdCommandSpec *command = count > 1 ? hd_command_named(arguments[1]) : NULL;
     Parser parser = {
         .options = options,

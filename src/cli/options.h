@@ -29,8 +29,8 @@ typedef enum HdCommand {
 } HdCommand;
 
 /* What the command line said: the parts of the plan, each for its reader, and what belongs to a
-   single command. Where an option is not given, its member is 0, false or NULL, or what its row
-   says (`unset`). */
+   single command. Where an option is not given, its member is 0, false or NULL, or negative where 0
+   is a value. */
 typedef struct HdOptions {
     HdCommand command;
     const char *topic; /* of HD_COMMAND_HELP: a command or a topic; NULL: the program */
@@ -126,7 +126,6 @@ typedef struct HdOptionSpec {
     double low, high;           /* of a number */
     bool below_high;            /* a number must not be `high` itself */
     int step;                   /* a whole number is a multiple of it; 0: any */
-    int unset;                  /* the number that the member has where the option is not given */
     const char *const *choices; /* NULL ends them */
     const char *expected;       /* instead of a wrong value; NULL for a text that may be empty */
     HdStatus (*check)(const char *text, const char *option, HdError *error); /* NULL: any text */
@@ -151,11 +150,6 @@ const HdOptionSpec *hd_option_find(const char *argument, HdCommand command, cons
 
 /* "-o, --output OUT" */
 void hd_option_heading(const HdOptionSpec *spec, char text[64]);
-
-/* The options that were given to the command, in the table's order and not at their defaults, as
-   they would stand on a command line: those of HD_DECIDES_NUMBERS, and with `all` those of
-   HD_DECIDES_PIXELS too. Escaped (text.h), and cut to `size` bytes with the zero byte. */
-void hd_options_spell(const HdOptions *options, bool all, char *text, size_t size);
 
 /* Parses the arguments of main, whose order it changes. Fails with HD_BAD_INPUT and a sentence that
    names the argument, and the nearest right one where there is one. */

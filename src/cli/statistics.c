@@ -139,24 +139,19 @@ HdStatus hd_statistics_add(HdStatistics *statistics, const HdScene *scene, const
     return HD_OK;
 }
 
-static HdStatus close_file(HdStatistics *statistics, HdDurability durability, HdError *error) {
-    errno = 0;
-    HdStatus status = fflush(statistics->stream) == 0 ? HD_OK : fail_to_write(statistics, error);
-    if (status == HD_OK && durability == HD_DURABLE)
-        status = hd_sync_file(fileno(statistics->stream), statistics->name, error);
-    if (status == HD_OK && durability == HD_DURABLE)
-        status = hd_sync_folder(statistics->name, error);
-    errno = 0;
-    if (fclose(statistics->stream) != 0 && status == HD_OK)
-        status = fail_to_write(statistics, error);
-    return status;
-}
-
 HdStatus hd_statistics_close(HdStatistics *statistics, HdDurability durability, HdStatus before,
                              HdError *error) {
-    HdError ignored;
+    HdError ignored, *told = before == HD_OK ? error : &ignored;
     if (statistics->stream == NULL || statistics->is_standard_output)
         return before;
-    const HdStatus closed = close_file(statistics, durability, before == HD_OK ? error : &ignored);
-    return before == HD_OK ? closed : before;
+    errno = 0;
+    HdStatus status = fflush(statistics->stream) == 0 ? HD_OK : fail_to_write(statistics, told);
+    if (status == HD_OK && durability == HD_DURABLE)
+        status = hd_sync_file(fileno(statistics->stream), statistics->name, told);
+    if (status == HD_OK && durability == HD_DURABLE)
+        status = hd_sync_folder(statistics->name, told);
+    errno = 0;
+    if (fclose(statistics->stream) != 0 && status == HD_OK)
+        status = fail_to_write(statistics, told);
+    return before == HD_OK ? status : before;
 }
