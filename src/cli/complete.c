@@ -157,8 +157,8 @@ static void offer_operands(const Line *line) {
     if (command->command == HD_COMMAND_HELP || (command->name == NULL && line->is_first))
         offer_commands(line);
     if (command->command == HD_COMMAND_HELP)
-        for (const HdHelpTopic *topic = hd_help_topics; topic->name != NULL; topic++)
-            offer(line, topic->name, topic->about);
+        for (int i = 0; i < HD_HELP_TOPIC_COUNT; i++)
+            offer(line, hd_help_topics[i].name, hd_help_topics[i].about);
     else if (command->name != NULL && command->most_operands != 0)
         printf(":%s\n", command->ending != NULL ? command->ending : "");
 }

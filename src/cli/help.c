@@ -317,37 +317,27 @@ static void print_man_page(void) {
            ".BR ffmpeg (1)\n");
 }
 
-/* ---- topics ---- */
-
-const HdHelpTopic hd_help_topics[] = {
-    {"scene", "every key of a scene file", .print = print_scene_format},
-    {"man", "the man page", .print = print_man_page},
-    {"completion", "completion for bash", .script = hd_bash_completion,
-     .script_size = &hd_bash_completion_size},
-    {"completion-zsh", "completion for zsh", .script = hd_zsh_completion,
-     .script_size = &hd_zsh_completion_size},
-    {"completion-fish", "completion for fish", .script = hd_fish_completion,
-     .script_size = &hd_fish_completion_size},
-    {.name = NULL}};
-
-const HdHelpTopic *hd_help_topic_named(const char *name) {
-    const HdHelpTopic *topic = hd_help_topics;
-    while (topic->name != NULL && strcmp(topic->name, name) != 0)
-        topic++;
-    return topic->name != NULL ? topic : NULL;
+static void print_topic(int topic) {
+    if (topic == HD_HELP_SCENE)
+        print_scene_format();
+    else if (topic == HD_HELP_MAN)
+        print_man_page();
+    else if (topic == HD_HELP_BASH)
+        fwrite(hd_bash_completion, 1, hd_bash_completion_size, stdout);
+    else if (topic == HD_HELP_ZSH)
+        fwrite(hd_zsh_completion, 1, hd_zsh_completion_size, stdout);
+    else if (topic == HD_HELP_FISH)
+        fwrite(hd_fish_completion, 1, hd_fish_completion_size, stdout);
 }
 
 HdStatus hd_command_help(const HdOptions *options, HdError *error) {
     (void)error;
-    const char *name = options->topic;
-    const HdHelpTopic *topic = name != NULL ? hd_help_topic_named(name) : NULL;
-    if (name == NULL)
+    const HdCommandSpec *command = hd_command_named(options->topic != NULL ? options->topic : "");
+    if (options->topic == NULL)
         print_program();
-    else if (topic == NULL)
-        print_command(hd_command_named(name));
-    else if (topic->print != NULL)
-        topic->print();
+    else if (command != NULL)
+        print_command(command);
     else
-        fwrite(topic->script, 1, *topic->script_size, stdout);
+        print_topic(hd_help_topic_named(options->topic));
     return HD_OK;
 }

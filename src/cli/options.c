@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
 #include "cli/options.h"
 
 #include <errno.h>
@@ -6,11 +7,48 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/text.h"
+#include "image/picture.h"
 #include "input/classic.h"
 #include "output/outputs.h"
+#include "system/interrupt.h"
 #include "system/path.h"
+#include "system/thread_pool.h"
+
+#define ROW(...) {__VA_ARGS__},
+const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
+#include "cli/command_table.h"
+};
+
+const HdHelpTopic hd_help_topics[HD_HELP_TOPIC_COUNT] = {
+    [HD_HELP_SCENE] = {"scene", "every key of a scene file"},
+    [HD_HELP_MAN] = {"man", "the man page"},
+    [HD_HELP_BASH] = {"completion", "completion for bash"},
+    [HD_HELP_ZSH] = {"completion-zsh", "completion for zsh"},
+    [HD_HELP_FISH] = {"completion-fish", "completion for fish"}};
+
+int hd_help_topic_named(const char *name) {
+    int topic = HD_HELP_TOPIC_COUNT - 1;
+    while (topic >= 0 && strcmp(hd_help_topics[topic].name, name) != 0)
+        topic--;
+    return topic;
+}
+
+const HdCommandSpec *hd_command_named(const char *name) {
+    for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
+        if (hd_command_specs[i].name != NULL && strcmp(hd_command_specs[i].name, name) == 0)
+            return &hd_command_specs[i];
+    return NULL;
+}
+
+const HdCommandSpec *hd_command_spec(HdCommand command) {
+    for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
+        if (hd_command_specs[i].command == command)
+            return &hd_command_specs[i];
+    return NULL;
+}
 
 enum {
     RENDERING = HD_COMMAND_CLASSIC | HD_COMMAND_RENDER,
@@ -59,7 +97,6 @@ static HdStatus check_change(const char *text, const char *option, HdError *erro
     .type = HD_OPTION_TEXTS, AT(member), .count_offset = offsetof(HdOptions, count), .high = (most)
 #define COMMAND(taken) .type = HD_OPTION_COMMAND, .command = (taken)
 
-#define ROW(...)            {__VA_ARGS__},
 #define OPTION(member, ...) {__VA_ARGS__},
 const HdOptionSpec hd_option_specs[] = {
 #include "cli/option_table.h"
@@ -412,7 +449,7 @@ static HdStatus fail_unknown_command(const Parser *parser, const char *argument,
     const size_t size = sizeof suggestion;
     if (hd_path_has_ending(argument, ".json"))
         snprintf(suggestion, size, "did you mean 'hedron render %s'?", argument);
-    else if (hd_help_topic_named(argument) != NULL)
+    else if (hd_help_topic_named(argument) >= 0)
         snprintf(suggestion, size, "did you mean 'hedron help %s'?", argument);
     else if (strcmp(argument, "version") == 0)
         snprintf(suggestion, size, "did you mean 'hedron --version'?");
@@ -487,10 +524,10 @@ static HdStatus parse_argument(Parser *parser, HdError *error) {
 static HdStatus check_topic(const char *name, HdError *error) {
     HdNearest nearest = {.word = name};
     char suggestion[128];
-    if (hd_command_named(name) != NULL || hd_help_topic_named(name) != NULL)
+    if (hd_command_named(name) != NULL || hd_help_topic_named(name) >= 0)
         return HD_OK;
-    for (const HdHelpTopic *topic = hd_help_topics; topic->name != NULL; topic++)
-        hd_nearest_offer(&nearest, topic->name);
+    for (int i = 0; i < HD_HELP_TOPIC_COUNT; i++)
+        hd_nearest_offer(&nearest, hd_help_topics[i].name);
     offer_commands(&nearest);
     suggest(&nearest, "hedron help ", hd_command_spec(HD_COMMAND_HELP), suggestion);
     return hd_fail(error, HD_BAD_INPUT, "there is no help on '%s'; %s", name, suggestion);
@@ -562,4 +599,29 @@ HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdErr
     HD_TRY(check_together(options, error));
     complete_plan(options);
     return HD_OK;
+}
+
+/* ---- from the arguments to the exit code ---- */
+
+int hd_program_run(int count, char **arguments, HdCommandFunction *run) {
+    static HdError error;
+    HdOptions options;
+    hd_interrupt_install();
+    HdStatus status = hd_check_stack(&error);
+    if (status == HD_OK)
+        status = hd_interrupt_read_patience(&error);
+    if (status == HD_OK)
+        status = hd_options_parse(&options, count, arguments, &error);
+    if (status == HD_OK && count == 1 && isatty(STDIN_FILENO))
+        options.command = HD_COMMAND_HELP;
+    if (status == HD_OK)
+        status = run(&options, &error);
+    if (status == HD_OK && (fflush(stdout) != 0 || ferror(stdout)))
+        status = hd_fail(&error, HD_FAILED, "cannot write to standard output");
+    if (status == HD_OK)
+        return 0;
+    fprintf(stderr, "hedron: %s\n", error.message);
+    if (status == HD_INTERRUPTED)
+        return 128 + hd_interrupt_signal();
+    return (int)status;
 }

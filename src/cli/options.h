@@ -50,14 +50,12 @@ typedef struct HdOptions {
 /* ---- commands ---- */
 
 /* What there is help about, apart from commands. */
+enum { HD_HELP_SCENE, HD_HELP_MAN, HD_HELP_BASH, HD_HELP_ZSH, HD_HELP_FISH, HD_HELP_TOPIC_COUNT };
 typedef struct HdHelpTopic {
-    const char *name, *about; /* NULL ends the table */
-    void (*print)(void);
-    const unsigned char *script; /* instead of `print` */
-    const size_t *script_size;
+    const char *name, *about;
 } HdHelpTopic;
-extern const HdHelpTopic hd_help_topics[];
-const HdHelpTopic *hd_help_topic_named(const char *name); /* NULL: none has it */
+extern const HdHelpTopic hd_help_topics[HD_HELP_TOPIC_COUNT];
+int hd_help_topic_named(const char *name); /* negative: none has it */
 
 /* What a command does; the status becomes the exit code. */
 typedef HdStatus HdCommandFunction(const HdOptions *options, HdError *error);
@@ -68,7 +66,6 @@ HdCommandFunction hd_command_classic, hd_command_render, hd_command_check, hd_co
 
 typedef struct HdCommandSpec {
     HdCommand command;
-    HdCommandFunction *run;  /* NULL: another program does it */
     const char *name;        /* NULL: the classic mode */
     const char *operands;    /* as the usage shows them; "" where there are none */
     const char *ending;      /* of the files that are operands; NULL: any, or no files */

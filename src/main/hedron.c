@@ -14,9 +14,10 @@ static char **original_arguments; /* as parsing them changes their order; owned,
 
 /* Becomes hedron-view, with the same arguments; it is looked for beside this program, then in PATH.
    Returns only where that fails. */
-static HdStatus view(HdError *error) {
+static HdStatus view(const HdOptions *options, HdError *error) {
     static const char program[] = "hedron-view";
     char folder[HD_MAX_PATH], path[HD_MAX_PATH + sizeof program + 1];
+    (void)options;
     if (original_arguments == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for the arguments");
     if (hd_path_of_program(folder)) {
@@ -30,10 +31,20 @@ static HdStatus view(HdError *error) {
 }
 
 static HdStatus run(const HdOptions *options, HdError *error) {
-    if (options->command == HD_COMMAND_VIEW)
-        return view(error);
-    if (options->command != HD_COMMAND_VERSION)
-        return hd_command_spec(options->command)->run(options, error);
+    static const struct {
+        HdCommand command;
+        HdCommandFunction *run;
+    } commands[] = {
+        {HD_COMMAND_CLASSIC, hd_command_classic},   {HD_COMMAND_RENDER, hd_command_render},
+        {HD_COMMAND_CHECK, hd_command_check},       {HD_COMMAND_CONVERT, hd_command_convert},
+        {HD_COMMAND_DEVICES, hd_command_devices},   {HD_COMMAND_SELFTEST, hd_command_selftest},
+        {HD_COMMAND_TUNE, hd_command_tune},         {HD_COMMAND_COMPARE, hd_command_compare},
+        {HD_COMMAND_NEW, hd_command_new},           {HD_COMMAND_VIEW, view},
+        {HD_COMMAND_COMPLETE, hd_command_complete}, {HD_COMMAND_HELP, hd_command_help},
+    };
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
+        if (commands[i].command == options->command)
+            return commands[i].run(options, error);
     printf("hedron %s\n", HD_VERSION);
     return HD_OK;
 }
