@@ -196,8 +196,9 @@ static HdStatus render_frames(Run *run, const HdOptions *options, HdError *error
 
 HdStatus hd_command_render(const HdOptions *options, HdError *error) {
     HdSceneFile file;
-    Run run = {.file = &file, .is_classic = options->scene.is_classic};
+    Run run = {.file = &file};
     HdProblems notes = {.count = 0};
+    run.is_classic = options->command == HD_COMMAND_CLASSIC;
     hd_console_open(&run.console, &options->telling);
     HdStatus status = hd_load_scene(&file, &options->scene, &notes, error);
     if (!options->telling.quiet)
