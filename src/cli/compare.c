@@ -76,12 +76,12 @@ static void compare_further(Comparison *comparison, int y) {
 /* The one with the largest difference; NULL: there is none. */
 static const Further *most_different(const Comparison *comparison) {
     const Further *most = NULL;
-    for (int i = 0; i < comparison->further_count; i++) {
-        const Further *further = &comparison->further[i];
-        const double least = most != NULL ? most->difference.largest : 0.0;
-        if (further->difference.largest > least)
-            most = further;
-    }
+    double largest = 0.0;
+    for (int i = 0; i < comparison->further_count; i++)
+        if (comparison->further[i].difference.largest > largest) {
+            most = &comparison->further[i];
+            largest = most->difference.largest;
+        }
     return most;
 }
 
@@ -91,19 +91,19 @@ static bool is_identical(const Comparison *comparison) {
 
 /* ---- text ---- */
 
+static void print_figure(double value, const char *unit) {
+    char text[32] = "none";
+    if (isinf(value))
+        snprintf(text, sizeof text, "identical");
+    else if (!isnan(value))
+        snprintf(text, sizeof text, "%.6g%s", value, unit);
+    printf("%*s", FIGURE_WIDTH, text);
+}
+
 static void print_figures(const char *name, const char *unit, double display, double linear) {
-    const double values[] = {display, linear};
     printf("%-20s", name);
-    for (int i = 0; i < 2; i++) {
-        char text[32];
-        if (isnan(values[i]))
-            snprintf(text, sizeof text, "none");
-        else if (isinf(values[i]))
-            snprintf(text, sizeof text, "identical");
-        else
-            snprintf(text, sizeof text, "%.6g%s", values[i], unit);
-        printf("%*s", FIGURE_WIDTH, text);
-    }
+    print_figure(display, unit);
+    print_figure(linear, unit);
     printf("\n");
 }
 
@@ -122,10 +122,9 @@ static void print_place(const HdDifferenceFigures *display, const HdDifferenceFi
 }
 
 static void print_share(const char *name, double share) {
-    char text[32] = "none";
-    if (!isnan(share))
-        snprintf(text, sizeof text, "%.6g %%", 100.0 * share);
-    printf("%-20s%*s\n", name, FIGURE_WIDTH, text);
+    printf("%-20s", name);
+    print_figure(100.0 * share, " %");
+    printf("\n");
 }
 
 static void print_further(const Comparison *comparison) {
@@ -135,13 +134,13 @@ static void print_further(const Comparison *comparison) {
     for (int i = 0; i < comparison->further_count; i++) {
         const Further *further = &comparison->further[i];
         const HdChannelDifference *difference = &further->difference;
-        char name[64] = "  ";
-        hd_escape(further->name, name + 2, sizeof name - 2);
+        char name[62];
+        hd_escape(further->name, name, sizeof name);
         if (difference->largest > 0.0)
-            printf("%-20s%*.6g at %d, %d%s\n", name, FIGURE_WIDTH, difference->largest,
+            printf("  %-18s%*.6g at %d, %d%s\n", name, FIGURE_WIDTH, difference->largest,
                    difference->x, difference->y, further == most ? ", the largest" : "");
         else
-            printf("%-20s%*s\n", name, FIGURE_WIDTH, "none");
+            printf("  %-18s%*s\n", name, FIGURE_WIDTH, "none");
     }
     for (int p = 0; p < PICTURES; p++)
         for (int i = 0; i < comparison->facts[p].further; i++) {
@@ -210,12 +209,12 @@ static json_t *describe_further(const Comparison *comparison) {
     for (int i = 0; i < comparison->further_count; i++) {
         const Further *further = &comparison->further[i];
         const HdChannelDifference *difference = &further->difference;
-        json_array_append_new(
-            list, json_pack("{s:o, s:o, s:o}", "name", hd_json_device_text(further->name),
-                            "largest", number_or_null(difference->largest), "at",
-                            difference->largest > 0.0
-                                ? json_pack("{s:i, s:i}", "x", difference->x, "y", difference->y)
-                                : json_null()));
+        json_t *at = difference->largest > 0.0
+                         ? json_pack("{s:i, s:i}", "x", difference->x, "y", difference->y)
+                         : json_null();
+        list = hd_json_append(list, json_pack("{s:o, s:o, s:o}", "name",
+                                              hd_json_device_text(further->name), "largest",
+                                              number_or_null(difference->largest), "at", at));
     }
     return list;
 }
@@ -231,21 +230,11 @@ static HdStatus print_json(const Comparison *comparison, HdError *error) {
         is_identical(comparison), "display", describe_figures(&figures->display), "linear",
         describe_figures(&figures->linear), "above_1", number_or_null(figures->above_1), "above_8",
         number_or_null(figures->above_8), "channels", describe_further(comparison),
-        "most_different", most != NULL ? hd_json_device_text(most->name) : json_null());
+        "most_different", hd_json_text_or_null(most != NULL ? most->name : NULL));
     return hd_json_print(root, "the figures", error);
 }
 
 /* ---- what is compared ---- */
-
-static HdStatus check_sizes(const Comparison *comparison, HdError *error) {
-    const HdPictureFacts *first = &comparison->facts[0], *second = &comparison->facts[1];
-    if (first->width == second->width && first->height == second->height)
-        return HD_OK;
-    return hd_fail(error, HD_BAD_INPUT,
-                   "%s has %d x %d pixels, but %s has %d x %d; expected the same size",
-                   comparison->names[0], first->width, first->height, comparison->names[1],
-                   second->width, second->height);
-}
 
 /* PFM is on no curve, and shown on the one that most pictures are on. */
 static HdStatus choose_curve(Comparison *comparison, HdError *error) {
@@ -267,19 +256,18 @@ static HdStatus choose_curve(Comparison *comparison, HdError *error) {
 }
 
 static HdStatus open_pictures(Comparison *comparison, HdError *error) {
-    HdStatus status = HD_OK;
-    for (int i = 0; i < PICTURES && status == HD_OK; i++) {
-        status = hd_picture_reader_open(&comparison->readers[i], comparison->names[i], error);
-        if (status == HD_OK)
-            comparison->facts[i] = *hd_picture_reader_facts(comparison->readers[i]);
+    const HdPictureFacts *first = &comparison->facts[0], *second = &comparison->facts[1];
+    for (int i = 0; i < PICTURES; i++) {
+        HD_TRY(hd_picture_reader_open(&comparison->readers[i], comparison->names[i], error));
+        comparison->facts[i] = *hd_picture_reader_facts(comparison->readers[i]);
     }
-    if (status == HD_OK)
-        status = check_sizes(comparison, error);
-    if (status == HD_OK)
-        status = choose_curve(comparison, error);
-    if (status == HD_OK)
-        match_further(comparison);
-    return status;
+    if (first->width != second->width || first->height != second->height)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s has %d x %d pixels, but %s has %d x %d; expected the same size",
+                       comparison->names[0], first->width, first->height, comparison->names[1],
+                       second->width, second->height);
+    match_further(comparison);
+    return choose_curve(comparison, error);
 }
 
 static HdStatus open_map(Comparison *comparison, HdError *error) {
@@ -301,15 +289,14 @@ static HdStatus start(Comparison *comparison, HdError *error) {
     const HdPictureFacts *facts = comparison->facts;
     const size_t width = (size_t)facts[0].width;
     const bool clamps = facts[0].format == &hd_format_png || facts[1].format == &hd_format_png;
-    HdStatus status = hd_difference_create(&comparison->difference, clamps, error);
-    for (int i = 0; i < PICTURES && status == HD_OK; i++) {
+    HD_TRY(hd_difference_create(&comparison->difference, clamps, error));
+    for (int i = 0; i < PICTURES; i++) {
         comparison->rows[i] = malloc(width * 3 * sizeof *comparison->rows[i]);
-        status = hd_picture_reader_start(comparison->readers[i], comparison->curve, error);
-        if (status == HD_OK && comparison->rows[i] == NULL)
-            status = hd_fail(error, HD_FAILED, "out of memory: no room for a row of pixels");
+        HD_TRY(hd_picture_reader_start(comparison->readers[i], comparison->curve, error));
+        if (comparison->rows[i] == NULL)
+            return hd_fail(error, HD_FAILED, "out of memory: no room for a row of pixels");
     }
-    return status == HD_OK && comparison->options->diff != NULL ? open_map(comparison, error)
-                                                                : status;
+    return comparison->options->diff != NULL ? open_map(comparison, error) : HD_OK;
 }
 
 static HdStatus compare_row(Comparison *comparison, int y, HdError *error) {

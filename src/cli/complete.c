@@ -142,7 +142,7 @@ static void offer_paths(const Line *line) {
 
 static void offer_value(const Line *line) {
     const HdOptionSpec *spec = line->option;
-    if (spec->type == HD_OPTION_CHANGES)
+    if (strcmp(spec->name, "--set") == 0)
         offer_paths(line);
     else if (spec->choices != NULL)
         offer_choices(line);
@@ -158,7 +158,7 @@ static void offer_operands(const Line *line) {
         offer_commands(line);
     if (command->command == HD_COMMAND_HELP)
         for (int i = 0; i < HD_HELP_TOPIC_COUNT; i++)
-            offer(line, hd_help_topics[i].text, hd_help_topics[i].meaning);
+            offer(line, hd_help_topics[i].name, hd_help_topics[i].about);
     else if (command->name != NULL && command->most_operands != 0)
         printf(":%s\n", command->ending != NULL ? command->ending : "");
 }

@@ -24,7 +24,8 @@ static const double LONG_FRAME = 1.0, GLANCE = 0.2, LEAST_PART = 0.01;
 
 /* ---- progress ---- */
 
-void hd_progress_time(double seconds, char text[32]) {
+/* "m:ss", or "h:mm:ss" from an hour on; rounded to the nearest second. */
+static void format_time(double seconds, char text[32]) {
     const double most = MAX_HOURS * 3600.0;
     long whole = (long)((seconds < most ? seconds : most) + 0.5);
     if (whole < 3600)
@@ -37,15 +38,6 @@ static double frames_of(const HdProgress *progress) {
     return progress->done + progress->part;
 }
 
-/* "", or " 40 % of the next,"; of several, "2.4 of". */
-static void describe_part(double part, char text[32]) {
-    text[0] = '\0';
-    if (part >= 1.0)
-        snprintf(text, 32, " %.1f of the next,", part);
-    else if (part > 0.0)
-        snprintf(text, 32, " %d %% of the next,", (int)(100.0 * part));
-}
-
 static double seconds_left(const HdProgress *progress) {
     const double frames = frames_of(progress);
     const double tracing = progress->seconds - progress->seconds_preparing;
@@ -53,32 +45,30 @@ static double seconds_left(const HdProgress *progress) {
 }
 
 void hd_progress_line(const HdProgress *progress, char text[128]) {
-    const int done = progress->done, total = progress->total;
-    char time[32], part[32], rate[32] = "";
-    const bool is_end = done == total;
-    if (frames_of(progress) <= 0.0) {
-        snprintf(text, 128, "0/%d frames", total);
+    const double seconds = progress->seconds, part = progress->part;
+    const bool is_end = progress->done == progress->total;
+    char time[32];
+    snprintf(text, 128, "%d/%d frames", progress->done, progress->total);
+    if (frames_of(progress) <= 0.0)
         return;
-    }
-    describe_part(progress->part, part);
-    hd_progress_time(is_end ? progress->seconds : seconds_left(progress), time);
-    if (done > 0)
-        snprintf(rate, sizeof rate, " %.2f frames/s,",
-                 progress->seconds > 0.0 ? done / progress->seconds : 0.0);
-    snprintf(text, 128, "%d/%d frames,%s%s %s %s", done, total, part, rate, time,
-             is_end ? "in all" : "left");
+    if (part >= 1.0)
+        hd_add_text(text, 128, ", ", "%.1f of the next", part);
+    else if (part > 0.0)
+        hd_add_text(text, 128, ", ", "%d %% of the next", (int)(100.0 * part));
+    if (progress->done > 0)
+        hd_add_text(text, 128, ", ", "%.2f frames/s",
+                    seconds > 0.0 ? progress->done / seconds : 0.0);
+    format_time(is_end ? seconds : seconds_left(progress), time);
+    hd_add_text(text, 128, ", ", "%s %s", time, is_end ? "in all" : "left");
 }
 
 void hd_progress_bar(const HdProgress *progress, const char *line, int columns, char text[160]) {
-    char bar[BAR_WIDTH + 1];
+    char bar[BAR_WIDTH + 1] = "........................";
     int filled = progress->total > 0
                      ? (int)(frames_of(progress) * BAR_WIDTH / progress->total + 1e-9)
                      : BAR_WIDTH;
-    bool has_room = BAR_WIDTH + 3 + (int)strlen(line) <= columns;
-    memset(bar, '.', BAR_WIDTH);
     memset(bar, '#', (size_t)filled);
-    bar[BAR_WIDTH] = '\0';
-    if (has_room)
+    if (BAR_WIDTH + 3 + (int)strlen(line) <= columns)
         snprintf(text, 160, "[%s] %s", bar, line);
     else
         snprintf(text, 160, "%.*s", columns, line);
@@ -86,9 +76,8 @@ void hd_progress_bar(const HdProgress *progress, const char *line, int columns, 
 
 static int terminal_columns(void) {
     struct winsize size;
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
-        return size.ws_col;
-    return USUAL_COLUMNS;
+    const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return is_known ? size.ws_col : USUAL_COLUMNS;
 }
 
 static void draw(const char *text) {
@@ -114,23 +103,16 @@ static double part_under_way(const HdConsole *console) {
 }
 
 static HdProgress progress_of(const HdConsole *console, double now) {
-    const double preparing =
-        console->tracing_from > 0.0 ? console->tracing_from - console->start_seconds : 0.0;
     HdProgress progress = {
         .done = console->rendered,
         .total = console->total,
         .seconds = now - console->start_seconds,
-        .seconds_preparing = preparing,
     };
+    if (console->tracing_from > 0.0)
+        progress.seconds_preparing = console->tracing_from - console->start_seconds;
     if (is_frame_long(console, now) && part_under_way(console) > 0.0)
         progress.part = part_under_way(console);
     return progress;
-}
-
-static bool is_line_due(const HdConsole *console, const HdProgress *progress, double now) {
-    const double more = frames_of(progress) - console->line_frames;
-    return progress->done < progress->total &&
-           now - console->line_seconds >= SECONDS_BETWEEN_LINES && more >= LEAST_PART;
 }
 
 static bool shows_progress(const HdConsole *console) {
@@ -149,7 +131,9 @@ static void update(HdConsole *console) {
         /* In the last column some terminals begin a new line. */
         hd_progress_bar(&progress, line, terminal_columns() - 1, bar);
         draw(bar);
-    } else if (is_line_due(console, &progress, now)) {
+    } else if (progress.done < progress.total &&
+               now - console->line_seconds >= SECONDS_BETWEEN_LINES &&
+               frames_of(&progress) - console->line_frames >= LEAST_PART) {
         fprintf(stderr, "%s\n", line);
         console->line_seconds = now;
         console->line_frames = frames_of(&progress);
@@ -182,42 +166,20 @@ static void *watch(void *argument) {
 
 /* Without a thread whole frames are told of. */
 void hd_console_watch(HdConsole *console, const HdWatch *frames) {
+    if (!console->quiet && isatty(STDERR_FILENO))
+        hd_interrupt_announce(console->form == HD_PROGRESS_BAR
+                                  ? "\r\033[Khedron: stopping; press Ctrl-C again to stop now\n"
+                                  : "hedron: stopping; press Ctrl-C again to stop now\n");
     console->watch = frames;
     console->is_over = !shows_progress(console);
     if (!console->is_over && hd_start_thread(&console->watcher, watch, console) != 0)
         console->is_over = true;
 }
 
-static void end_watch(HdConsole *console) {
-    pthread_mutex_lock(&console->mutex);
-    const bool was_over = console->is_over;
-    console->is_over = true;
-    pthread_cond_signal(&console->over);
-    pthread_mutex_unlock(&console->mutex);
-    if (!was_over)
-        pthread_join(console->watcher, NULL);
-}
-
 void hd_console_hold(HdConsole *console) {
     pthread_mutex_lock(&console->mutex);
     if (console->form == HD_PROGRESS_BAR && hd_wait_to_write(STDERR_FILENO))
         hd_console_clear(console);
-}
-
-void hd_console_release(HdConsole *console) {
-    pthread_mutex_unlock(&console->mutex);
-}
-
-/* After all frames: a last plain line, with the rays of all of them for each second. */
-static void tell_rate(const HdConsole *console) {
-    char line[128];
-    double elapsed = hd_monotonic_seconds() - console->start_seconds;
-    if (console->form != HD_PROGRESS_LINES)
-        return;
-    const HdProgress all = {.done = console->total, .total = console->total, .seconds = elapsed};
-    hd_progress_line(&all, line);
-    fprintf(stderr, "%s, %.2f M rays/s\n", line,
-            elapsed > 0.0 ? 1e-6 * (double)console->rays / elapsed : 0.0);
 }
 
 /* ---- the begin ---- */
@@ -245,16 +207,14 @@ void hd_console_open(HdConsole *console, const HdTelling *telling) {
     };
 }
 
-static void note_meshes(const HdScene *scene, int64_t triangles) {
+static void note_meshes(const HdScene *scene) {
     int64_t dropped = 0;
-    if (scene->mesh_count == 0)
-        return;
     for (int i = 0; i < scene->mesh_count; i++)
         dropped += scene->meshes[i].degenerate_count;
     fprintf(stderr,
             "meshes    %d with %" PRId64 " triangles, and %" PRId64
             " without an area left out; in %d place%s, %d texture%s\n",
-            scene->mesh_count, triangles, dropped, scene->instance_count,
+            scene->mesh_count, hd_scene_triangle_count(scene), dropped, scene->instance_count,
             hd_plural(scene->instance_count), scene->picture_count,
             hd_plural(scene->picture_count));
 }
@@ -276,8 +236,6 @@ static void note_accuracy(const HdScene *scene) {
 
 static void note_scene(const char *name, const HdScene *scene) {
     const int lights = hd_scene_light_count(scene);
-    const int64_t triangles = hd_scene_triangle_count(scene);
-    const bool is_surveyed = hd_scene_is_surveyed(scene);
     fprintf(stderr,
             "scene     %s: %d solid%s, %s floor, %d light%s, %d frame%s of %d x %d pixels, %d x %d "
             "samples, depth %d\n",
@@ -285,8 +243,9 @@ static void note_scene(const char *name, const HdScene *scene) {
             scene->floor.present ? "a" : "no", lights, hd_plural(lights), scene->frame_count,
             hd_plural(scene->frame_count), scene->width, scene->height, scene->samples_per_side,
             scene->samples_per_side, scene->depth);
-    note_meshes(scene, triangles);
-    if (is_surveyed)
+    if (scene->mesh_count > 0)
+        note_meshes(scene);
+    if (hd_scene_is_surveyed(scene))
         note_accuracy(scene);
 }
 
@@ -399,27 +358,17 @@ static void count_frame(HdConsole *console, const HdFrame *frame) {
     console->rays += hd_frame_rays(frame);
     if (frame->has_bound && frame->largest_bound > console->missing)
         console->missing = frame->largest_bound;
+    update(console);
 }
 
 /* Programs are told of every frame, people of those that were rendered. */
-void hd_console_tell_frame(HdConsole *console, const HdStoredFrame *stored) {
-    pthread_mutex_lock(&console->mutex);
-    if (console->form == HD_PROGRESS_FRAMES && hd_wait_to_write(STDERR_FILENO))
+void hd_console_release(HdConsole *console, const HdStoredFrame *stored) {
+    if (stored != NULL && console->form == HD_PROGRESS_FRAMES && hd_wait_to_write(STDERR_FILENO))
         fprintf(stderr, "hedron: frame %d stored, %d of %d\n", stored->number, stored->done,
                 console->total);
-    if (!stored->was_finished) {
+    if (stored != NULL && !stored->was_finished)
         count_frame(console, stored->frame);
-        update(console);
-    }
     pthread_mutex_unlock(&console->mutex);
-}
-
-void hd_console_announce_interrupt(const HdConsole *console) {
-    if (console->quiet || !isatty(STDERR_FILENO))
-        return;
-    hd_interrupt_announce(console->form == HD_PROGRESS_BAR
-                              ? "\r\033[Khedron: stopping; press Ctrl-C again to stop now\n"
-                              : "hedron: stopping; press Ctrl-C again to stop now\n");
 }
 
 /* ---- the end ---- */
@@ -433,13 +382,24 @@ static void note_changes(const HdDeviceTeam *team, const char (*lines)[HD_RENDER
     }
 }
 
-/* Where more may be missing from a picture than the scene allows. */
-static void tell_missing(const HdConsole *console, const HdScene *scene) {
-    if (scene->max_error > 0.0 && console->missing > scene->max_error)
-        fprintf(stderr,
-                "hedron: up to %.3g steps of 255 may be missing from a pixel, more than the %g of "
-                "--max-error: rays end by --depth or --cutoff, or the scene has too many of them\n",
-                console->missing, scene->max_error);
+static void end_watch(HdConsole *console) {
+    pthread_mutex_lock(&console->mutex);
+    const bool was_over = console->is_over;
+    console->is_over = true;
+    pthread_cond_signal(&console->over);
+    pthread_mutex_unlock(&console->mutex);
+    if (!was_over)
+        pthread_join(console->watcher, NULL);
+}
+
+/* After all frames: a last plain line, with the rays of all of them for each second. */
+static void tell_rate(const HdConsole *console) {
+    char line[128];
+    const double elapsed = hd_monotonic_seconds() - console->start_seconds;
+    const HdProgress all = {.done = console->total, .total = console->total, .seconds = elapsed};
+    hd_progress_line(&all, line);
+    fprintf(stderr, "%s, %.2f M rays/s\n", line,
+            elapsed > 0.0 ? 1e-6 * (double)console->rays / elapsed : 0.0);
 }
 
 void hd_console_end(HdConsole *console, const HdScene *scene, const HdDeviceTeam *team,
@@ -448,10 +408,15 @@ void hd_console_end(HdConsole *console, const HdScene *scene, const HdDeviceTeam
     hd_interrupt_announce(NULL);
     hd_console_clear(console);
     tell_fallbacks(console);
-    if (status == HD_OK && team->count > 0)
+    if (status == HD_OK && team->count > 0 && console->form == HD_PROGRESS_LINES)
         tell_rate(console);
     if (console->verbose)
         note_changes(team, lines);
-    if (status == HD_OK && !console->quiet)
-        tell_missing(console, scene);
+    /* More may be missing from a picture than the scene allows. */
+    if (status == HD_OK && !console->quiet && scene->max_error > 0.0 &&
+        console->missing > scene->max_error)
+        fprintf(stderr,
+                "hedron: up to %.3g steps of 255 may be missing from a pixel, more than the %g of "
+                "--max-error: rays end by --depth or --cutoff, or the scene has too many of them\n",
+                console->missing, scene->max_error);
 }

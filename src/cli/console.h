@@ -65,23 +65,21 @@ void hd_console_clear(const HdConsole *console);
 void hd_console_tell_devices(const HdConsole *console, const HdDeviceTeam *team);
 
 /* The frames begin, and `watch` is told of them until the end below: on a terminal a frame that
-   takes long is seen to grow, and plain lines tell of it now and then. */
+   takes long is seen to grow, and plain lines tell of it now and then. The first signal is answered
+   at once where somebody may be waiting at a terminal. */
 void hd_console_watch(HdConsole *console, const HdWatch *watch);
 
-/* Between the two something else may be written where the bar is. Not for long. */
+/* Between the two something else may be written where the bar is, not for long. The second tells
+   that a frame is stored, unless that is NULL: programs have a line for each, "hedron: frame 17
+   stored, 3 of 40", as docs/farm.md promises. */
 void hd_console_hold(HdConsole *console);
-void hd_console_release(HdConsole *console);
+void hd_console_release(HdConsole *console, const HdStoredFrame *stored);
 
 /* On any thread: a renderer got the scene and says `line` of itself (hd_renderer_describe); a
-   device is left out of the rest of the run; a frame is stored. Of the last there is a line of its
-   own where programs read it, "hedron: frame 17 stored, 3 of 40", as docs/farm.md promises. */
+   device is left out of the rest of the run. */
 void hd_console_tell_upload(HdConsole *console, const HdRenderer *renderer, const char *line,
                             const HdSceneTables *tables);
 void hd_console_tell_loss(HdConsole *console, const HdDevice *device, const char *why);
-void hd_console_tell_frame(HdConsole *console, const HdStoredFrame *stored);
-
-/* Has the first signal answered at once, where somebody may be waiting at a terminal. */
-void hd_console_announce_interrupt(const HdConsole *console);
 
 /* All frames are rendered, or no more are. `lines` is what each of the team's renderers said when
    it got the scene, "" where it did not: its first frame may have changed that. */
@@ -93,9 +91,6 @@ void hd_console_end(HdConsole *console, const HdScene *scene, const HdDeviceTeam
 /* "[####....] line", no wider than `columns`: a line that leaves no room for the bar stands alone,
    and is cut where it is too long itself. */
 void hd_progress_bar(const HdProgress *progress, const char *line, int columns, char text[160]);
-
-/* "m:ss", or "h:mm:ss" from an hour on; rounded to the nearest second. */
-void hd_progress_time(double seconds, char text[32]);
 
 /* "12/120 frames, 1.41 frames/s, 1:16 left"; with all of them done, "..., 1:25 in all"; with a
    part, "12/120 frames, 40 % of the next, ...". */

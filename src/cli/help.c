@@ -13,6 +13,58 @@ extern const size_t hd_bash_completion_size, hd_zsh_completion_size, hd_fish_com
 
 enum { LINE_WIDTH = 96, OPTION_COLUMN = 22, USAGE_COLUMN = 34, EXAMPLE_COLUMN = 6 };
 
+static const char program_summary[] =
+    "renders mirrored, transparent platonic solids with lights along their edges";
+
+/* ---- what help and man page share; NULL ends lists ---- */
+
+typedef struct Explained {
+    const char *text, *meaning;
+} Explained;
+
+static const Explained exit_codes[] = {
+    {"0", "done"},
+    {"1", "failed"},
+    {"2", "wrong usage or input"},
+    {"3", "no such backend, device, display or program (FFmpeg, hedron-view)"},
+    {"129, 130, 143", "interrupted by SIGHUP, SIGINT or SIGTERM"},
+    {NULL, NULL},
+};
+
+static const Explained examples[] = {
+    {"hedron render -o film.mp4", "the built-in scene, all frames"},
+    {"hedron render scene.json -o out/%04d.png -o film.mkv", "pictures and a film in one run"},
+    {"hedron render scene.json -o big.png --frames 0 --size 1920x1080 --samples 4",
+     "one frame, large"},
+    {"hedron render scene.json --set camera.field_of_view=40 --set image.exposure=2",
+     "values of the scene replaced"},
+    {"hedron render scene.json -o film.mp4 --stats frames.jsonl",
+     "times and rays of each frame, a line of JSON each"},
+    {"hedron new first.json && hedron render first.json -o first.mp4", "a scene of your own"},
+    {"hedron view scene.json", "the scene in a window, shown again whenever its file is saved"},
+    {"hedron check scene.json", "mistakes of a scene"},
+    {"hedron tune scene.json --backend cuda", "what renders this kind of scene fastest there"},
+    {"hedron compare a.png b.png --diff heat.png --fail-above 1",
+     "how far apart two pictures are, where, and whether that is too much"},
+    {"hedron convert old.in -o scene.json", "from the classic input to JSON"},
+    {"hedron --default | hedron --cpu --frames 0-2", "the classic mode"},
+    {"source <(hedron help completion)", "completion for this bash"},
+    {NULL, NULL},
+};
+
+static const Explained variables[] = {
+    {"HEDRON_CACHE", "folder of compiled kernels and of what was measured (default "
+                     "$XDG_CACHE_HOME/hedron, else ~/.cache/hedron); off: none"},
+    {"HEDRON_NVRTC",
+     "file of the NVRTC library that compiles for CUDA, or off (default: the newest one that "
+     "suits the driver)"},
+    {"HEDRON_FFMPEG_PATIENCE", "whole seconds for which FFmpeg may stand still (default 600)"},
+    {"HEDRON_STOP_PATIENCE", "seconds from a signal to the end, whatever hangs (default 1.5)"},
+    {NULL, NULL},
+};
+
+/* ---- plain text ---- */
+
 /* Prints words until the line is full, then goes on in the next one, indented. `column` is where
    the line stands. An empty line in the text is one in the output. */
 static void print_wrapped(const char *text, int indent, int column) {
@@ -46,13 +98,25 @@ static void print_entry(const char *left, int column, const char *right) {
     print_wrapped(right, column, column);
 }
 
-static void print_options(HdCommand command) {
+/* Writes a term and what it means: as text, or for the man page. */
+typedef void Entry(const char *term, const char *meaning);
+
+static void print_term(const char *term, const char *meaning) {
+    print_entry(term, OPTION_COLUMN, meaning);
+}
+
+static void list_options(HdCommand command, Entry *entry) {
     char heading[64];
     const HdOptionSpec *spec = NULL;
     while ((spec = hd_option_next(spec, command)) != NULL) {
-        hd_option_heading(spec, heading, sizeof heading);
-        print_entry(heading, OPTION_COLUMN, spec->help);
+        hd_option_heading(spec, heading);
+        entry(heading, spec->help);
     }
+}
+
+static void list_explained(const Explained *list, Entry *entry) {
+    for (; list->text != NULL; list++)
+        entry(list->text, list->meaning);
 }
 
 /* "hedron render [OPTIONS] [SCENE.json]"; `options` is "" or " [OPTIONS]". */
@@ -61,15 +125,15 @@ static void format_usage(const HdCommandSpec *spec, const char *options, char te
              options, spec->operands[0] != '\0' ? " " : "", spec->operands);
 }
 
-static void print_explained(const char *heading, const HdExplained *list, int count) {
-    printf("\n%s:\n", heading);
-    for (int i = 0; i < count; i++)
-        print_entry(list[i].text, OPTION_COLUMN, list[i].meaning);
+/* On a line of its own each. */
+static void print_example(const char *line, const char *meaning) {
+    printf("  %s\n%*s", line, EXAMPLE_COLUMN, "");
+    print_wrapped(meaning, EXAMPLE_COLUMN, EXAMPLE_COLUMN);
 }
 
 static void print_program(void) {
     char usage[128];
-    printf("hedron %s.\n\nUsage:\n", hd_program_summary);
+    printf("hedron %s.\n\nUsage:\n", program_summary);
     for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++) {
         bool is_classic = hd_command_specs[i].command == HD_COMMAND_CLASSIC;
         format_usage(&hd_command_specs[i], is_classic ? " [OPTIONS]" : "", usage);
@@ -78,16 +142,15 @@ static void print_program(void) {
     print_entry("hedron --default", USAGE_COLUMN, "print such a configuration");
     printf("\n'hedron help render' explains 'render' and its options, and so on.\n"
            "\nOptions of the classic mode:\n");
-    print_options(HD_COMMAND_CLASSIC);
+    list_options(HD_COMMAND_CLASSIC, print_term);
     printf("\n");
     print_wrapped(hd_command_spec(HD_COMMAND_CLASSIC)->description, 0, 0);
     printf("\nExamples:\n");
-    for (int i = 0; i < HD_EXAMPLE_COUNT; i++) {
-        printf("  %s\n%*s", hd_examples[i].text, EXAMPLE_COLUMN, "");
-        print_wrapped(hd_examples[i].meaning, EXAMPLE_COLUMN, EXAMPLE_COLUMN);
-    }
-    print_explained("Exit codes", hd_exit_codes, HD_EXIT_CODE_COUNT);
-    print_explained("Environment", hd_variables, HD_VARIABLE_COUNT);
+    list_explained(examples, print_example);
+    printf("\nExit codes:\n");
+    list_explained(exit_codes, print_term);
+    printf("\nEnvironment:\n");
+    list_explained(variables, print_term);
 }
 
 static void print_command(const HdCommandSpec *spec) {
@@ -96,7 +159,7 @@ static void print_command(const HdCommandSpec *spec) {
     printf("hedron %s: %s.\n\nUsage: %s\n\n", spec->name, spec->summary, usage);
     print_wrapped(spec->description, 0, 0);
     printf("\nOptions:\n");
-    print_options(spec->command);
+    list_options(spec->command, print_term);
 }
 
 /* ---- scenes ---- */
@@ -223,22 +286,11 @@ static void man_synopsis(void) {
 }
 
 static void man_command(const HdCommandSpec *spec) {
-    char heading[64];
     printf(".SS ");
     man_line(spec->name != NULL ? spec->name : "The classic mode");
     man_line(spec->description);
     printf(".PP\nOptions:\n");
-    const HdOptionSpec *option = NULL;
-    while ((option = hd_option_next(option, spec->command)) != NULL) {
-        hd_option_heading(option, heading, sizeof heading);
-        man_entry(heading, option->help);
-    }
-}
-
-static void man_explained(const char *heading, const HdExplained *list, int count) {
-    printf(".SH %s\n", heading);
-    for (int i = 0; i < count; i++)
-        man_entry(list[i].text, list[i].meaning);
+    list_options(spec->command, man_entry);
 }
 
 static void print_man_page(void) {
@@ -246,23 +298,24 @@ static void print_man_page(void) {
            ".nh\n"
            ".SH NAME\n"
            "hedron \\- ");
-    man_line(hd_program_summary);
+    man_line(program_summary);
     man_synopsis();
     printf(".SH DESCRIPTION\n"
            "hedron is a ray tracer. It ");
-    man_text(hd_program_summary);
+    man_text(program_summary);
     printf(", on CPUs and GPUs, to the same bytes on each.\n"
            ".SH COMMANDS\n");
     for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
         man_command(&hd_command_specs[i]);
-    man_explained("EXIT STATUS", hd_exit_codes, HD_EXIT_CODE_COUNT);
-    man_explained("ENVIRONMENT", hd_variables, HD_VARIABLE_COUNT);
-    man_explained("EXAMPLES", hd_examples, HD_EXAMPLE_COUNT);
+    printf(".SH EXIT STATUS\n");
+    list_explained(exit_codes, man_entry);
+    printf(".SH ENVIRONMENT\n");
+    list_explained(variables, man_entry);
+    printf(".SH EXAMPLES\n");
+    list_explained(examples, man_entry);
     printf(".SH SEE ALSO\n"
            ".BR ffmpeg (1)\n");
 }
-
-/* ---- topics ---- */
 
 static void print_topic(int topic) {
     if (topic == HD_HELP_SCENE)
@@ -279,10 +332,11 @@ static void print_topic(int topic) {
 
 HdStatus hd_command_help(const HdOptions *options, HdError *error) {
     (void)error;
+    const HdCommandSpec *command = hd_command_named(options->topic != NULL ? options->topic : "");
     if (options->topic == NULL)
         print_program();
-    else if (hd_command_named(options->topic) != NULL)
-        print_command(hd_command_named(options->topic));
+    else if (command != NULL)
+        print_command(command);
     else
         print_topic(hd_help_topic_named(options->topic));
     return HD_OK;

@@ -14,14 +14,14 @@ OPTION(bool prints_default, "--default", NULL, NULL,
 ROW("--variant", NULL, "1..10",
     "which three solids the input means (default 4: tetrahedron, octahedron, dodecahedron)",
     HD_COMMAND_CLASSIC | HD_COMMAND_CONVERT, INTEGER(scene.variant, 1, HD_CLASSIC_VARIANTS),
-    .unset = HD_CLASSIC_DEFAULT_VARIANT, .role = HD_DECIDES_PIXELS)
+    .role = HD_DECIDES_PIXELS)
 ROW("--output", "-o", "OUT",
     "film.mp4, picture.png or a sequence such as out/%04d.png; up to 8 times", HD_COMMAND_RENDER,
-    TEXTS(HD_OPTION_TEXTS, store.names, store.count, HD_MAX_OUTPUTS), .check = hd_output_check_name,
+    TEXTS(store.names, store.count, HD_MAX_OUTPUTS), .check = hd_output_check_name,
     .expected = "the name of a file", .takes_file = true)
 ROW("--output", "-o", "SCENE", "the scene file to be written (default: standard output)",
-    HD_COMMAND_CONVERT, TEXTS(HD_OPTION_TEXTS, store.names, store.count, 1),
-    .expected = "the name of a file", .takes_file = true)
+    HD_COMMAND_CONVERT, TEXTS(store.names, store.count, 1), .expected = "the name of a file",
+    .takes_file = true)
 ROW("--layers", NULL, "LIST",
     "further channels of the OpenEXR outputs, such as depth,object: depth and normal of what is "
     "met first, its number (object), how many samples the pixel took (samples), what was left "
@@ -30,8 +30,8 @@ ROW("--layers", NULL, "LIST",
 ROW("--set", NULL, "PATH=VALUE",
     "replace a value of the scene file, for example camera.field_of_view=40; up to 64 times",
     HD_COMMAND_RENDER | HD_COMMAND_TUNE | HD_COMMAND_VIEW,
-    TEXTS(HD_OPTION_CHANGES, scene.changes, scene.change_count, HD_MAX_CHANGES),
-    .expected = "PATH=VALUE such as camera.field_of_view=40", .role = HD_DECIDES_PIXELS)
+    TEXTS(scene.changes, scene.change_count, HD_MAX_CHANGES), .check = check_change,
+    .role = HD_DECIDES_PIXELS)
 OPTION(const char *frames, "--frames", "-f", "LIST", "render these frames only, for example 0-9,20",
        MEASURING, TEXT(frames, NULL))
 ROW("--again", NULL, NULL,
@@ -50,13 +50,13 @@ ROW("--size", NULL, "WxH", "size of the picture in pixels", SHOWING, .type = HD_
 ROW("--samples", NULL, "N", "N x N samples for each pixel", SHOWING,
     INTEGER(scene.samples, 1, HD_MAX_SAMPLES_PER_SIDE), .role = HD_DECIDES_NUMBERS)
 ROW("--depth", NULL, "N", "how often a ray may be mirrored or pass a face", SHOWING,
-    INTEGER(scene.depth, 0, HD_MAX_DEPTH), .unset = -1, .role = HD_DECIDES_NUMBERS)
+    INTEGER(scene.depth, 0, HD_MAX_DEPTH), .role = HD_DECIDES_NUMBERS)
 ROW("--cutoff", NULL, "W", "end rays that weigh less than W, 0..1 (0: never)", SHOWING,
-    REAL(scene.cutoff, 0.0, 1.0), .below_high = true, .unset = -1, .role = HD_DECIDES_NUMBERS)
+    REAL(scene.cutoff, 0.0, 1.0), .below_high = true, .role = HD_DECIDES_NUMBERS)
 ROW("--aa", NULL, "NAME",
     "grid: all N x N samples in each pixel; adaptive: only as many of them as it needs, which is "
     "an estimate and no promise (default grid)",
-    RENDERING | HD_COMMAND_VIEW, CHOICE(scene.sampling, "grid", "adaptive"), .unset = -1,
+    RENDERING | HD_COMMAND_VIEW, CHOICE(scene.sampling, "grid", "adaptive"),
     .role = HD_DECIDES_PIXELS)
 ROW("--max-error", NULL, "E",
     "leave out of each pixel what cannot change it by more than E steps of 255, and nothing else: "
@@ -154,11 +154,10 @@ OPTION(const char *diff, "--diff", NULL, "OUT.png", "write a heat map of the dis
        HD_COMMAND_COMPARE, TEXT(diff, NULL), .check = check_diff, .takes_file = true)
 OPTION(double fail_above, "--fail-above", NULL, "X",
        "end with exit code 1 if the largest display error is above X steps of 255",
-       HD_COMMAND_COMPARE, REAL(fail_above, 0.0, HD_MAX_ERROR), .unset = -1)
+       HD_COMMAND_COMPARE, REAL(fail_above, 0.0, HD_MAX_ERROR))
 OPTION(int curve, "--curve", NULL, "NAME",
        "the curve that PNG pictures are on and display values are put on: linear or srgb, whatever "
        "the files say",
-       HD_COMMAND_COMPARE, .type = HD_OPTION_CHOICE, AT(curve), .choices = hd_curve_names,
-       .unset = -1)
+       HD_COMMAND_COMPARE, .type = HD_OPTION_CHOICE, AT(curve), .choices = hd_curve_names)
 ROW("--help", "-h", NULL, "print this help", EVERYTHING, COMMAND(HD_COMMAND_HELP))
 ROW("--version", "-V", NULL, "print the version", RENDERING, COMMAND(HD_COMMAND_VERSION))

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
 #include "cli/options.h"
 
 #include <errno.h>
@@ -6,11 +7,48 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/text.h"
+#include "image/picture.h"
 #include "input/classic.h"
 #include "output/outputs.h"
+#include "system/interrupt.h"
 #include "system/path.h"
+#include "system/thread_pool.h"
+
+#define ROW(...) {__VA_ARGS__},
+const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
+#include "cli/command_table.h"
+};
+
+const HdHelpTopic hd_help_topics[HD_HELP_TOPIC_COUNT] = {
+    [HD_HELP_SCENE] = {"scene", "every key of a scene file"},
+    [HD_HELP_MAN] = {"man", "the man page"},
+    [HD_HELP_BASH] = {"completion", "completion for bash"},
+    [HD_HELP_ZSH] = {"completion-zsh", "completion for zsh"},
+    [HD_HELP_FISH] = {"completion-fish", "completion for fish"}};
+
+int hd_help_topic_named(const char *name) {
+    int topic = HD_HELP_TOPIC_COUNT - 1;
+    while (topic >= 0 && strcmp(hd_help_topics[topic].name, name) != 0)
+        topic--;
+    return topic;
+}
+
+const HdCommandSpec *hd_command_named(const char *name) {
+    for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
+        if (hd_command_specs[i].name != NULL && strcmp(hd_command_specs[i].name, name) == 0)
+            return &hd_command_specs[i];
+    return NULL;
+}
+
+const HdCommandSpec *hd_command_spec(HdCommand command) {
+    for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
+        if (hd_command_specs[i].command == command)
+            return &hd_command_specs[i];
+    return NULL;
+}
 
 enum {
     RENDERING = HD_COMMAND_CLASSIC | HD_COMMAND_RENDER,
@@ -36,6 +74,13 @@ static HdStatus check_diff(const char *text, const char *option, HdError *error)
                    text);
 }
 
+static HdStatus check_change(const char *text, const char *option, HdError *error) {
+    if (strchr(text, '=') != NULL && text[0] != '=')
+        return HD_OK;
+    return hd_fail(error, HD_BAD_INPUT,
+                   "%s is '%s', expected PATH=VALUE such as camera.field_of_view=40", option, text);
+}
+
 /* The columns of the table that a type needs. */
 #define AT(member)   .offset = offsetof(HdOptions, member)
 #define FLAG(member) .type = HD_OPTION_FLAG, AT(member)
@@ -48,11 +93,10 @@ static HdStatus check_diff(const char *text, const char *option, HdError *error)
     }
 #define CHOICE(member, ...)  ONE_OF(HD_OPTION_CHOICE, member, __VA_ARGS__)
 #define TEXT(member, wanted) .type = HD_OPTION_TEXT, AT(member), .expected = (wanted)
-#define TEXTS(kind, member, count, most)                                                           \
-    .type = (kind), AT(member), .count_offset = offsetof(HdOptions, count), .high = (most)
+#define TEXTS(member, count, most)                                                                 \
+    .type = HD_OPTION_TEXTS, AT(member), .count_offset = offsetof(HdOptions, count), .high = (most)
 #define COMMAND(taken) .type = HD_OPTION_COMMAND, .command = (taken)
 
-#define ROW(...)            {__VA_ARGS__},
 #define OPTION(member, ...) {__VA_ARGS__},
 const HdOptionSpec hd_option_specs[] = {
 #include "cli/option_table.h"
@@ -93,8 +137,8 @@ const HdOptionSpec *hd_option_find(const char *argument, HdCommand command, cons
     return found;
 }
 
-void hd_option_heading(const HdOptionSpec *spec, char *text, int capacity) {
-    snprintf(text, (size_t)capacity, "%s%s%s%s%s", spec->short_name ? spec->short_name : "",
+void hd_option_heading(const HdOptionSpec *spec, char text[64]) {
+    snprintf(text, 64, "%s%s%s%s%s", spec->short_name ? spec->short_name : "",
              spec->short_name ? ", " : "", spec->name, spec->value ? " " : "",
              spec->value ? spec->value : "");
 }
@@ -135,33 +179,12 @@ static HdStatus apply_command(const Given *given, HdError *error) {
     return HD_OK;
 }
 
-static size_t digits(const char *text) {
-    return strspn(text, "0123456789");
-}
-
-/* "1", "0.5", ".5" and "1e-3": what strtod takes beyond it is no number on a command line. */
-static bool is_decimal(const char *text) {
-    size_t whole = digits(text), fraction = 0;
-    text += whole;
-    if (*text == '.') {
-        fraction = digits(text + 1);
-        text += 1 + fraction;
-    }
-    if (*text == 'e' || *text == 'E') {
-        text += 1 + (text[1] == '-' || text[1] == '+');
-        if (digits(text) == 0)
-            return false;
-        text += digits(text);
-    }
-    return whole + fraction > 0 && *text == '\0';
-}
-
 /* Moves `*text` past a whole number in the range and one of the characters `ends`, of "" the end of
    the text. */
 static bool take_number(const char **text, const char *ends, double low, double high, int *out) {
     char *rest;
     errno = 0;
-    if (digits(*text) == 0)
+    if (**text < '0' || **text > '9')
         return false;
     const long value = strtol(*text, &rest, 10);
     const bool has_end = *rest == '\0' ? *ends == '\0' : strchr(ends, *rest) != NULL;
@@ -187,34 +210,31 @@ static HdStatus apply_integer(const Given *given, HdError *error) {
     return fail_expecting(given, expected, error);
 }
 
+/* "1", "0.5", ".5" and "1e-3": what else strtod takes is no number on a command line. */
 static HdStatus apply_real(const Given *given, HdError *error) {
     const HdOptionSpec *spec = given->spec;
-    const double value = is_decimal(given->text) ? strtod(given->text, NULL) : (double)NAN;
-    char expected[64];
+    const char *text = given->text;
+    char expected[64], *rest;
+    const double value = strtod(text, &rest);
+    const bool is_decimal = strchr("+-", text[0]) == NULL && *rest == '\0' &&
+                            text[strspn(text, "0123456789.eE+-")] == '\0';
     *(double *)given->member = value;
-    if (value >= spec->low && (spec->below_high ? value < spec->high : value <= spec->high))
+    if (is_decimal && value >= spec->low &&
+        (spec->below_high ? value < spec->high : value <= spec->high))
         return HD_OK;
     snprintf(expected, sizeof expected, "a number from %g to %s%g", spec->low,
              spec->below_high ? "below " : "", spec->high);
     return fail_expecting(given, expected, error);
 }
 
-static HdStatus apply_size(const Given *given, HdError *error) {
-    HdPlannedSize *size = given->member;
+static HdStatus apply_area(const Given *given, HdError *error) {
+    HdPlannedArea *area = given->member;
+    const bool is_size = given->spec->type == HD_OPTION_SIZE;
     const char *rest = given->text;
-    if (take_number(&rest, "xX", 1, HD_MAX_IMAGE_SIDE, &size->width) &&
-        take_number(&rest, "", 1, HD_MAX_IMAGE_SIDE, &size->height))
-        return HD_OK;
-    return fail_expecting(given, given->spec->expected, error);
-}
-
-static HdStatus apply_crop(const Given *given, HdError *error) {
-    HdPlannedCrop *crop = given->member;
-    const char *rest = given->text;
-    if (take_number(&rest, "x", 1, HD_MAX_IMAGE_SIDE, &crop->width) &&
-        take_number(&rest, "+", 1, HD_MAX_IMAGE_SIDE, &crop->height) &&
-        take_number(&rest, "+", 0, HD_MAX_IMAGE_SIDE, &crop->left) &&
-        take_number(&rest, "", 0, HD_MAX_IMAGE_SIDE, &crop->top))
+    if (take_number(&rest, is_size ? "xX" : "x", 1, HD_MAX_IMAGE_SIDE, &area->width) &&
+        take_number(&rest, is_size ? "" : "+", 1, HD_MAX_IMAGE_SIDE, &area->height) &&
+        (is_size || (take_number(&rest, "+", 0, HD_MAX_IMAGE_SIDE, &area->left) &&
+                     take_number(&rest, "", 0, HD_MAX_IMAGE_SIDE, &area->top))))
         return HD_OK;
     return fail_expecting(given, given->spec->expected, error);
 }
@@ -228,20 +248,17 @@ static int choice_of(const char *const *choices, const char *word, size_t length
 }
 
 /* "auto, c, opencl or cuda" */
-static void list_choices(const char *const *choices, char *text, int capacity) {
-    size_t used = 0, room = (size_t)capacity;
+static void list_choices(const char *const *choices, char text[256]) {
     text[0] = '\0';
-    for (int i = 0; choices[i] != NULL && used < room; i++) {
-        const char *separator = i == 0 ? "" : choices[i + 1] == NULL ? " or " : ", ";
-        used += (size_t)snprintf(text + used, room - used, "%s%s", separator, choices[i]);
-    }
+    for (int i = 0; choices[i] != NULL; i++)
+        hd_add_text(text, 256, choices[i + 1] == NULL ? " or " : ", ", "%s", choices[i]);
 }
 
 /* With the first choice that begins with the text; nothing completes an empty one. */
 static HdStatus fail_choosing(const Given *given, HdError *error) {
     const size_t length = strlen(given->text);
     char list[256];
-    list_choices(given->spec->choices, list, sizeof list);
+    list_choices(given->spec->choices, list);
     for (const char *const *choice = given->spec->choices; *choice != NULL && length > 0; choice++)
         if (strncmp(given->text, *choice, length) == 0)
             return hd_fail(error, HD_BAD_INPUT, "%s is '%s', expected %s; did you mean '%s'?",
@@ -269,7 +286,7 @@ static HdStatus apply_set(const Given *given, HdError *error) {
         const int number = choice_of(spec->choices, word, length);
         if (number < 0) {
             char list[256];
-            list_choices(spec->choices, list, sizeof list);
+            list_choices(spec->choices, list);
             return hd_fail(error, HD_BAD_INPUT,
                            "%s has '%.*s', expected some of %s, separated by commas", spec->name,
                            (int)length, word, list);
@@ -284,45 +301,30 @@ static HdStatus apply_set(const Given *given, HdError *error) {
     }
 }
 
-static HdStatus set_text(const Given *given, const char **out, HdError *error) {
+static HdStatus apply_text(const Given *given, HdError *error) {
     const HdOptionSpec *spec = given->spec;
+    const char **out = given->member;
+    if (spec->type == HD_OPTION_TEXTS) {
+        int *count = at(given->options, spec->count_offset);
+        if (*count == (int)spec->high)
+            return hd_fail(error, HD_BAD_INPUT, "%s '%.4000s' is one too many, expected at most %d",
+                           spec->name, given->text, *count);
+        out += (*count)++;
+    }
     *out = given->text;
-    if (spec->check != NULL && spec->check(given->text, spec->name, error) != HD_OK)
-        return error->status;
+    if (spec->check != NULL)
+        HD_TRY(spec->check(given->text, spec->name, error));
     if (given->text[0] == '\0' && spec->expected != NULL)
         return hd_fail(error, HD_BAD_INPUT, "%s is empty, expected %s", spec->name, spec->expected);
     return HD_OK;
 }
 
-static HdStatus apply_text(const Given *given, HdError *error) {
-    return set_text(given, given->member, error);
-}
-
-static HdStatus apply_texts(const Given *given, HdError *error) {
-    const char **texts = given->member;
-    int *count = at(given->options, given->spec->count_offset);
-    if (*count == (int)given->spec->high)
-        return hd_fail(error, HD_BAD_INPUT, "%s '%.4000s' is one too many, expected at most %d",
-                       given->spec->name, given->text, *count);
-    return set_text(given, &texts[(*count)++], error);
-}
-
-static HdStatus apply_change(const Given *given, HdError *error) {
-    const char *equals = strchr(given->text, '=');
-    if (equals == NULL || equals == given->text)
-        return fail_expecting(given, given->spec->expected, error);
-    return apply_texts(given, error);
-}
-
 /* What there is where no option is given. */
-static void reset(HdOptions *options) {
-    memset(options, 0, sizeof *options);
-    for (const HdOptionSpec *spec = hd_option_specs; spec->name != NULL; spec++)
-        if (spec->type == HD_OPTION_REAL)
-            *(double *)at(options, spec->offset) = spec->unset;
-        else if (spec->type == HD_OPTION_INTEGER || spec->type == HD_OPTION_CHOICE)
-            *(int *)at(options, spec->offset) = spec->unset;
-}
+static const HdOptions defaults = {
+    .scene = {.variant = HD_CLASSIC_DEFAULT_VARIANT, .depth = -1, .cutoff = -1, .sampling = -1},
+    .fail_above = -1,
+    .curve = -1,
+};
 
 /* Lays one option over those read before; `value` is "" for one that takes none. */
 static HdStatus apply_option(HdOptions *options, const HdOptionSpec *spec, const char *value,
@@ -332,9 +334,8 @@ static HdStatus apply_option(HdOptions *options, const HdOptionSpec *spec, const
         [HD_OPTION_INTEGER] = apply_integer, [HD_OPTION_REAL] = apply_real,
         [HD_OPTION_CHOICE] = apply_choice,   [HD_OPTION_NUMERAL] = apply_choice,
         [HD_OPTION_WORD] = apply_choice,     [HD_OPTION_SET] = apply_set,
-        [HD_OPTION_SIZE] = apply_size,       [HD_OPTION_CROP] = apply_crop,
-        [HD_OPTION_TEXT] = apply_text,       [HD_OPTION_TEXTS] = apply_texts,
-        [HD_OPTION_CHANGES] = apply_change,
+        [HD_OPTION_SIZE] = apply_area,       [HD_OPTION_CROP] = apply_area,
+        [HD_OPTION_TEXT] = apply_text,       [HD_OPTION_TEXTS] = apply_text,
     };
     const Given given = {options, spec, value, at(options, spec->offset)};
     return apply[spec->type](&given, error);
@@ -343,65 +344,61 @@ static HdStatus apply_option(HdOptions *options, const HdOptionSpec *spec, const
 /* ---- and back ---- */
 
 /* The value of an option that was given; false: it was not, or is at its default. */
-static bool spell_value(const HdOptionSpec *spec, const void *member, char *value, size_t size) {
-    const HdPlannedSize *area = member;
-    const HdPlannedCrop *crop = member;
+static bool spell_value(const HdOptions *options, const HdOptionSpec *spec, char value[64]) {
+    const void *member = (const char *)options + spec->offset;
+    const void *unset = (const char *)&defaults + spec->offset;
+    const HdPlannedArea *area = member;
     const int *number = member;
     const double *real = member;
-    char text[HD_NUMBER_SIZE];
     switch (spec->type) {
     case HD_OPTION_FLAG:
         value[0] = '\0';
         return *(const bool *)member;
     case HD_OPTION_INTEGER:
-        snprintf(value, size, " %d", *number);
-        return *number != spec->unset;
+        snprintf(value, 64, "%d", *number);
+        return *number != *(const int *)unset;
     case HD_OPTION_REAL:
-        hd_short_number(*real, text);
-        snprintf(value, size, " %s", text);
-        return *real != spec->unset;
+        hd_short_number(*real, value);
+        return *real != *(const double *)unset;
     case HD_OPTION_CHOICE:
-        snprintf(value, size, " %s", spec->choices[*number > 0 ? *number : 0]);
+        snprintf(value, 64, "%s", spec->choices[*number > 0 ? *number : 0]);
         return *number > 0;
     case HD_OPTION_SIZE:
-        snprintf(value, size, " %dx%d", area->width, area->height);
-        return area->width > 0;
     case HD_OPTION_CROP:
-        snprintf(value, size, " %dx%d+%d+%d", crop->width, crop->height, crop->left, crop->top);
-        return crop->width > 0;
+        snprintf(value, 64, "%dx%d", area->width, area->height);
+        if (spec->type == HD_OPTION_CROP)
+            hd_add_text(value, 64, "", "+%d+%d", area->left, area->top);
+        return area->width > 0;
     default:
         return false;
     }
 }
 
-static void append(char *text, size_t size, const char *more) {
-    const size_t length = strlen(text);
-    hd_escape(more, text + length, size - length);
-}
-
-static void spell_changes(const HdOptions *options, const char *name, char *text, size_t size) {
-    for (int i = 0; i < options->scene.change_count; i++) {
-        append(text, size, text[0] != '\0' ? " " : "");
-        append(text, size, name);
-        append(text, size, " ");
-        append(text, size, options->scene.changes[i]);
+static void append(char *text, size_t size, const char *name, const char *value) {
+    const char *const parts[] = {text[0] != '\0' ? " " : "", name, value[0] != '\0' ? " " : "",
+                                 value};
+    size_t length = strlen(text);
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        hd_escape(parts[i], text + length, size - length);
+        length += strlen(text + length);
     }
 }
 
-void hd_options_spell(const HdOptions *options, bool all, char *text, size_t size) {
+/* The options that were given to the command, in the table's order and not at their defaults, as
+   they would stand on a command line: those of HD_DECIDES_NUMBERS, and with `all` those of
+   HD_DECIDES_PIXELS too, of which --set alone has texts. Escaped (text.h), and cut to `size` bytes
+   with the zero byte. */
+static void spell(const HdOptions *options, bool all, char *text, size_t size) {
     const HdOptionSpec *spec = NULL;
     char value[64];
     text[0] = '\0';
     while ((spec = hd_option_next(spec, options->command)) != NULL) {
         if (spec->role == HD_DECIDES_NO_PIXEL || (spec->role == HD_DECIDES_PIXELS && !all))
             continue;
-        if (spec->type == HD_OPTION_CHANGES)
-            spell_changes(options, spec->name, text, size);
-        else if (spell_value(spec, (const char *)options + spec->offset, value, sizeof value)) {
-            append(text, size, text[0] != '\0' ? " " : "");
-            append(text, size, spec->name);
-            append(text, size, value);
-        }
+        for (int i = 0; spec->type == HD_OPTION_TEXTS && i < options->scene.change_count; i++)
+            append(text, size, spec->name, options->scene.changes[i]);
+        if (spell_value(options, spec, value))
+            append(text, size, spec->name, value);
     }
 }
 
@@ -530,7 +527,7 @@ static HdStatus check_topic(const char *name, HdError *error) {
     if (hd_command_named(name) != NULL || hd_help_topic_named(name) >= 0)
         return HD_OK;
     for (int i = 0; i < HD_HELP_TOPIC_COUNT; i++)
-        hd_nearest_offer(&nearest, hd_help_topics[i].text);
+        hd_nearest_offer(&nearest, hd_help_topics[i].name);
     offer_commands(&nearest);
     suggest(&nearest, "hedron help ", hd_command_spec(HD_COMMAND_HELP), suggestion);
     return hd_fail(error, HD_BAD_INPUT, "there is no help on '%s'; %s", name, suggestion);
@@ -567,8 +564,8 @@ static void complete_plan(HdOptions *options) {
     HdScenePlan *scene = &options->scene;
     if (options->reference)
         options->devices.render.precision = HD_PRECISION_DOUBLE;
-    hd_options_spell(options, false, scene->given, sizeof scene->given);
-    hd_options_spell(options, true, options->store.given, sizeof options->store.given);
+    spell(options, false, scene->given, sizeof scene->given);
+    spell(options, true, options->store.given, sizeof options->store.given);
     if (options->reference) {
         scene->sampling = HD_SAMPLING_REFERENCE;
         scene->samples = scene->samples > 0 ? scene->samples : REFERENCE_SAMPLES;
@@ -584,7 +581,7 @@ static void complete_plan(HdOptions *options) {
 }
 
 HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdError *error) {
-    reset(options);
+    *options = defaults;
     const HdCommandSpec *command = count > 1 ? hd_command_named(arguments[1]) : NULL;
     Parser parser = {
         .options = options,
@@ -595,15 +592,36 @@ HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdErr
     };
     options->command = parser.command->command;
     options->operands = arguments + parser.next;
-    while (parser.next < count && options->command == parser.command->command) {
-        HdStatus status = parse_argument(&parser, error);
-        if (status != HD_OK)
-            return status;
-    }
+    while (parser.next < count && options->command == parser.command->command)
+        HD_TRY(parse_argument(&parser, error));
     if (options->command != parser.command->command)
         return HD_OK;
-    HdStatus status = check_together(options, error);
+    HD_TRY(check_together(options, error));
+    complete_plan(options);
+    return HD_OK;
+}
+
+/* ---- from the arguments to the exit code ---- */
+
+int hd_program_run(int count, char **arguments, HdCommandFunction *run) {
+    static HdError error;
+    HdOptions options;
+    hd_interrupt_install();
+    HdStatus status = hd_check_stack(&error);
     if (status == HD_OK)
-        complete_plan(options);
-    return status;
+        status = hd_interrupt_read_patience(&error);
+    if (status == HD_OK)
+        status = hd_options_parse(&options, count, arguments, &error);
+    if (status == HD_OK && count == 1 && isatty(STDIN_FILENO))
+        options.command = HD_COMMAND_HELP;
+    if (status == HD_OK)
+        status = run(&options, &error);
+    if (status == HD_OK && (fflush(stdout) != 0 || ferror(stdout)))
+        status = hd_fail(&error, HD_FAILED, "cannot write to standard output");
+    if (status == HD_OK)
+        return 0;
+    fprintf(stderr, "hedron: %s\n", error.message);
+    if (status == HD_INTERRUPTED)
+        return 128 + hd_interrupt_signal();
+    return (int)status;
 }

@@ -16,14 +16,11 @@
 #include "run/sequence.h"
 #include "system/interrupt.h"
 
-/* Called after each frame is stored. Must return HD_OK to go on. */
-typedef HdStatus Stored(const HdStoredFrame *stored, HdError *error);
-
 typedef struct Run {
     const HdSceneFile *file;
-    const HdFrameList *frames;
-    HdOutputPlan *outputs;
-    Stored *stored; /* NULL: not wanted */
+    HdFrameList frames;
+    HdOutputPlan outputs;
+    bool is_classic; /* standard output has a line for each frame, else the names of the outputs */
     HdResume resume;
     HdConsole console;
     HdStatistics statistics; /* stream NULL: not wanted */
@@ -46,26 +43,31 @@ static void device_dropped(void *context, int number, const HdError *error) {
     hd_console_tell_loss(&run->console, &run->team.list[number].device, error->message);
 }
 
-static HdStatus add_statistics(Run *run, const HdStoredFrame *stored, HdError *error) {
-    HdRunFacts facts = {.scene = &run->file->scene};
-    if (!stored->was_finished) {
-        facts.device = &run->team.list[stored->tracer].device;
-        facts.renderer = run->lines[stored->tracer];
-    }
-    return hd_statistics_add(&run->statistics, &facts, stored, error);
+/* From the camera to the pixels in memory. */
+static HdStatus print_frame_line(const HdStoredFrame *stored, HdError *error) {
+    const HdFrameTimes *times = &stored->times;
+    double seconds = times->prepare.seconds + times->trace.seconds + times->copy.seconds;
+    if (!hd_wait_to_write(STDOUT_FILENO) ||
+        printf("%d\t%.3f\t%" PRIu64 "\n", stored->number, seconds * 1e3,
+               hd_frame_rays(stored->frame)) < 0 ||
+        fflush(stdout) != 0)
+        return hd_interrupt_signal() != 0
+                   ? hd_fail(error, HD_INTERRUPTED, "interrupted while writing to standard output")
+                   : hd_fail(error, HD_FAILED, "cannot write to standard output");
+    return HD_OK;
 }
 
 static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError *error) {
     Run *run = context;
     HdStatus status = HD_OK;
     hd_console_hold(&run->console); /* both may go to the same terminal */
-    if (run->stored != NULL)
-        status = run->stored(stored, error);
+    if (run->is_classic)
+        status = print_frame_line(stored, error);
     if (status == HD_OK && run->statistics.stream != NULL)
-        status = add_statistics(run, stored, error);
-    hd_console_release(&run->console);
-    if (status == HD_OK)
-        hd_console_tell_frame(&run->console, stored);
+        status = hd_statistics_add(&run->statistics, &run->file->scene,
+                                   &run->team.list[stored->tracer].device,
+                                   run->lines[stored->tracer], stored, error);
+    hd_console_release(&run->console, status == HD_OK ? stored : NULL);
     return status;
 }
 
@@ -83,34 +85,23 @@ static HdStatus open_devices(Run *run, const HdDevicePlan *plan, HdError *error)
                                .options = &render,
                                .job = &job};
     render.has_deep_trees = hd_scene_has_deep_trees(&plain);
-    render.first_hits = run->outputs->wish.layers != 0;
+    render.first_hits = run->outputs.wish.layers != 0;
     hd_scene_drop_survey(&plain);
     HdStatus status = hd_open_devices(&run->team, &wish, error);
     hd_console_clear(&run->console);
     if (status == HD_INTERRUPTED)
         return hd_fail(error, status, "interrupted after %d of %d frames",
-                       run->resume.first_missing, run->frames->count);
+                       run->resume.first_missing, run->frames.count);
     if (status == HD_OK)
         hd_console_tell_devices(&run->console, &run->team);
     return status;
 }
 
-static HdStatus render_sequence(Run *run, const HdSequence *sequence, HdError *error) {
-    if (run->team.count > 0 && run->team.list[0].device.backend->functions->kernels != NULL)
-        hd_console_prepare(&run->console, "building kernels");
-    hd_console_announce_interrupt(&run->console);
-    hd_console_watch(&run->console, &run->watch);
-    HdStatus status = hd_sequence_render(sequence, error);
-    hd_console_end(&run->console, sequence->scene, &run->team, run->lines, status);
-    return status;
-}
-
-/* A device that cannot be used leaves the statistics of an earlier run alone. */
-static HdStatus render_missing(Run *run, const HdDevicePlan *devices, HdError *error) {
+static HdStatus render_sequence(Run *run, HdError *error) {
     const HdSequence sequence = {
         .scene = &run->file->scene,
         .resume = &run->resume,
-        .outputs = run->outputs,
+        .outputs = &run->outputs,
         .team = &run->team,
         .uploaded = scene_uploaded,
         .dropped = device_dropped,
@@ -118,53 +109,67 @@ static HdStatus render_missing(Run *run, const HdDevicePlan *devices, HdError *e
         .context = run,
         .watch = &run->watch,
     };
+    if (run->team.count > 0 && run->team.list[0].device.backend->functions->kernels != NULL)
+        hd_console_prepare(&run->console, "building kernels");
+    hd_console_watch(&run->console, &run->watch);
+    HdStatus status = hd_sequence_render(&sequence, error);
+    hd_console_end(&run->console, sequence.scene, &run->team, run->lines, status);
+    return status;
+}
+
+/* A device that cannot be used leaves the statistics of an earlier run alone. */
+static HdStatus render_missing(Run *run, const HdDevicePlan *devices, HdError *error) {
     HdStatus status = run->resume.missing.count > 0 ? open_devices(run, devices, error) : HD_OK;
     if (status == HD_OK)
         status = hd_statistics_open(&run->statistics, error);
     if (status == HD_OK)
-        status = render_sequence(run, &sequence, error);
-    status = hd_statistics_close(&run->statistics, run->outputs->durability, status, error);
+        status = render_sequence(run, error);
+    status = hd_statistics_close(&run->statistics, run->outputs.durability, status, error);
     hd_close_devices(&run->team);
     return status;
 }
 
 /* ---- what is to be rendered ---- */
 
-/* The outputs of the plan, else the scene's, else a name that suits the number of frames. */
-static HdStatus settle_outputs(HdOutputPlan *outputs, const HdStorePlan *plan,
-                               const HdSceneFile *file, int frame_count, HdError *error) {
-    const HdOutputSettings *settings = &file->output;
-    const char *name = settings->path[0] != '\0' ? settings->path
-                       : frame_count == 1        ? "hedron.png"
-                                                 : "hedron.mp4";
-    HdStatus status =
-        hd_outputs_settle(outputs, plan->count > 0 ? plan->names : &name,
-                          plan->count > 0 ? plan->count : 1, &settings->style, frame_count, error);
-    if (status != HD_OK)
-        return status;
-    outputs->options = plan->given;
-    outputs->durability = plan->no_sync ? HD_FLEETING : HD_DURABLE;
-    return hd_outputs_add_layers(outputs, plan->layers, hd_scene_is_surveyed(&file->scene), error);
+/* Where standard output has the statistics, it has nothing else. */
+static HdStatus print_names(const Run *run, HdError *error) {
+    const HdFrameList *frames = &run->frames;
+    char file[HD_MAX_PATH];
+    for (int i = 0; i < run->outputs.count && !run->statistics.is_standard_output; i++) {
+        const HdOutput *output = &run->outputs.list[i];
+        if (frames->count == 1)
+            HD_TRY(hd_output_name(output, frames->frames[0], file, error));
+        printf("%s\n", frames->count == 1 ? file : output->name);
+    }
+    return HD_OK;
 }
 
-/* What fast arithmetic makes is not the same everywhere, and promises no bytes. */
-static void set_fingerprint(const Run *run, const HdRenderOptions *render, bool resumes) {
-    HdOutputPlan *outputs = run->outputs;
+/* The outputs of the plan, else the scene's, else a name that suits the number of frames. What fast
+   arithmetic makes is not the same everywhere, and has no fingerprint. */
+static HdStatus settle(Run *run, const HdOptions *options, HdError *error) {
+    const HdStorePlan *store = &options->store;
+    const HdRenderOptions *render = &options->devices.render;
+    const HdOutputSettings *settings = &run->file->output;
+    HdOutputPlan *outputs = &run->outputs;
+    const char *usual = run->frames.count == 1 ? "hedron.png" : "hedron.mp4";
+    const char *name = settings->path[0] != '\0' ? settings->path : usual;
+    const bool is_named = store->count > 0;
+    HdStatus status =
+        hd_outputs_settle(outputs, is_named ? store->names : &name, is_named ? store->count : 1,
+                          &settings->style, run->frames.count, error);
+    outputs->options = store->given;
+    outputs->durability = store->no_sync ? HD_FLEETING : HD_DURABLE;
+    if (status == HD_OK)
+        status = hd_outputs_add_layers(outputs, store->layers,
+                                       hd_scene_is_surveyed(&run->file->scene), error);
+    if (status != HD_OK)
+        return status;
     if (render->math == HD_MATH_STRICT && (outputs->bears_fingerprints || outputs->film_count > 0))
         hd_outputs_set_fingerprint(
             outputs, hd_run_fingerprint(run->file, render->precision, &outputs->style.picture),
-            resumes);
-}
-
-static HdStatus render_run(Run *run, const HdOptions *options, HdError *error) {
-    set_fingerprint(run, &options->devices.render, !options->store.again);
-    HdStatus status = hd_resume_find(&run->resume, run->outputs, run->frames, error);
-    if (status == HD_OK) {
-        hd_console_start(&run->console, &run->resume);
-        status = render_missing(run, &options->devices, error);
-    }
-    hd_resume_free(&run->resume);
-    return status;
+            !store->again);
+    return hd_statistics_settle(&run->statistics, store->statistics, options->scene.path, outputs,
+                                run->frames.frames[0], error);
 }
 
 /* Names of folders are nobody else's matter, and differ between machines: pictures tell the last
@@ -172,90 +177,45 @@ static HdStatus render_run(Run *run, const HdOptions *options, HdError *error) {
 static HdStatus render_frames(Run *run, const HdOptions *options, HdError *error) {
     const char *name = hd_scene_name(options->scene.path), *slash = strrchr(name, '/');
     char told[HD_MAX_PATH];
-    HdStatus status =
-        settle_outputs(run->outputs, &options->store, run->file, run->frames->count, error);
-    if (status == HD_OK)
-        status =
-            hd_statistics_settle(&run->statistics, options->store.statistics, options->scene.path,
-                                 run->outputs, run->frames->frames[0], error);
+    HdStatus status = settle(run, options, error);
     if (status != HD_OK)
         return status;
-    hd_console_tell_run(&run->console, name, &run->file->scene, run->outputs, run->frames->count);
+    hd_console_tell_run(&run->console, name, &run->file->scene, &run->outputs, run->frames.count);
     hd_escape(slash != NULL ? slash + 1 : name, told, sizeof told);
-    run->outputs->scene = told;
-    return render_run(run, options, error);
+    run->outputs.scene = told;
+    status = hd_resume_find(&run->resume, &run->outputs, &run->frames, error);
+    if (status == HD_OK) {
+        hd_console_start(&run->console, &run->resume);
+        status = render_missing(run, &options->devices, error);
+    }
+    hd_resume_free(&run->resume);
+    return status == HD_OK && !run->is_classic ? print_names(run, error) : status;
 }
 
 /* ---- the commands ---- */
 
-/* Where standard output has the statistics, it has nothing else. */
-static HdStatus print_names(const HdOutputPlan *plan, const HdFrameList *frames, HdError *error) {
-    char file[HD_MAX_PATH];
-    for (int i = 0; i < plan->count; i++) {
-        HdStatus status = HD_OK;
-        if (frames->count == 1)
-            status = hd_output_name(&plan->list[i], frames->frames[0], file, error);
-        if (status != HD_OK)
-            return status;
-        printf("%s\n", frames->count == 1 ? file : plan->list[i].name);
-    }
-    return HD_OK;
-}
-
-/* From the camera to the pixels in memory. */
-static HdStatus print_frame_line(const HdStoredFrame *stored, HdError *error) {
-    const HdFrameTimes *times = &stored->times;
-    double seconds = times->prepare.seconds + times->trace.seconds + times->copy.seconds;
-    if (!hd_wait_to_write(STDOUT_FILENO) ||
-        printf("%d\t%.3f\t%" PRIu64 "\n", stored->number, seconds * 1e3,
-               hd_frame_rays(stored->frame)) < 0 ||
-        fflush(stdout) != 0)
-        return hd_interrupt_signal() != 0
-                   ? hd_fail(error, HD_INTERRUPTED, "interrupted while writing to standard output")
-                   : hd_fail(error, HD_FAILED, "cannot write to standard output");
-    return HD_OK;
-}
-
-/* Without `stored` the names of the outputs are printed at the end. */
-static HdStatus render_file(const HdSceneFile *file, const HdOptions *options, Stored *stored,
-                            HdError *error) {
-    HdFrameList frames;
-    HdOutputPlan outputs;
-    Run run = {.file = file, .frames = &frames, .outputs = &outputs, .stored = stored};
-    hd_console_open(&run.console, &options->telling);
-    HdStatus status = hd_frame_list_parse(&frames, options->frames, file->scene.frame_count, error);
-    if (status != HD_OK)
-        return status;
-    status = render_frames(&run, options, error);
-    if (status == HD_OK && stored == NULL && !run.statistics.is_standard_output)
-        status = print_names(&outputs, &frames, error);
-    hd_frame_list_free(&frames);
-    return status;
-}
-
-static HdStatus render(const HdOptions *options, Stored *stored, HdError *error) {
+HdStatus hd_command_render(const HdOptions *options, HdError *error) {
     HdSceneFile file;
+    Run run = {.file = &file};
     HdProblems notes = {.count = 0};
+    run.is_classic = options->command == HD_COMMAND_CLASSIC;
+    hd_console_open(&run.console, &options->telling);
     HdStatus status = hd_load_scene(&file, &options->scene, &notes, error);
     if (!options->telling.quiet)
         hd_problems_print(&notes, stderr, "hedron", ": ");
-    if (status != HD_OK)
-        return status;
-    status = render_file(&file, options, stored, error);
+    HD_TRY(status);
+    status = hd_frame_list_parse(&run.frames, options->frames, file.scene.frame_count, error);
+    if (status == HD_OK)
+        status = render_frames(&run, options, error);
+    hd_frame_list_free(&run.frames);
     hd_scene_file_free(&file);
     return status;
 }
 
-HdStatus hd_command_render(const HdOptions *options, HdError *error) {
-    return render(options, NULL, error);
-}
-
 static HdStatus print_default(const HdScenePlan *plan, HdError *error) {
     HdSceneFile file;
-    HdStatus status = hd_default_input(&file, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_scene_apply_numbers(&file.scene, plan, error);
+    HD_TRY(hd_default_input(&file, error));
+    HdStatus status = hd_scene_apply_numbers(&file.scene, plan, error);
     if (status == HD_OK)
         status = hd_classic_print(stdout, &file, error);
     hd_scene_file_free(&file);
@@ -264,5 +224,5 @@ static HdStatus print_default(const HdScenePlan *plan, HdError *error) {
 
 HdStatus hd_command_classic(const HdOptions *options, HdError *error) {
     return options->prints_default ? print_default(&options->scene, error)
-                                   : render(options, print_frame_line, error);
+                                   : hd_command_render(options, error);
 }

@@ -26,10 +26,8 @@ static json_t *list_lines(const char *text) {
         text += strspn(text, " \n");
         const size_t length = strcspn(text, "\n");
         snprintf(line, sizeof line, "%.*s", (int)length, text);
-        if (length > 0 && json_array_append_new(list, hd_json_device_text(line)) != 0) {
-            json_decref(list);
-            return NULL;
-        }
+        if (length > 0)
+            list = hd_json_append(list, hd_json_device_text(line));
         text += length;
     }
     return list;
@@ -38,9 +36,11 @@ static json_t *list_lines(const char *text) {
 /* A message is "NAME: what is wrong", or "NAME: 3 problems" and a line for each. */
 static json_t *list_problems(const char *message, const char *name) {
     const char *several = strchr(message, '\n');
-    if (several == NULL && strncmp(message, name, strlen(name)) == 0)
+    if (several != NULL)
+        message = several;
+    else if (strncmp(message, name, strlen(name)) == 0)
         message += strlen(name) + strspn(message + strlen(name), ": ");
-    return list_lines(several != NULL ? several : message);
+    return list_lines(message);
 }
 
 /* NULL where there is no memory. */
@@ -72,8 +72,8 @@ static void print_fine(const char *name, const HdScene *scene, const HdProblems 
     hd_problems_print(notes, stdout, name, ": note: ");
 }
 
-/* Prints what it finds, or appends it to `list`. */
-static HdStatus check_scene(const char *operand, json_t *list, HdError *error) {
+/* Prints what it finds, or appends it to the list where there is one. */
+static HdStatus check_scene(const char *operand, json_t **list, HdError *error) {
     HdProblems notes = {.count = 0};
     const HdSceneSource source = {
         .folder = "", .loads_files = true, .notes = &notes, .file_notes = &notes};
@@ -81,7 +81,7 @@ static HdStatus check_scene(const char *operand, json_t *list, HdError *error) {
     HdSceneFile file;
     HdStatus status = hd_read_scene(&file, operand, &source, error);
     if (list != NULL)
-        json_array_append_new(list, describe_scene(name, status, &notes, &file.scene, error));
+        *list = hd_json_append(*list, describe_scene(name, status, &notes, &file.scene, error));
     else if (status == HD_OK)
         print_fine(name, &file.scene, &notes);
     if (status == HD_OK)
@@ -89,16 +89,8 @@ static HdStatus check_scene(const char *operand, json_t *list, HdError *error) {
     return status;
 }
 
-static HdStatus print_list(json_t *list, int scenes, HdError *error) {
-    const bool is_whole = json_array_size(list) == (size_t)scenes;
-    if (!is_whole)
-        json_decref(list);
-    return hd_json_print(is_whole ? json_pack("{s:o}", "scenes", list) : NULL,
-                         "what is told of the scenes", error);
-}
-
 /* Of several scenes each has its message; the last one, which the program prints, counts them. */
-static HdStatus check_scenes(const HdOptions *options, json_t *list, HdError *error) {
+static HdStatus check_scenes(const HdOptions *options, json_t **list, HdError *error) {
     HdStatus worst = HD_OK;
     int wrong = 0;
     for (int i = 0; i < options->operand_count; i++) {
@@ -124,15 +116,15 @@ HdStatus hd_command_check(const HdOptions *options, HdError *error) {
     static HdError unprinted;
     if (options->schema)
         return hd_scene_schema_print(stdout, error);
-    json_t *list = options->json ? json_array() : NULL;
-    const HdStatus status = check_scenes(options, list, error);
     if (!options->json)
-        return status;
-    const HdStatus printed = print_list(list, options->operand_count, &unprinted);
-    if (printed == HD_OK)
-        return status;
-    *error = unprinted;
-    return printed;
+        return check_scenes(options, NULL, error);
+    json_t *list = json_array();
+    const HdStatus status = check_scenes(options, &list, error);
+    const HdStatus printed =
+        hd_json_print(json_pack("{s:o}", "scenes", list), "what is told of the scenes", &unprinted);
+    if (printed != HD_OK)
+        *error = unprinted;
+    return printed == HD_OK ? status : printed;
 }
 
 /* ---- convert ---- */
@@ -169,12 +161,9 @@ static HdStatus keep_output(HdSceneFile *file, HdError *error) {
 static HdStatus write_scene(const HdSceneFile *file, const char *name, HdError *error) {
     char path[HD_MAX_PATH];
     HdAtomicFile out;
-    HdStatus status = hd_path_expand_home(name, path, error);
-    if (status == HD_OK)
-        status = hd_atomic_file_open(&out, path, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_scene_file_print(out.stream, file, error);
+    HD_TRY(hd_path_expand_home(name, path, error));
+    HD_TRY(hd_atomic_file_open(&out, path, error));
+    const HdStatus status = hd_scene_file_print(out.stream, file, error);
     if (status == HD_OK)
         return hd_atomic_file_commit(&out, HD_DURABLE, error);
     hd_atomic_file_discard(&out);
@@ -182,13 +171,11 @@ static HdStatus write_scene(const HdSceneFile *file, const char *name, HdError *
 }
 
 HdStatus hd_command_convert(const HdOptions *options, HdError *error) {
-    const char *source = options->operand_count > 0 ? options->operands[0] : NULL;
+    const char *input = options->operand_count > 0 ? options->operands[0] : "-";
     const char *output = options->store.count > 0 ? options->store.names[0] : NULL;
     HdSceneFile file;
-    HdStatus status = hd_read_classic(&file, source, options->scene.variant, error);
-    if (status != HD_OK)
-        return status;
-    status = keep_texture(&file, output, error);
+    HD_TRY(hd_read_classic(&file, input, options->scene.variant, error));
+    HdStatus status = keep_texture(&file, output, error);
     if (status == HD_OK)
         status = keep_output(&file, error);
     if (status == HD_OK)
@@ -225,8 +212,7 @@ HdStatus hd_command_new(const HdOptions *options, HdError *error) {
     if (snprintf(path, sizeof path, "%s%s", name, ending) >= (int)sizeof path)
         return hd_fail(error, HD_BAD_INPUT, "the name of the scene has %zu bytes, expected fewer",
                        strlen(name));
-    HdStatus status = write_new(path, error);
-    if (status == HD_OK)
-        printf("%s\n", path);
-    return status;
+    HD_TRY(write_new(path, error));
+    printf("%s\n", path);
+    return HD_OK;
 }

@@ -3,10 +3,8 @@
 #include "cli/statistics.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "input/json/json_device_text.h"
 #include "system/atomic_file.h"
@@ -49,35 +47,21 @@ HdStatus hd_statistics_settle(HdStatistics *statistics, const char *path, const 
         snprintf(file, HD_MAX_PATH, "standard output");
         return HD_OK;
     }
-    HdStatus status = hd_path_expand_home(path, file, error);
-    if (status == HD_OK && scene != NULL && hd_path_is_same(file, scene))
+    if (hd_path_expand_home(path, file, error) != HD_OK)
+        return error->status;
+    if (scene != NULL && hd_path_is_same(file, scene))
         return hd_fail(error, HD_BAD_INPUT, "--stats is '%s', which is the scene", path);
-    for (int i = 0; i < plan->count && status == HD_OK; i++) {
-        status = hd_output_file(&plan->list[i], frame_number, output, error);
-        if (status == HD_OK && hd_path_is_same(file, output))
+    for (int i = 0; i < plan->count; i++) {
+        HD_TRY(hd_output_file(&plan->list[i], frame_number, output, error));
+        if (hd_path_is_same(file, output))
             return hd_fail(error, HD_BAD_INPUT, "--stats is '%s', which is an output", path);
     }
-    if (status == HD_OK && has_other_json(file))
+    if (has_other_json(file))
         return hd_fail(error, HD_BAD_INPUT,
                        "--stats is '%s', which has other JSON in it, expected a new file or one "
                        "with statistics",
                        path);
-    return status;
-}
-
-static HdStatus open_file(HdStatistics *statistics, HdError *error) {
-    errno = EINTR;
-    int descriptor = hd_interrupt_signal() != 0
-                         ? -1
-                         : open(statistics->name, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (descriptor < 0)
-        return fail_to_write(statistics, error);
-    statistics->stream = fdopen(descriptor, "w");
-    if (statistics->stream != NULL)
-        return HD_OK;
-    HdStatus status = fail_to_write(statistics, error);
-    close(descriptor);
-    return status;
+    return HD_OK;
 }
 
 HdStatus hd_statistics_open(HdStatistics *statistics, HdError *error) {
@@ -85,8 +69,11 @@ HdStatus hd_statistics_open(HdStatistics *statistics, HdError *error) {
         statistics->stream = stdout;
     if (statistics->is_standard_output || statistics->name[0] == '\0')
         return HD_OK;
-    HdStatus status = hd_path_make_parents(statistics->name, 0777, error);
-    return status == HD_OK ? open_file(statistics, error) : status;
+    HD_TRY(hd_path_make_parents(statistics->name, 0777, error));
+    errno = EINTR;
+    if (hd_interrupt_signal() == 0)
+        statistics->stream = fopen(statistics->name, "we"); /* children do not get it */
+    return statistics->stream != NULL ? HD_OK : fail_to_write(statistics, error);
 }
 
 static json_t *describe_seconds(const HdSpan *span) {
@@ -106,16 +93,16 @@ static json_t *describe_spans(const HdFrameTimes *times, json_t *(*describe)(con
 }
 
 /* json_pack gives up as a whole where a part is missing. */
-static json_t *describe_frame(const HdRunFacts *facts, const HdStoredFrame *stored) {
+static json_t *describe_frame(const HdScene *scene, const HdDevice *device, const char *line,
+                              const HdStoredFrame *stored) {
     const HdFrame *frame = stored->frame;
     const double launch = stored->times.longest_launch; /* of GPUs only */
     return json_pack(
         "{s:i, s:s, s:i, s:o, s:o, s:i, s:i, s:i, s:i, s:o, s:o, s:o, s:{s:I, s:I, s:I}, s:I, s:I}",
-        "frame", stored->number, "backend", facts->device->backend->name, "index",
-        facts->device->index, "device", hd_json_device_text(facts->device->name), "renderer",
-        hd_json_device_text(facts->renderer), "width", frame->width, "height", frame->height,
-        "samples", facts->scene->samples_per_side, "depth", facts->scene->depth, "seconds",
-        describe_spans(&stored->times, describe_seconds), "began",
+        "frame", stored->number, "backend", device->backend->name, "index", device->index, "device",
+        hd_json_device_text(device->name), "renderer", hd_json_device_text(line), "width",
+        frame->width, "height", frame->height, "samples", scene->samples_per_side, "depth",
+        scene->depth, "seconds", describe_spans(&stored->times, describe_seconds), "began",
         describe_spans(&stored->times, describe_begin), "longest_launch_ms",
         launch < 0.0 ? json_null() : json_real(1e3 * launch), "rays", "primary",
         (json_int_t)frame->primary_rays, "mirrored", (json_int_t)frame->mirrored_rays,
@@ -124,53 +111,47 @@ static json_t *describe_frame(const HdRunFacts *facts, const HdStoredFrame *stor
 }
 
 /* Of surveyed scenes only. */
-static bool add_bound(json_t *line, const HdFrame *frame) {
-    return !frame->has_bound ||
-           json_object_set_new(line, "missing",
-                               json_pack("{s:f, s:f}", "largest", frame->largest_bound, "mean",
-                                         frame->mean_bound)) == 0;
+static json_t *add_bound(json_t *line, const HdFrame *frame) {
+    if (!frame->has_bound ||
+        json_object_set_new(line, "missing",
+                            json_pack("{s:f, s:f}", "largest", frame->largest_bound, "mean",
+                                      frame->mean_bound)) == 0)
+        return line;
+    json_decref(line);
+    return NULL;
 }
 
-HdStatus hd_statistics_add(HdStatistics *statistics, const HdRunFacts *facts,
-                           const HdStoredFrame *stored, HdError *error) {
-    json_t *line = stored->was_finished
+HdStatus hd_statistics_add(HdStatistics *statistics, const HdScene *scene, const HdDevice *device,
+                           const char *line, const HdStoredFrame *stored, HdError *error) {
+    json_t *told = stored->was_finished
                        ? json_pack("{s:i, s:b}", "frame", stored->number, "resumed", 1)
-                       : describe_frame(facts, stored);
-    if (line != NULL && !stored->was_finished && !add_bound(line, stored->frame)) {
-        json_decref(line);
-        line = NULL;
-    }
-    if (line == NULL)
+                       : add_bound(describe_frame(scene, device, line, stored), stored->frame);
+    if (told == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for a line of statistics");
     bool can_write = hd_wait_to_write(fileno(statistics->stream));
     errno = can_write ? 0 : EINTR;
     bool failed =
-        !can_write || json_dumpf(line, statistics->stream,
+        !can_write || json_dumpf(told, statistics->stream,
                                  JSON_COMPACT | JSON_REAL_PRECISION(SIGNIFICANT_DIGITS)) != 0;
-    json_decref(line);
+    json_decref(told);
     if (failed || fputc('\n', statistics->stream) == EOF || fflush(statistics->stream) != 0)
         return fail_to_write(statistics, error);
     return HD_OK;
 }
 
-static HdStatus close_file(HdStatistics *statistics, HdDurability durability, HdError *error) {
-    errno = 0;
-    HdStatus status = fflush(statistics->stream) == 0 ? HD_OK : fail_to_write(statistics, error);
-    if (status == HD_OK && durability == HD_DURABLE)
-        status = hd_sync_file(fileno(statistics->stream), statistics->name, error);
-    if (status == HD_OK && durability == HD_DURABLE)
-        status = hd_sync_folder(statistics->name, error);
-    errno = 0;
-    if (fclose(statistics->stream) != 0 && status == HD_OK)
-        status = fail_to_write(statistics, error);
-    return status;
-}
-
 HdStatus hd_statistics_close(HdStatistics *statistics, HdDurability durability, HdStatus before,
                              HdError *error) {
-    HdError ignored;
+    HdError ignored, *told = before == HD_OK ? error : &ignored;
     if (statistics->stream == NULL || statistics->is_standard_output)
         return before;
-    const HdStatus closed = close_file(statistics, durability, before == HD_OK ? error : &ignored);
-    return before == HD_OK ? closed : before;
+    errno = 0;
+    HdStatus status = fflush(statistics->stream) == 0 ? HD_OK : fail_to_write(statistics, told);
+    if (status == HD_OK && durability == HD_DURABLE)
+        status = hd_sync_file(fileno(statistics->stream), statistics->name, told);
+    if (status == HD_OK && durability == HD_DURABLE)
+        status = hd_sync_folder(statistics->name, told);
+    errno = 0;
+    if (fclose(statistics->stream) != 0 && status == HD_OK)
+        status = fail_to_write(statistics, told);
+    return before == HD_OK ? status : before;
 }

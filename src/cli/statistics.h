@@ -11,13 +11,6 @@
 #include "scene/scene.h"
 #include "system/path.h"
 
-/* What is the same for every frame that a device traced. */
-typedef struct HdRunFacts {
-    const HdScene *scene;
-    const HdDevice *device;
-    const char *renderer; /* hd_renderer_describe's line */
-} HdRunFacts;
-
 typedef struct HdStatistics {
     FILE *stream;           /* NULL: it is not open */
     char name[HD_MAX_PATH]; /* of the file, or for messages; "": none are wanted */
@@ -33,9 +26,10 @@ HdStatus hd_statistics_settle(HdStatistics *statistics, const char *path, const 
 /* Begins the file anew, where it is wanted; makes missing folders. */
 HdStatus hd_statistics_open(HdStatistics *statistics, HdError *error);
 
-/* Writes and flushes one line. Numbers have a decimal point in every locale. */
-HdStatus hd_statistics_add(HdStatistics *statistics, const HdRunFacts *facts,
-                           const HdStoredFrame *stored, HdError *error);
+/* Writes and flushes one line. Numbers have a decimal point in every locale. `line` is what the
+   renderer said of itself (hd_renderer_describe). */
+HdStatus hd_statistics_add(HdStatistics *statistics, const HdScene *scene, const HdDevice *device,
+                           const char *line, const HdStoredFrame *stored, HdError *error);
 
 /* Ends what was opened, if it was. With HD_DURABLE the file and its name are on the disk
    afterwards. `before` is how the run ended, which comes back where it failed, with its error

@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include "cli/options.h"
-#include "main/program.h"
 #include "system/path.h"
 
 static char **original_arguments; /* as parsing them changes their order; owned, NULL ends them */
@@ -31,13 +30,6 @@ static HdStatus view(const HdOptions *options, HdError *error) {
                    program, strerror(errno));
 }
 
-static HdStatus print_version(const HdOptions *options, HdError *error) {
-    (void)options;
-    (void)error;
-    printf("hedron %s\n", HD_VERSION);
-    return HD_OK;
-}
-
 static HdStatus run(const HdOptions *options, HdError *error) {
     static const struct {
         HdCommand command;
@@ -49,11 +41,11 @@ static HdStatus run(const HdOptions *options, HdError *error) {
         {HD_COMMAND_TUNE, hd_command_tune},         {HD_COMMAND_COMPARE, hd_command_compare},
         {HD_COMMAND_NEW, hd_command_new},           {HD_COMMAND_VIEW, view},
         {HD_COMMAND_COMPLETE, hd_command_complete}, {HD_COMMAND_HELP, hd_command_help},
-        {HD_COMMAND_VERSION, print_version},
     };
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
         if (commands[i].command == options->command)
             return commands[i].run(options, error);
+    printf("hedron %s\n", HD_VERSION);
     return HD_OK;
 }
 

@@ -3,30 +3,8 @@
    window or a terminal. It is a program of its own, so that nothing else needs SDL and chafa. */
 #include <string.h>
 
-#include "main/program.h"
+#include "cli/options.h"
 #include "view/viewer.h"
-
-static HdStatus show_terminal(const HdOptions *options, HdError *error) {
-#if HD_HAS_CHAFA
-    return hd_view_in_terminal(&options->scene, &options->devices, error);
-#else
-    (void)options;
-    return hd_fail(error, HD_UNAVAILABLE,
-                   "hedron-view was built without chafa (libchafa-dev), so that it has no "
-                   "--terminal");
-#endif
-}
-
-static HdStatus show_window(const HdOptions *options, HdError *error) {
-#if HD_HAS_SDL
-    return hd_view_in_window(&options->scene, &options->devices, error);
-#else
-    (void)options;
-    return hd_fail(error, HD_UNAVAILABLE,
-                   "hedron-view was built without SDL 2 (libsdl2-dev), so that it has no window; "
-                   "'hedron view --terminal' shows the scene in a terminal");
-#endif
-}
 
 static HdStatus run(const HdOptions *options, HdError *error) {
     if (options->command != HD_COMMAND_VIEW)
@@ -35,7 +13,20 @@ static HdStatus run(const HdOptions *options, HdError *error) {
         return hd_fail(error, HD_BAD_INPUT,
                        "'hedron view' needs a scene's file, which it reads again when it changes, "
                        "and not standard input");
-    return (options->terminal ? show_terminal : show_window)(options, error);
+#if HD_HAS_CHAFA
+    if (options->terminal)
+        return hd_view_in_terminal(&options->scene, &options->devices, error);
+#endif
+#if HD_HAS_SDL
+    if (!options->terminal)
+        return hd_view_in_window(&options->scene, &options->devices, error);
+#endif
+    return hd_fail(error, HD_UNAVAILABLE,
+                   options->terminal
+                       ? "hedron-view was built without chafa (libchafa-dev), so that it has no "
+                         "--terminal"
+                       : "hedron-view was built without SDL 2 (libsdl2-dev), so that it has no "
+                         "window; 'hedron view --terminal' shows the scene in a terminal");
 }
 
 int main(int count, char **arguments) {

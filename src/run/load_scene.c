@@ -22,6 +22,10 @@ enum { DISC_SIDES = 16 };
 
 static const char standard_input[] = "standard input";
 
+const char *hd_scene_name(const char *path) {
+    return path == NULL ? "the built-in scene" : strcmp(path, "-") == 0 ? standard_input : path;
+}
+
 /* Whatever there is, up to `most` bytes, and an interrupt; the text is the caller's to free. */
 static HdStatus read_stream(FILE *stream, const char *name, size_t most, char **text, size_t *size,
                             HdError *error) {
@@ -40,10 +44,10 @@ static HdStatus read_stream(FILE *stream, const char *name, size_t most, char **
 }
 
 HdStatus hd_read_classic(HdSceneFile *file, const char *path, int variant, HdError *error) {
-    const char *name = path != NULL ? path : standard_input;
+    const char *name = hd_scene_name(path);
     char *text = NULL;
     size_t size = 0;
-    FILE *stream = path != NULL ? fopen(path, "rb") : stdin;
+    FILE *stream = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
     HdStatus status =
         stream != NULL ? read_stream(stream, name, MAX_INPUT_BYTES, &text, &size, error)
                        : hd_fail(error, HD_BAD_INPUT, "cannot open %s: %s", name, strerror(errno));
@@ -55,16 +59,12 @@ HdStatus hd_read_classic(HdSceneFile *file, const char *path, int variant, HdErr
     return status;
 }
 
-const char *hd_scene_name(const char *path) {
-    return path == NULL ? "the built-in scene" : strcmp(path, "-") == 0 ? standard_input : path;
-}
-
 HdStatus hd_read_scene(HdSceneFile *file, const char *path, const HdSceneSource *source,
                        HdError *error) {
     HdSceneSource named = *source;
+    HdStatus status = HD_OK;
     char *read = NULL;
     size_t size = 0;
-    HdStatus status = HD_OK;
     if (path != NULL && strcmp(path, "-") != 0)
         return hd_scene_file_read(file, path, source, error);
     named.name = hd_scene_name(path);
@@ -90,18 +90,7 @@ static void set_numbers(HdScene *scene, const HdScenePlan *plan) {
         scene->max_error = plan->max_error;
 }
 
-/* Rays end by the limit of a scene that has one, and by what was given. */
-static void set_ends(HdScene *scene, const HdScenePlan *plan) {
-    hd_survey_end_rays(scene);
-    if (plan->depth >= 0)
-        scene->depth = plan->depth;
-    if (plan->cutoff >= 0.0)
-        scene->cutoff = plan->cutoff;
-}
-
-static HdStatus crop(HdScene *scene, const HdPlannedCrop *part, HdError *error) {
-    if (part->width == 0)
-        return HD_OK;
+static HdStatus crop(HdScene *scene, const HdPlannedArea *part, HdError *error) {
     if (part->left + part->width > scene->width || part->top + part->height > scene->height)
         return hd_fail(error, HD_BAD_INPUT, "the picture has %d x %d pixels, which end before that",
                        scene->width, scene->height);
@@ -114,7 +103,7 @@ static HdStatus crop(HdScene *scene, const HdPlannedCrop *part, HdError *error) 
 HdStatus hd_scene_apply_numbers(HdScene *scene, const HdScenePlan *plan, HdError *error) {
     set_numbers(scene, plan);
     HdStatus status = plan->given[0] != '\0' ? hd_scene_validate(scene, error) : HD_OK;
-    if (status == HD_OK)
+    if (status == HD_OK && plan->crop.width > 0)
         status = crop(scene, &plan->crop, error);
     if (status != HD_OK) {
         hd_error_prefix(error, plan->given);
@@ -122,7 +111,11 @@ HdStatus hd_scene_apply_numbers(HdScene *scene, const HdScenePlan *plan, HdError
     }
     if (plan->sampling >= 0)
         scene->sampling = (HdSampling)plan->sampling;
-    set_ends(scene, plan);
+    hd_survey_end_rays(scene);
+    if (plan->depth >= 0)
+        scene->depth = plan->depth;
+    if (plan->cutoff >= 0.0)
+        scene->cutoff = plan->cutoff;
     return HD_OK;
 }
 
@@ -137,24 +130,18 @@ static HdStatus apply_geometry(HdScene *scene, const HdScenePlan *plan, HdError 
                                 error);
 }
 
-static HdStatus read_planned(HdSceneFile *file, const HdScenePlan *plan, HdProblems *notes,
-                             HdError *error) {
+HdStatus hd_load_scene(HdSceneFile *file, const HdScenePlan *plan, HdProblems *notes,
+                       HdError *error) {
     const HdSceneSource source = {.folder = "",
                                   .changes = plan->changes,
                                   .change_count = plan->change_count,
                                   .loads_files = true,
                                   .file_notes = notes};
-    return plan->is_classic ? hd_read_classic(file, NULL, plan->variant, error)
-                            : hd_read_scene(file, plan->path, &source, error);
-}
-
-HdStatus hd_load_scene(HdSceneFile *file, const HdScenePlan *plan, HdProblems *notes,
-                       HdError *error) {
-    HdStatus status = read_planned(file, plan, notes, error);
+    HdStatus status = plan->is_classic ? hd_read_classic(file, "-", plan->variant, error)
+                                       : hd_read_scene(file, plan->path, &source, error);
     if (status != HD_OK && notes != NULL)
         *notes = (HdProblems){.count = 0};
-    if (status != HD_OK)
-        return status;
+    HD_TRY(status);
     status = hd_scene_apply_numbers(&file->scene, plan, error);
     if (status == HD_OK && plan->is_classic)
         status = hd_scene_file_load_texture(file, error);

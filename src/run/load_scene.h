@@ -5,16 +5,15 @@
 
 #include "run/plan.h"
 
-/* Reads a classic input from a file, or, `path` being NULL, from standard input, as what its JSON
-   would be: curves are linear everywhere, as they are in the classic mode. */
-HdStatus hd_read_classic(HdSceneFile *file, const char *path, int variant, HdError *error);
-
 /* What messages call a scene: "-" is standard input, NULL the built-in one. */
 const char *hd_scene_name(const char *path);
 
-/* Reads a scene file, or, `path` being "-", standard input, or, `path` being NULL, the built-in
-   scene; the name and the folder are those that suit it, but for that `source` has the folder "".
- */
+/* Reads the classic input `path`, or standard input, "-", as what its JSON would be: curves are
+   linear everywhere, as they are in the classic mode. */
+HdStatus hd_read_classic(HdSceneFile *file, const char *path, int variant, HdError *error);
+
+/* Reads the scene file `path`, or standard input, "-", or the built-in scene, NULL; the name and
+   the folder are those that suit it, but for that `source` has the folder "". */
 HdStatus hd_read_scene(HdSceneFile *file, const char *path, const HdSceneSource *source,
                        HdError *error);
 

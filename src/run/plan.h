@@ -13,13 +13,9 @@
 
 enum { HD_MAX_CHANGES = 64 };
 
-typedef struct HdPlannedSize {
-    int width, height;
-} HdPlannedSize;
-
-typedef struct HdPlannedCrop {
+typedef struct HdPlannedArea {
     int width, height, left, top;
-} HdPlannedCrop;
+} HdPlannedArea;
 
 /* The scene, and what is laid over it (load_scene.h). What is 0, or negative where 0 is a value,
    stays as the scene has it. */
@@ -29,8 +25,7 @@ typedef struct HdScenePlan {
     int variant;
     HdSceneChange changes[HD_MAX_CHANGES];
     int change_count;
-    HdPlannedSize size;
-    HdPlannedCrop crop;
+    HdPlannedArea size, crop;
     int samples;   /* per side */
     int depth;     /* negative: the scene's */
     double cutoff; /* negative: the scene's */

@@ -239,25 +239,18 @@ static HdStatus make_solid(Work *work, HdMesh *mesh, int divisions, HdError *err
     return hd_divide_triangles(mesh, divisions, error);
 }
 
-static HdStatus check_numbers(int disc_sides, int divisions, HdError *error) {
+HdStatus hd_triangulate_solid(HdMesh *mesh, const HdSolid *solid, int disc_sides, int divisions,
+                              HdError *error) {
+    *mesh = (HdMesh){0};
     if (disc_sides < HD_MIN_DISC_SIDES || disc_sides > HD_MAX_DISC_SIDES || disc_sides % 2 != 0)
         return hd_fail(error, HD_BAD_INPUT,
                        "discs have %d sides, expected an even number from %d to %d", disc_sides,
                        (int)HD_MIN_DISC_SIDES, (int)HD_MAX_DISC_SIDES);
-    return hd_check_divisions(1, divisions, error);
-}
-
-HdStatus hd_triangulate_solid(HdMesh *mesh, const HdSolid *solid, int disc_sides, int divisions,
-                              HdError *error) {
-    *mesh = (HdMesh){0};
-    HdStatus status = check_numbers(disc_sides, divisions, error);
-    if (status != HD_OK)
-        return status;
     Work *work = calloc(1, sizeof *work);
     if (work == NULL)
         return no_memory(error);
     prepare(work, solid, disc_sides);
-    status = make_solid(work, mesh, divisions, error);
+    const HdStatus status = make_solid(work, mesh, divisions, error);
     hd_facets_free(&work->facets);
     free(work);
     if (status != HD_OK)

@@ -20,6 +20,21 @@ json_t *hd_json_device_text(const char *bytes) {
     return text;
 }
 
+json_t *hd_json_text_or_null(const char *bytes) {
+    return bytes != NULL && bytes[0] != '\0' ? hd_json_device_text(bytes) : json_null();
+}
+
+json_t *hd_json_count_or_null(int count) {
+    return count > 0 ? json_integer(count) : json_null();
+}
+
+json_t *hd_json_append(json_t *list, json_t *item) {
+    if (json_array_append_new(list, item) == 0)
+        return list;
+    json_decref(list);
+    return NULL;
+}
+
 HdStatus hd_json_print(json_t *root, const char *what, HdError *error) {
     if (root == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for %s", what);

@@ -11,6 +11,15 @@
    NULL where there is no memory. */
 json_t *hd_json_device_text(const char *bytes);
 
+/* The same; JSON's null for NULL and "". */
+json_t *hd_json_text_or_null(const char *bytes);
+
+/* JSON's null unless it is positive. */
+json_t *hd_json_count_or_null(int count);
+
+/* Appends, takes both and returns the list: NULL where either is, or there is no memory. */
+json_t *hd_json_append(json_t *list, json_t *item);
+
 /* Prints `root`, which it takes, on standard output. NULL stands for what could not be put together
    for want of memory: no room for `what`. */
 HdStatus hd_json_print(json_t *root, const char *what, HdError *error);

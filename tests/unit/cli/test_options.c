@@ -302,7 +302,7 @@ TEST(values_reach_their_members) {
                   "--max-error 2 --crop 1x2+3+4 --size 6X7 --geometry triangles "
                   "--divisions 8 --accel bvh --frames 0-9 --device c:0 --stats - "
                   "--again --frame-lines --verbose");
-    const HdPlannedCrop *crop = &options.scene.crop;
+    const HdPlannedArea *crop = &options.scene.crop;
     assert_true(options.scene.samples == 3 && options.scene.depth == 5 &&
                 options.scene.divisions == 8);
     assert_true(options.scene.cutoff == 0.25 && options.scene.max_error == 2.0);

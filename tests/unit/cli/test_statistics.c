@@ -44,11 +44,11 @@ static void expect_line(const char *name, const char *told, const char *longest_
     HdStatistics statistics;
     HdError error;
     HdDevice device = {.backend = &hd_backend_c, .index = 3};
-    const HdRunFacts facts = {.scene = &scene, .device = &device, .renderer = "4 lanes"};
     char line[2048] = "", expected[2048];
     snprintf(device.name, sizeof device.name, "%s", name);
     assert_int_equal(open_statistics(&statistics, "new/folder/stats.jsonl", &error), HD_OK);
-    assert_int_equal(hd_statistics_add(&statistics, &facts, &stored, &error), HD_OK);
+    assert_int_equal(hd_statistics_add(&statistics, &scene, &device, "4 lanes", &stored, &error),
+                     HD_OK);
     /* Flushed: it is there before the file is closed. */
     FILE *file = fopen("new/folder/stats.jsonl", "r");
     assert_non_null(file);
@@ -90,12 +90,12 @@ TEST(files_that_take_nothing_are_told) {
     HdStatistics statistics;
     HdError error;
     HdDevice device = {.backend = &hd_backend_c};
-    const HdRunFacts facts = {.scene = &scene, .device = &device, .renderer = ""};
     assert_int_equal(open_statistics(&statistics, "/dev/null/x", &error), HD_FAILED);
     expect_contains(error.message, "/dev/null");
     assert_int_equal(open_statistics(&statistics, ".", &error), HD_FAILED);
     assert_int_equal(open_statistics(&statistics, "/dev/full", &error), HD_OK);
-    assert_int_equal(hd_statistics_add(&statistics, &facts, &stored, &error), HD_FAILED);
+    assert_int_equal(hd_statistics_add(&statistics, &scene, &device, "", &stored, &error),
+                     HD_FAILED);
     expect_contains(error.message, "/dev/full");
     hd_statistics_close(&statistics, HD_DURABLE, HD_OK, &error);
 }

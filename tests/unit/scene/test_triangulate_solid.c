@@ -294,7 +294,7 @@ TEST(test_bad_numbers) {
          "4528 triangles divided into 3000 x 3000 each are too many, expected at most 100000000 "
          "together"},
         {16, INT32_MAX,
-         "1 triangles divided into 2147483647 x 2147483647 each are too many, expected at most "
+         "4528 triangles divided into 2147483647 x 2147483647 each are too many, expected at most "
          "100000000 together"}};
     const HdSolid solid = solid_with(HD_HEXAHEDRON, &patterns[3]);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
