@@ -350,9 +350,7 @@ static HdStatus check_fits(const HdSceneFile *input, HdError *error) {
 
 HdStatus hd_classic_print(FILE *out, const HdSceneFile *input, HdError *error) {
     const HdScene *scene = &input->scene;
-    const HdStatus status = check_fits(input, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(check_fits(input, error));
     fprintf(out, "%d\n%s\n%d %d ", scene->frame_count, input->output.path, scene->width,
             scene->height);
     print_number(out, scene->field_of_view_degrees);

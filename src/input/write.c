@@ -370,13 +370,10 @@ static HdStatus check_text(const char *what, const char *text, HdError *error) {
 
 HdStatus hd_scene_file_print(FILE *out, const HdSceneFile *file, HdError *error) {
     Writer writer = {.printer = {.out = out}};
-    HdStatus status = check_text("path of the output", file->output.path, error);
-    if (status == HD_OK)
-        status = check_text("path of the texture", file->texture_path, error);
-    for (int i = 0; i < file->mesh_entry_count && status == HD_OK; i++)
-        status = check_text("path of a mesh", file->mesh_entries[i].file, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(check_text("path of the output", file->output.path, error));
+    HD_TRY(check_text("path of the texture", file->texture_path, error));
+    for (int i = 0; i < file->mesh_entry_count; i++)
+        HD_TRY(check_text("path of a mesh", file->mesh_entries[i].file, error));
     const size_t most = 2 * (size_t)file->scene.solid_count + (size_t)file->mesh_entry_count + 1;
     writer.materials = calloc(most, sizeof *writer.materials);
     if (writer.materials == NULL)

@@ -6,8 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "input/builtin.h"
 #include "input/check.h"
+#include "input/classic.h"
+#include "input/files.h"
 #include "input/load.h"
 #include "render/survey.h"
 #include "scene/contact.h"

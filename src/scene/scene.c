@@ -4,6 +4,8 @@
 #include <stdlib.h>
 
 #include "image/picture.h"
+#include "system/machine.h"
+#include "system/thread_pool.h"
 
 bool hd_scene_is_surveyed(const HdScene *scene) {
     return scene->sampling != HD_SAMPLING_GRID || scene->max_error > 0.0;
@@ -71,6 +73,15 @@ int64_t hd_scene_triangle_count(const HdScene *scene) {
     for (int i = 0; i < scene->mesh_count; i++)
         count += scene->meshes[i].triangle_count;
     return count;
+}
+
+HdStatus hd_scene_build_meshes(HdScene *scene, HdError *error) {
+    HdThreadPool *pool = NULL;
+    HdStatus status = hd_thread_pool_create(&pool, hd_processor_count(), error);
+    for (int i = 0; i < scene->mesh_count && status == HD_OK; i++)
+        status = hd_mesh_build(&scene->meshes[i], pool, error);
+    hd_thread_pool_destroy(pool);
+    return status;
 }
 
 void hd_scene_drop_meshes(HdScene *scene) {

@@ -165,6 +165,9 @@ int hd_scene_endless_light_count(const HdScene *scene);
 /* Triangles of all meshes, each counted once however often it is placed. */
 int64_t hd_scene_triangle_count(const HdScene *scene);
 
+/* Builds the hierarchies of all meshes, on all processors. */
+HdStatus hd_scene_build_meshes(HdScene *scene, HdError *error);
+
 /* Frees the meshes, their instances and pictures; the scene then has none. */
 void hd_scene_drop_meshes(HdScene *scene);
 

@@ -235,11 +235,8 @@ HdStatus NAMED(hd_compile_frame)(HdFrameTables *tables, const HdScene *scene,
             2 * sizeof(int) * (size_t)tables->width * (size_t)tables->height;
         tables->table[HD_TABLE_sample_places].bytes = sizeof(int) * (size_t)list->place_count;
     }
-    for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++) {
-        HdStatus status = hd_table_allocate(&tables->table[i], "tables of a frame", error);
-        if (status != HD_OK)
-            return status;
-    }
+    for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
+        HD_TRY(hd_table_allocate(&tables->table[i], "tables of a frame", error));
     fill_view(tables->table[HD_TABLE_view].data, tables, scene, camera, list);
     if (list != NULL)
         fill_list(tables, list);
