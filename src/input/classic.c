@@ -57,18 +57,19 @@ static void leave(HdTokenReader *reader) {
     reader->where[0] = '\0';
 }
 
+enum { FLIGHT_NUMBERS = 10 };
+_Static_assert(sizeof(HdCylinderPath) == FLIGHT_NUMBERS * sizeof(double),
+               "a path on a cylinder has these numbers, in the order of the text");
+
 static void read_flight(HdTokenReader *reader, const char *name, HdCylinderPath *path) {
+    static const char *const names[FLIGHT_NUMBERS] = {
+        "r0",          "z0",          "phi0",          "r amplitude", "z amplitude",
+        "r frequency", "z frequency", "phi frequency", "r phase",     "z phase"};
+    double numbers[FLIGHT_NUMBERS] = {0.0};
     enter(reader, name, 0);
-    hd_read_number(reader, "r0", &path->r0);
-    hd_read_number(reader, "z0", &path->z0);
-    hd_read_number(reader, "phi0", &path->phi0);
-    hd_read_number(reader, "r amplitude", &path->r_amplitude);
-    hd_read_number(reader, "z amplitude", &path->z_amplitude);
-    hd_read_number(reader, "r frequency", &path->r_frequency);
-    hd_read_number(reader, "z frequency", &path->z_frequency);
-    hd_read_number(reader, "phi frequency", &path->phi_frequency);
-    hd_read_number(reader, "r phase", &path->r_phase);
-    hd_read_number(reader, "z phase", &path->z_phase);
+    for (int i = 0; i < FLIGHT_NUMBERS; i++)
+        hd_read_number(reader, names[i], &numbers[i]);
+    memcpy(path, numbers, sizeof *path);
     leave(reader);
 }
 
@@ -276,17 +277,13 @@ static void print_vector(FILE *out, HdVec3 v) {
 }
 
 static void print_flight(FILE *out, const HdCylinderPath *path) {
-    const double base[3] = {path->r0, path->z0, path->phi0};
-    const double amplitudes[2] = {path->r_amplitude, path->z_amplitude};
-    const double frequencies[3] = {path->r_frequency, path->z_frequency, path->phi_frequency};
-    const double phases[2] = {path->r_phase, path->z_phase};
-    print_numbers(out, base, 3);
-    fputs("   ", out);
-    print_numbers(out, amplitudes, 2);
-    fputs("   ", out);
-    print_numbers(out, frequencies, 3);
-    fputs("   ", out);
-    print_numbers(out, phases, 2);
+    static const int group_sizes[4] = {3, 2, 3, 2}; /* start, amplitudes, frequencies, phases */
+    double numbers[FLIGHT_NUMBERS];
+    memcpy(numbers, path, sizeof numbers);
+    for (int group = 0, first = 0; group < 4; first += group_sizes[group++]) {
+        fputs(group > 0 ? "   " : "", out);
+        print_numbers(out, numbers + first, group_sizes[group]);
+    }
     putc('\n', out);
 }
 

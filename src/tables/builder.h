@@ -40,6 +40,7 @@ typedef struct HdMeshPlace {
 typedef struct HdGroupedLight {
     HdVec3 position; /* in world space */
     HdVec3 about;    /* the middle of its edge, if it has one */
+    double key;      /* by which they are sorted */
     int light, group;
 } HdGroupedLight;
 

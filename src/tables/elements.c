@@ -170,24 +170,11 @@ static double coordinate(HdVec3 v, int axis) {
 }
 
 /* Ties are broken by number, so that every machine makes the same groups. */
-static int compare_coordinate(const HdGroupedLight *a, const HdGroupedLight *b, int axis) {
-    double x = coordinate(a->about, axis), y = coordinate(b->about, axis);
-    return x != y ? (x < y ? -1 : 1) : (a->light > b->light) - (a->light < b->light);
-}
-
-static int compare_x(const void *a, const void *b) {
-    return compare_coordinate(a, b, 0);
-}
-static int compare_y(const void *a, const void *b) {
-    return compare_coordinate(a, b, 1);
-}
-static int compare_z(const void *a, const void *b) {
-    return compare_coordinate(a, b, 2);
-}
-
-static int compare_number(const void *a, const void *b) {
-    int i = ((const HdGroupedLight *)a)->light, j = ((const HdGroupedLight *)b)->light;
-    return (i > j) - (i < j);
+static int compare_keys(const void *a, const void *b) {
+    const HdGroupedLight *left = a, *right = b;
+    if (left->key != right->key)
+        return left->key < right->key ? -1 : 1;
+    return (left->light > right->light) - (left->light < right->light);
 }
 
 static double extent(const HdGroupedLight *lights, int count, int axis) {
@@ -218,17 +205,20 @@ static int place_between(const HdGroupedLight *lights, int count, int place) {
 /* There are no more groups than lights. */
 static void split(HdGroupedLight *lights, int count, int first_group, int groups) {
     if (groups == 1) {
-        qsort(lights, (size_t)count, sizeof *lights, compare_number);
-        for (int i = 0; i < count; i++)
+        for (int i = 0; i < count; i++) {
             lights[i].group = first_group;
+            lights[i].key = 0.0;
+        }
+        qsort(lights, (size_t)count, sizeof *lights, compare_keys);
         return;
     }
     int axis = 0;
     for (int other = 1; other < 3; other++)
         if (extent(lights, count, other) > extent(lights, count, axis))
             axis = other;
-    static int (*const compare[])(const void *, const void *) = {compare_x, compare_y, compare_z};
-    qsort(lights, (size_t)count, sizeof *lights, compare[axis]);
+    for (int i = 0; i < count; i++)
+        lights[i].key = coordinate(lights[i].about, axis);
+    qsort(lights, (size_t)count, sizeof *lights, compare_keys);
     int part = place_between(lights, count, (int)((int64_t)count * (groups / 2) / groups));
     int half = (int)(((int64_t)groups * part + count / 2) / count);
     half = half < 1 ? 1 : half < groups ? half : groups - 1;
