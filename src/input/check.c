@@ -158,46 +158,23 @@ static void check_path(HdSceneChecker *checker, const char *key, const HdPath *p
 
 /* The camera and the picture */
 
-typedef struct Range {
-    double low, high;
-} Range;
-
-static Range range_about(double middle, double amplitude) {
-    return (Range){middle - fabs(amplitude), middle + fabs(amplitude)};
+/* A point is a path that does not swing. */
+static HdCylinderPath swings_of(const HdPath *path) {
+    const HdVec3 aside = hd_vec3(path->point.x, path->point.y, 0.0);
+    if (!path->is_fixed)
+        return path->cylinder;
+    return (HdCylinderPath){.r0 = hd_length(aside), .z0 = path->point.z};
 }
 
-static Range heights_of(const HdPath *path) {
-    if (path->is_fixed)
-        return range_about(path->point.z, 0.0);
-    return range_about(path->cylinder.z0, path->cylinder.z_amplitude);
-}
-
-/* Distances from the z axis: r may be negative. */
-static Range distances_of(const HdPath *path) {
-    if (path->is_fixed)
-        return range_about(hd_length(hd_vec3(path->point.x, path->point.y, 0.0)), 0.0);
-    const Range r = range_about(path->cylinder.r0, path->cylinder.r_amplitude);
-    return (Range){fmax(0.0, fmax(r.low, -r.high)), fmax(-r.low, r.high)};
-}
-
-static double gap_between(Range a, Range b) {
-    return fmax(a.low - b.high, b.low - a.high);
-}
-
-static double size_of(Range range) {
-    return fmax(fabs(range.low), fabs(range.high));
-}
-
-/* True for most flights, and then it saves a look at millions of frames. */
+/* True for most flights, and then it saves a look at millions of frames: their heights or their
+   distances from the z axis differ always. */
 static bool paths_keep_apart(const HdPath *eye, const HdPath *target) {
     static const double margin = 1e-9;
-    const Range heights[2] = {heights_of(eye), heights_of(target)};
-    const Range distances[2] = {distances_of(eye), distances_of(target)};
-    const double size = fmax(fmax(size_of(heights[0]), size_of(heights[1])),
-                             fmax(size_of(distances[0]), size_of(distances[1])));
-    const double gap =
-        fmax(gap_between(heights[0], heights[1]), gap_between(distances[0], distances[1]));
-    return gap > margin * size;
+    const HdCylinderPath a = swings_of(eye), b = swings_of(target);
+    const double r_swing = fabs(a.r_amplitude) + fabs(b.r_amplitude);
+    const double z_swing = fabs(a.z_amplitude) + fabs(b.z_amplitude);
+    const double gap = fmax(fabs(fabs(a.r0) - fabs(b.r0)) - r_swing, fabs(a.z0 - b.z0) - z_swing);
+    return gap > margin * (fabs(a.r0) + fabs(b.r0) + r_swing + fabs(a.z0) + fabs(b.z0) + z_swing);
 }
 
 /* Tells the first frame that has no camera. */

@@ -84,6 +84,9 @@ typedef struct HdFloorFrame {
 HdStatus hd_builder_shape_solids(HdBuilder *builder, HdError *error);
 /* Objects, planes, edges and lights. */
 void hd_builder_count(HdBuilder *builder);
+/* Lists the lights, and groups them: halves the lights across their longest side, and the halves,
+   until there are as many groups as HD_LIGHT_GROUPS says; an edge's lights stay together where they
+   can. */
 void hd_builder_list_lights(HdBuilder *builder);
 
 /* Solids, the floor and all meshes together, as far as there are any of them; and where one of
@@ -101,9 +104,6 @@ HdVec3 hd_edge_colour(const HdEdgeLights *lights, int edge);
 /* A light relative to an object. */
 HdVec3 hd_light_offset(const HdBuilder *builder, const HdLightSource *source, int object);
 HdFloorFrame hd_floor_frame(const HdFloor *floor);
-/* Halves the lights across their longest side, and the halves, until there are as many groups as
-   HD_LIGHT_GROUPS says; an edge's lights stay together where they can. */
-void hd_builder_group_lights(HdBuilder *builder);
 
 /* No ray sees more radiance, contributions being clamped. */
 HdVec3 hd_most_radiance(const HdScene *scene);

@@ -129,7 +129,6 @@ HdStatus NAMED(hd_compile_scene)(HdSceneTables *tables, const HdScene *scene, Hd
         for (int i = 0; i < builder.object_count; i++)
             builder.centres[i] = hd_object_centre(scene, i);
         hd_builder_list_lights(&builder);
-        hd_builder_group_lights(&builder);
         NAMED(hd_fill_header)(&builder, tables);
         NAMED(hd_fill_solids)(&builder);
         if (tables->surveyed)

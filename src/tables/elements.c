@@ -118,20 +118,6 @@ static int list_edge_lights(const HdBuilder *builder, int solid, HdLightSource *
     return count;
 }
 
-void hd_builder_list_lights(HdBuilder *builder) {
-    const HdScene *scene = builder->scene;
-    int count = 0;
-    for (int i = 0; i < scene->light_count; i++)
-        builder->sources[count++] = (HdLightSource){
-            .position = scene->lights[i].position,
-            .owner = -1,
-            .intensity = scene->lights[i].intensity,
-            .falloff = scene->lights[i].falloff,
-        };
-    for (int s = 0; s < scene->solid_count; s++)
-        count += list_edge_lights(builder, s, builder->sources + count);
-}
-
 /* The difference of the centres comes first: an edge light keeps all its digits at its own solid,
    however far from the world's origin that is. */
 HdVec3 hd_light_offset(const HdBuilder *builder, const HdLightSource *source, int object) {
@@ -158,9 +144,8 @@ HdFloorFrame hd_floor_frame(const HdFloor *floor) {
 /* ---- radiance ---- */
 
 HdVec3 hd_most_radiance(const HdScene *scene) {
-    HdVec3 most = hd_radiance_bound(scene);
     double limit = HD_RADIANCE_LIMIT / scene->exposure;
-    return (HdVec3){fmin(most.x, limit), fmin(most.y, limit), fmin(most.z, limit)};
+    return hd_minimum(hd_radiance_bound(scene), hd_vec3(limit, limit, limit));
 }
 
 /* ---- groups of lights near each other ---- */
@@ -244,7 +229,7 @@ static int set_middle(HdBuilder *builder, int first) {
     return next;
 }
 
-void hd_builder_group_lights(HdBuilder *builder) {
+static void group_lights(HdBuilder *builder) {
     int groups = HD_LIGHT_GROUPS(builder->light_count);
     for (int i = 0; i < builder->light_count; i++) {
         const HdLightSource *source = &builder->sources[i];
@@ -257,4 +242,19 @@ void hd_builder_group_lights(HdBuilder *builder) {
         next = set_middle(builder, i);
     if (groups > 0)
         split(builder->grouped, builder->light_count, 0, groups);
+}
+
+void hd_builder_list_lights(HdBuilder *builder) {
+    const HdScene *scene = builder->scene;
+    int count = 0;
+    for (int i = 0; i < scene->light_count; i++)
+        builder->sources[count++] = (HdLightSource){
+            .position = scene->lights[i].position,
+            .owner = -1,
+            .intensity = scene->lights[i].intensity,
+            .falloff = scene->lights[i].falloff,
+        };
+    for (int s = 0; s < scene->solid_count; s++)
+        count += list_edge_lights(builder, s, builder->sources + count);
+    group_lights(builder);
 }

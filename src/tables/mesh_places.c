@@ -42,14 +42,6 @@ HdPlacement hd_placement_of(const HdScene *scene, int number) {
     return to;
 }
 
-static HdVec3 larger(HdVec3 a, HdVec3 b) {
-    return hd_vec3(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z));
-}
-
-static HdVec3 smaller(HdVec3 a, HdVec3 b) {
-    return hd_vec3(fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z));
-}
-
 /* Half the sides of the box about a placed mesh. */
 static HdVec3 reach_of(const HdMesh *mesh, const HdPlacement *to) {
     HdVec3 half = hd_scale(hd_sub(mesh->upper, mesh->lower), 0.5 / hd_mesh_half_side(mesh));
@@ -64,8 +56,8 @@ double hd_box_meshes(const HdScene *scene, HdVec3 *centre) {
     for (int i = 0; i < scene->instance_count; i++) {
         HdPlacement to = hd_placement_of(scene, i);
         HdVec3 reach = reach_of(hd_mesh_of(scene, i), &to);
-        lower = i == 0 ? hd_sub(to.start, reach) : smaller(lower, hd_sub(to.start, reach));
-        upper = i == 0 ? hd_add(to.start, reach) : larger(upper, hd_add(to.start, reach));
+        lower = i == 0 ? hd_sub(to.start, reach) : hd_minimum(lower, hd_sub(to.start, reach));
+        upper = i == 0 ? hd_add(to.start, reach) : hd_maximum(upper, hd_add(to.start, reach));
     }
     HdVec3 half = hd_scale(hd_sub(upper, lower), 0.5);
     *centre = hd_add(lower, half);
