@@ -198,21 +198,18 @@ static void read_input(HdTokenReader *reader, const HdSolidKind *kinds, HdSceneF
         hd_error_prefix(reader->error, reader->name);
 }
 
-const HdSolidKind *hd_classic_variant_kinds(int variant) {
-    static const HdSolidKind kinds[HD_CLASSIC_VARIANTS][HD_CLASSIC_SOLIDS] = {
-        {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_OCTAHEDRON},
-        {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_DODECAHEDRON},
-        {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_ICOSAHEDRON},
-        {HD_TETRAHEDRON, HD_OCTAHEDRON, HD_DODECAHEDRON},
-        {HD_TETRAHEDRON, HD_OCTAHEDRON, HD_ICOSAHEDRON},
-        {HD_TETRAHEDRON, HD_DODECAHEDRON, HD_ICOSAHEDRON},
-        {HD_HEXAHEDRON, HD_OCTAHEDRON, HD_DODECAHEDRON},
-        {HD_HEXAHEDRON, HD_OCTAHEDRON, HD_ICOSAHEDRON},
-        {HD_HEXAHEDRON, HD_DODECAHEDRON, HD_ICOSAHEDRON},
-        {HD_OCTAHEDRON, HD_DODECAHEDRON, HD_ICOSAHEDRON},
-    };
-    return variant >= 1 && variant <= HD_CLASSIC_VARIANTS ? kinds[variant - 1] : NULL;
-}
+static const HdSolidKind variants[HD_CLASSIC_VARIANTS][HD_CLASSIC_SOLIDS] = {
+    {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_OCTAHEDRON},
+    {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_DODECAHEDRON},
+    {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_ICOSAHEDRON},
+    {HD_TETRAHEDRON, HD_OCTAHEDRON, HD_DODECAHEDRON},
+    {HD_TETRAHEDRON, HD_OCTAHEDRON, HD_ICOSAHEDRON},
+    {HD_TETRAHEDRON, HD_DODECAHEDRON, HD_ICOSAHEDRON},
+    {HD_HEXAHEDRON, HD_OCTAHEDRON, HD_DODECAHEDRON},
+    {HD_HEXAHEDRON, HD_OCTAHEDRON, HD_ICOSAHEDRON},
+    {HD_HEXAHEDRON, HD_DODECAHEDRON, HD_ICOSAHEDRON},
+    {HD_OCTAHEDRON, HD_DODECAHEDRON, HD_ICOSAHEDRON},
+};
 
 /* What begins a text behind characters of `before`; '\0': nothing. */
 static char first_beyond(const char *before, const char *text, size_t size) {
@@ -237,8 +234,7 @@ HdStatus hd_classic_parse(HdSceneFile *input, const char *text, size_t size, con
     *input = (HdSceneFile){.output.style = {.picture = {.curve = HD_CURVE_LINEAR, .bits = 8},
                                             .frames_per_second = HD_DEFAULT_FRAMES_PER_SECOND},
                            .texture_curve = HD_CURVE_LINEAR};
-    const HdSolidKind *kinds = hd_classic_variant_kinds(variant);
-    if (kinds == NULL)
+    if (variant < 1 || variant > HD_CLASSIC_VARIANTS)
         return hd_fail(error, HD_BAD_INPUT, "the variant is %d, expected 1 to %d", variant,
                        HD_CLASSIC_VARIANTS);
     if (text == NULL) /* an empty input may come without memory */
@@ -249,7 +245,7 @@ HdStatus hd_classic_parse(HdSceneFile *input, const char *text, size_t size, con
                        name);
     HdTokenReader reader = {.text = text, .size = size, .line = 1, .name = name, .error = error};
     reader.hides_tokens = !hd_classic_may_be(text, size);
-    read_input(&reader, kinds, input);
+    read_input(&reader, variants[variant - 1], input);
     if (reader.status != HD_OK)
         hd_scene_file_free(input);
     return reader.status;

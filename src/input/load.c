@@ -321,14 +321,6 @@ static void check_shares(Reader *reader, HdMaterial *material) {
         material->reflection = material->inner_reflection = 0.0;
 }
 
-static bool number_materials(Reader *reader) {
-    reader->numbers = json_object();
-    for (int i = 0; i < reader->material_count; i++)
-        if (json_object_set_new(reader->numbers, reader->materials[i].name, json_integer(i)) != 0)
-            return false;
-    return reader->numbers != NULL;
-}
-
 static void read_materials(Reader *reader, const HdField *field, const json_t *value,
                            void *unused) {
     const size_t count = json_object_size(value);
@@ -356,8 +348,10 @@ static void read_materials(Reader *reader, const HdField *field, const json_t *v
         check_shares(reader, &named->material);
         leave_to(reader, length);
     }
-    if (!number_materials(reader))
-        fail_memory(reader);
+    reader->numbers = json_object();
+    for (int i = 0; i < reader->material_count; i++)
+        if (json_object_set_new(reader->numbers, reader->materials[i].name, json_integer(i)) != 0)
+            fail_memory(reader);
 }
 
 typedef void ReadField(Reader *reader, const HdField *field, const json_t *value, void *owner);

@@ -409,12 +409,6 @@ static void report_unknown_key(HdSceneReport *report, const HdObjectType *type, 
     report->path[length] = '\0';
 }
 
-static void report_comment(HdSceneReport *report, const json_t *value) {
-    const size_t length = hd_json_path_key(report->path, HD_COMMENT_KEY);
-    hd_report_value(report, value, "a string");
-    report->path[length] = '\0';
-}
-
 void hd_report_unknown_keys(HdSceneReport *report, const HdObjectType *type, const json_t *json) {
     const char *key;
     json_t *value;
@@ -422,9 +416,11 @@ void hd_report_unknown_keys(HdSceneReport *report, const HdObjectType *type, con
         const bool is_comment = strcmp(key, HD_COMMENT_KEY) == 0;
         if (hd_field(type, key) != NULL || (is_comment && json_is_string(value)))
             continue;
-        if (is_comment)
-            report_comment(report, value);
-        else if (hd_problems_are_full(report->problems))
+        if (is_comment) {
+            const size_t length = hd_json_path_key(report->path, key);
+            hd_report_value(report, value, "a string");
+            report->path[length] = '\0';
+        } else if (hd_problems_are_full(report->problems))
             report->problems->count++;
         else
             report_unknown_key(report, type, key);

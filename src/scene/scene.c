@@ -52,18 +52,14 @@ int hd_scene_light_count(const HdScene *scene) {
     return count;
 }
 
-static int is_endless(const HdFalloff *falloff) {
-    return falloff->end > 0.0 ? 0 : 1;
-}
-
 int hd_scene_endless_light_count(const HdScene *scene) {
     int count = 0;
     for (int i = 0; i < scene->light_count; i++)
-        count += is_endless(&scene->lights[i].falloff);
+        count += !(scene->lights[i].falloff.end > 0.0);
     for (int i = 0; i < scene->solid_count; i++) {
         const HdEdgeLights *lights = &scene->solids[i].lights;
-        if (lights->intensity > 0.0)
-            count += is_endless(&lights->falloff) * hd_edge_light_count(&scene->solids[i]);
+        if (lights->intensity > 0.0 && !(lights->falloff.end > 0.0))
+            count += hd_edge_light_count(&scene->solids[i]);
     }
     return count;
 }

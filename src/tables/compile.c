@@ -156,10 +156,6 @@ static int ceil_log2(int n) {
     return bits;
 }
 
-static real power_of_two(int exponent) {
-    return (real)ldexp(1.0, exponent);
-}
-
 /* Bounds are small where they matter, so they have the more bits after the point the less can be
    left out. */
 enum { MOST_BOUND_BITS = 44 };
@@ -170,8 +166,8 @@ static void fill_fixed_bound(View *view, double most_left_out, int samples) {
     int bits = exponent + MOST_BOUND_BITS <= 61 ? MOST_BOUND_BITS : 61 - exponent;
     int excess = exponent + bits + ceil_log2(samples) - 62;
     view->bound_shift = excess > 0 ? excess : 0;
-    view->bound_to_fixed = power_of_two(bits);
-    view->bound_from_fixed = power_of_two(view->bound_shift - bits);
+    view->bound_to_fixed = (real)ldexp(1.0, bits);
+    view->bound_from_fixed = (real)ldexp(1.0, view->bound_shift - bits);
 }
 
 /* A contribution is at most 2^16 and the weights of one level add up to at most 1, so a sample's
@@ -181,8 +177,8 @@ static void fill_fixed_point(View *view, const HdScene *scene, int samples) {
     int sample_bits = sum_bits + 40 <= 62 ? 40 : 62 - sum_bits;
     int excess = sum_bits + sample_bits + ceil_log2(samples) - 62;
     view->pixel_shift = excess > 0 ? excess : 0;
-    view->to_fixed = power_of_two(sample_bits);
-    view->from_fixed = power_of_two(view->pixel_shift - sample_bits);
+    view->to_fixed = (real)ldexp(1.0, sample_bits);
+    view->from_fixed = (real)ldexp(1.0, view->pixel_shift - sample_bits);
 }
 
 static void fill_view(View *view, const HdFrameTables *tables, const HdScene *scene,
