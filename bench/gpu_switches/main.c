@@ -22,7 +22,7 @@
 #include "device/renderer.h"
 #include "input/check.h"
 #include "input/files.h"
-#include "input/load.h"
+#include "input/scene_file.h"
 #include "render/backends.h"
 #include "render/frame.h"
 #include "switches.h"

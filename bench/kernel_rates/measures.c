@@ -9,7 +9,7 @@
 
 #include "input/check.h"
 #include "input/files.h"
-#include "input/load.h"
+#include "input/scene_file.h"
 
 enum { PEAK_ROUNDS = 1 << 16 };
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L
 
-#include "input/load.h"
+#include "input/scene_file.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -16,7 +16,6 @@
 #include "input/files.h"
 #include "input/json/text.h"
 #include "input/report.h"
-#include "scene/notes.h"
 #include "system/path.h"
 
 typedef struct NamedMaterial {

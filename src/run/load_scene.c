@@ -9,7 +9,7 @@
 #include "input/check.h"
 #include "input/classic.h"
 #include "input/files.h"
-#include "input/load.h"
+#include "input/scene_file.h"
 #include "render/survey.h"
 #include "scene/contact.h"
 #include "scene/triangulate.h"

@@ -171,6 +171,9 @@ HdStatus hd_scene_build_meshes(HdScene *scene, HdError *error);
 /* Frees the meshes, their instances and pictures; the scene then has none. */
 void hd_scene_drop_meshes(HdScene *scene);
 
+/* Adds a sentence to `notes` for each thing in a valid scene that is allowed and seldom meant. */
+void hd_scene_notes(const HdScene *scene, HdProblems *notes);
+
 /* Frees what the scene owns and clears it. */
 void hd_scene_free(HdScene *scene);
 

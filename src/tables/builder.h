@@ -81,9 +81,8 @@ typedef struct HdFloorFrame {
 
 /* ---- solids, the floor and lights (elements.c) ---- */
 
-HdStatus hd_builder_shape_solids(HdBuilder *builder, HdError *error);
-/* Objects, planes, edges and lights. */
-void hd_builder_count(HdBuilder *builder);
+/* Shapes the solids, and counts objects, planes, edges, lights and pictures. */
+HdStatus hd_builder_count(HdBuilder *builder, HdError *error);
 /* Lists the lights, and groups them: halves the lights across their longest side, and the halves,
    until there are as many groups as HD_LIGHT_GROUPS says; an edge's lights stay together where they
    can. */

@@ -80,14 +80,14 @@ static HdStatus allocate_builder(HdBuilder *builder, HdSceneTables *tables, HdEr
     const HdMemoryRoom machine = {.name = "this machine",
                                   .advice = "fewer triangles need less",
                                   .memory = hd_physical_memory()};
-    HdStatus status = hd_check_room(tables, &machine, error);
-    for (int i = 0; status == HD_OK && i < HD_SCENE_TABLE_COUNT; i++) {
+    HD_TRY(hd_check_room(tables, &machine, error));
+    for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++) {
         char what[64];
         snprintf(what, sizeof what, "scene's %s", hd_scene_table_content(i));
-        status = hd_table_allocate(&tables->table[i], what, error);
+        HD_TRY(hd_table_allocate(&tables->table[i], what, error));
         builder->table[i] = tables->table[i].data;
     }
-    return status;
+    return HD_OK;
 }
 
 static void describe_material(HdSceneTables *tables, const HdMaterial *material) {
@@ -116,11 +116,10 @@ static void describe_shape(const HdBuilder *builder, HdSceneTables *tables) {
 
 HdStatus NAMED(hd_compile_scene)(HdSceneTables *tables, const HdScene *scene, HdError *error) {
     HdBuilder builder = {.scene = scene, .lanes = tables->lanes};
-    HdStatus status = hd_builder_shape_solids(&builder, error);
+    HdStatus status = hd_builder_count(&builder, error);
     if (status == HD_OK)
         status = hd_builder_prepare_meshes(&builder, error);
     if (status == HD_OK) {
-        hd_builder_count(&builder);
         describe_shape(&builder, tables);
         builder.first_mesh_material = 2 * builder.solid_count + 1;
         status = allocate_builder(&builder, tables, error);

@@ -15,17 +15,6 @@ int hd_solid_plane_count(const HdPlatonic *shape) {
     return shape->face_count / hd_faces_per_plane(shape);
 }
 
-HdStatus hd_builder_shape_solids(HdBuilder *builder, HdError *error) {
-    const HdScene *scene = builder->scene;
-    builder->shapes = calloc((size_t)scene->solid_count + 1, sizeof *builder->shapes);
-    if (builder->shapes == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: the scene has %d solids",
-                       scene->solid_count);
-    for (int s = 0; s < scene->solid_count; s++)
-        builder->shapes[s] = hd_solid_shape(&scene->solids[s]);
-    return HD_OK;
-}
-
 static bool has_solids(const HdScene *scene) {
     return scene->geometry == HD_GEOMETRY_SOLIDS;
 }
@@ -66,8 +55,14 @@ static void count_pictures(HdBuilder *builder) {
     }
 }
 
-void hd_builder_count(HdBuilder *builder) {
+HdStatus hd_builder_count(HdBuilder *builder, HdError *error) {
     const HdScene *scene = builder->scene;
+    builder->shapes = calloc((size_t)scene->solid_count + 1, sizeof *builder->shapes);
+    if (builder->shapes == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: the scene has %d solids",
+                       scene->solid_count);
+    for (int s = 0; s < scene->solid_count; s++)
+        builder->shapes[s] = hd_solid_shape(&scene->solids[s]);
     builder->solid_count = has_solids(scene) ? scene->solid_count : 0;
     builder->has_floor = has_floor(scene);
     builder->object_count = hd_object_count(scene);
@@ -83,6 +78,7 @@ void hd_builder_count(HdBuilder *builder) {
     if (builder->has_floor)
         builder->plane_count += HD_FLOOR_PLANES;
     count_pictures(builder);
+    return HD_OK;
 }
 
 /* ---- lights ---- */
