@@ -334,8 +334,7 @@ static bool has_sound_lights(const HdSolid *solid) {
 }
 
 /* Whether the solid's lights alone are too many, which it then tells. */
-static bool check_light_count(HdSceneChecker *checker, const HdSolid *solid, int index) {
-    const int count = hd_edge_light_count(solid), per_edge = solid->lights.per_edge;
+static bool check_light_count(HdSceneChecker *checker, int per_edge, int count, int index) {
     const bool is_json = checker->naming == HD_NAMING_JSON;
     if (count <= HD_MAX_LIGHTS)
         return false;
@@ -355,8 +354,9 @@ static void check_all_lights(HdSceneChecker *checker, const HdScene *scene) {
     for (int i = 0; i < checker->solid_count; i++) {
         if (!has_sound_lights(&scene->solids[i]))
             continue;
-        lights += hd_edge_light_count(&scene->solids[i]);
-        is_told |= check_light_count(checker, &scene->solids[i], i);
+        const int count = hd_edge_light_count(&scene->solids[i]);
+        lights += count;
+        is_told |= check_light_count(checker, scene->solids[i].lights.per_edge, count, i);
     }
     if (!is_told && lights > HD_MAX_LIGHTS)
         tell(checker, "number of lights, those on the edges included, is %d, expected at most %d",
