@@ -20,10 +20,9 @@
 #include <string.h>
 
 #include "device/renderer.h"
-#include "input/builtin.h"
 #include "input/check.h"
-#include "input/load.h"
-#include "input/meshes.h"
+#include "input/files.h"
+#include "input/scene_file.h"
 #include "render/backends.h"
 #include "render/frame.h"
 #include "switches.h"

@@ -7,10 +7,9 @@
 #include <string.h>
 #include <time.h>
 
-#include "input/builtin.h"
 #include "input/check.h"
-#include "input/load.h"
-#include "input/meshes.h"
+#include "input/files.h"
+#include "input/scene_file.h"
 
 enum { PEAK_ROUNDS = 1 << 16 };
 

@@ -34,6 +34,13 @@ static inline double hd_length(HdVec3 a) {
 static inline double hd_largest(HdVec3 a) {
     return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
 }
+/* The minimum and the maximum of two, in each coordinate. */
+static inline HdVec3 hd_minimum(HdVec3 a, HdVec3 b) {
+    return hd_vec3(fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z));
+}
+static inline HdVec3 hd_maximum(HdVec3 a, HdVec3 b) {
+    return hd_vec3(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z));
+}
 static inline HdVec3 hd_normalize(HdVec3 a) {
     return hd_scale(a, 1.0 / hd_length(a));
 }

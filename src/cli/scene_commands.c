@@ -10,7 +10,7 @@
 #include "base/text.h"
 #include "cli/options.h"
 #include "image/picture.h"
-#include "input/builtin.h"
+#include "input/files.h"
 #include "input/json/json_device_text.h"
 #include "input/write.h"
 #include "run/load_scene.h"

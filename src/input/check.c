@@ -1,10 +1,69 @@
 /* SPDX-License-Identifier: MIT */
 #include "input/check.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "input/fields.h"
+#include "scene/camera.h"
+#include "scene/contact.h"
+
+/* The kernels count positions in the picture in half samples, as floats. */
+_Static_assert(2 * HD_MAX_IMAGE_SIDE * HD_MAX_SAMPLES_PER_SIDE < 1 << 24,
+               "every half sample of the largest picture is an exact float");
+
+/* What a sum such as 0.7 + 0.3 may exceed 1 by. */
+static const double sum_tolerance = 1e-9;
+
+/* Adds a problem of the part that is checked: a format, without the place, and its arguments. */
+#define tell(checker, format, ...)                                                                 \
+    hd_problem((checker)->problems, "%s" format, (checker)->place, __VA_ARGS__)
+
+/* Places */
+
+/* Names the part of the scene that is checked from then on, in front of its problems; "": none. */
+static void enter(HdSceneChecker *checker, const char *prose, const char *json) {
+    const char *name = checker->naming == HD_NAMING_JSON ? json : prose;
+    snprintf(checker->place, sizeof checker->place, "%s%s", name, name[0] != '\0' ? ": " : "");
+}
+
+/* The same for an element of a list, counted from 0. */
+static void enter_item(HdSceneChecker *checker, const char *prose, const char *json, int index) {
+    if (checker->naming == HD_NAMING_JSON)
+        snprintf(checker->place, sizeof checker->place, "%s[%d]: ", json, index);
+    else
+        snprintf(checker->place, sizeof checker->place, "%s %d: ", prose, index + 1);
+}
+
+static void enter_rim(HdSceneChecker *checker, int index) {
+    if (checker->naming == HD_NAMING_JSON)
+        snprintf(checker->place, sizeof checker->place, "solids[%d].rim: ", index);
+    else
+        snprintf(checker->place, sizeof checker->place, "solid %d: rim ", index + 1);
+}
+
+/* Back to the scene as a whole. */
+static void leave(HdSceneChecker *checker) {
+    checker->place[0] = '\0';
+}
+
+/* Values */
+
+static void tell_value(HdSceneChecker *checker, const char *what, double value,
+                       const char *expected) {
+    tell(checker, "%s is %.15g, expected %s", what, value, expected);
+}
+
+static void check_int(HdSceneChecker *checker, const char *what, int value, int low, int high) {
+    if (value < low || value > high)
+        tell(checker, "%s is %d, expected %d to %d", what, value, low, high);
+}
+
+static bool check_count(HdSceneChecker *checker, const char *what, int count, int least, int most) {
+    check_int(checker, what, count, least, most);
+    return count >= least && count <= most;
+}
 
 /* NaN compares false with everything, so it is outside every range. */
 static void check_number(HdSceneChecker *checker, const HdField *field, const char *what,
@@ -12,7 +71,7 @@ static void check_number(HdSceneChecker *checker, const HdField *field, const ch
     const char *unit = field->unit != NULL ? field->unit : "";
     const double low = field->low, high = field->high;
     char expected[96];
-    if (hd_field_holds(field, value))
+    if (hd_field_holds(field, value) && !(value > 0.0 && value < field->least_but_zero))
         return;
     if (field->least_but_zero > 0.0)
         snprintf(expected, sizeof expected, "0, or a number from %.15g to %.15g",
@@ -23,7 +82,7 @@ static void check_number(HdSceneChecker *checker, const HdField *field, const ch
         snprintf(expected, sizeof expected, "at least %.15g and less than %.15g", low, high);
     else
         snprintf(expected, sizeof expected, "a number from %.15g to %.15g", low, high);
-    hd_tell(checker, "%s%s is %.15g, expected %s", what, part, value, expected);
+    tell(checker, "%s%s is %.15g, expected %s", what, part, value, expected);
 }
 
 static void check_vector(HdSceneChecker *checker, const HdField *field, const char *what,
@@ -36,19 +95,13 @@ static void check_vector(HdSceneChecker *checker, const HdField *field, const ch
     check_number(checker, field, what, parts[2], value->z);
 }
 
-static bool check_count(HdSceneChecker *checker, const HdField *field, int count) {
-    char what[64];
-    snprintf(what, sizeof what, "number of %ss", field->said);
-    hd_check_int(checker, what, count, field->least, field->most);
-    return count >= field->least && count <= field->most;
-}
-
 static void check_vectors(HdSceneChecker *checker, const HdField *field, const HdVec3 *vectors,
                           int count) {
-    if (!check_count(checker, field, count))
+    char what[64];
+    snprintf(what, sizeof what, "number of %ss", field->said);
+    if (!check_count(checker, what, count, field->least, field->most))
         return;
     for (int i = 0; i < count; i++) {
-        char what[64];
         snprintf(what, sizeof what, "%s %d", field->said, i + 1);
         check_vector(checker, field, what, &vectors[i]);
     }
@@ -60,7 +113,7 @@ static void check_field(HdSceneChecker *checker, const HdField *field, const voi
     hd_field_said(field, what);
     switch (field->type) {
     case HD_FIELD_INTEGER:
-        hd_check_int(checker, what, *(const int *)place, (int)field->low, (int)field->high);
+        check_int(checker, what, *(const int *)place, (int)field->low, (int)field->high);
         break;
     case HD_FIELD_NUMBER:
         check_number(checker, field, what, "", *(const double *)place);
@@ -87,72 +140,414 @@ static void check_fields(HdSceneChecker *checker, const HdObjectType *type, cons
             check_field(checker, &type->fields[i], owner);
 }
 
-static const HdObjectType *object_of(const HdObjectType *type, const char *key) {
-    return hd_field(type, key)->object;
+/* Checks an object that the scene has at that key. */
+static void check_object(HdSceneChecker *checker, const char *key, const void *owner) {
+    check_fields(checker, hd_field(&hd_scene_fields, key)->object, owner, NULL);
 }
 
 static void check_path(HdSceneChecker *checker, const char *key, const HdPath *path) {
-    const HdField *field = hd_field(object_of(&hd_scene_fields, "camera"), key);
+    const HdField *field = hd_field(hd_field(&hd_scene_fields, "camera")->object, key);
     char json[32];
     snprintf(json, sizeof json, "camera.%s", key);
-    hd_check_enter(checker, key, json);
+    enter(checker, key, json);
     if (path->is_fixed)
         check_vector(checker, field, "point", &path->point);
     else
         check_fields(checker, field->object, path, NULL);
 }
 
+/* The camera and the picture */
+
+/* A point is a path that does not swing. */
+static HdCylinderPath swings_of(const HdPath *path) {
+    const HdVec3 aside = hd_vec3(path->point.x, path->point.y, 0.0);
+    if (!path->is_fixed)
+        return path->cylinder;
+    return (HdCylinderPath){.r0 = hd_length(aside), .z0 = path->point.z};
+}
+
+/* True for most flights, and then it saves a look at millions of frames: their heights or their
+   distances from the z axis differ always. */
+static bool paths_keep_apart(const HdPath *eye, const HdPath *target) {
+    static const double margin = 1e-9;
+    const HdCylinderPath a = swings_of(eye), b = swings_of(target);
+    const double r_swing = fabs(a.r_amplitude) + fabs(b.r_amplitude);
+    const double z_swing = fabs(a.z_amplitude) + fabs(b.z_amplitude);
+    const double gap = fmax(fabs(fabs(a.r0) - fabs(b.r0)) - r_swing, fabs(a.z0 - b.z0) - z_swing);
+    return gap > margin * (fabs(a.r0) + fabs(b.r0) + r_swing + fabs(a.z0) + fabs(b.z0) + z_swing);
+}
+
+/* Tells the first frame that has no camera. */
+static void check_flight(HdSceneChecker *checker, const HdScene *scene) {
+    const bool stands_still = scene->eye.is_fixed && scene->target.is_fixed;
+    const int frames = stands_still ? 1 : scene->frame_count;
+    HdStatus status = HD_OK;
+    HdCamera camera;
+    HdError error;
+    if (checker->is_view_wrong || paths_keep_apart(&scene->eye, &scene->target))
+        return;
+    for (int frame = 0; status == HD_OK && frame < frames; frame++)
+        status = hd_camera_at(&camera, scene, frame, &error);
+    if (status != HD_OK)
+        tell(checker, "%s", error.message);
+}
+
 static void check_camera(HdSceneChecker *checker, const HdScene *scene) {
-    check_fields(checker, object_of(&hd_scene_fields, "camera"), scene, NULL);
+    const int before = checker->problems->count;
+    enter(checker, "", "camera");
+    check_object(checker, "camera", scene);
     check_path(checker, "eye", &scene->eye);
     check_path(checker, "target", &scene->target);
+    leave(checker);
+    checker->is_view_wrong |= checker->problems->count != before;
 }
 
 static void check_picture(HdSceneChecker *checker, const HdScene *scene) {
-    check_fields(checker, object_of(&hd_scene_fields, "image"), scene, NULL);
+    if ((int64_t)scene->width * scene->height > HD_MAX_IMAGE_PIXELS)
+        tell(checker, "%d x %d pixels are too many, expected at most %d in all", scene->width,
+             scene->height, (int)HD_MAX_IMAGE_PIXELS);
+    check_object(checker, "image", scene);
     check_vector(checker, hd_field(&hd_scene_fields, "background"), "background",
                  &scene->background);
 }
 
-static void check_solid(HdSceneChecker *checker, const HdSolid *solid) {
-    hd_check_int(checker, "kind", (int)solid->kind, 0, HD_SOLID_KIND_COUNT - 1);
-    check_fields(checker, object_of(&hd_scene_fields, "solids"), solid, NULL);
+/* Materials */
+
+static bool is_share(double value) {
+    return value >= 0.0 && value <= 1.0;
 }
 
-static void check_instance(HdSceneChecker *checker, const HdInstance *instance) {
+/* Of one side of a material, "" or "inner ". */
+static void check_sum(HdSceneChecker *checker, const char *side, double reflection,
+                      double transmission) {
+    const double sum = reflection + transmission;
+    if (is_share(reflection) && is_share(transmission) && sum > 1.0 + sum_tolerance)
+        tell(checker, "%sreflection + transmission is %.15g, expected at most 1", side, sum);
+}
+
+void hd_check_material(HdSceneChecker *checker, const HdMaterial *material, bool may_refract) {
+    check_fields(checker, &hd_material_fields, material,
+                 may_refract ? NULL : "index_of_refraction");
+    check_sum(checker, "", material->reflection, material->transmission);
+    if (material->has_inner_side)
+        check_sum(checker, "inner ", material->inner_reflection, material->inner_transmission);
+    if (!may_refract && material->index_of_refraction != 1.0)
+        tell_value(checker, "index of refraction", material->index_of_refraction,
+                   "1, since only a solid's faces can refract");
+}
+
+static void check_opaque(HdSceneChecker *checker, const char *what, double transmission) {
+    if (transmission > 0.0)
+        tell_value(checker, what, transmission, "0, since rims are opaque");
+}
+
+static void check_rim_material(HdSceneChecker *checker, const HdMaterial *rim) {
+    hd_check_material(checker, rim, false);
+    check_opaque(checker, "transmission", rim->transmission);
+    if (rim->has_inner_side)
+        check_opaque(checker, "inner transmission", rim->inner_transmission);
+}
+
+/* Lights and solids */
+
+static void check_falloff(HdSceneChecker *checker, const HdFalloff *falloff) {
+    if (falloff->distance > 0.0 && falloff->end > 0.0)
+        tell(checker, "falloff distance is %.15g and falloff end is %.15g, expected one of them",
+             falloff->distance, falloff->end);
+}
+
+/* The radius of the circle inscribed in a face of the solid with circumradius 1. */
+static double face_inradius(const HdPlatonic *platonic) {
+    const double half_edge = platonic->edge_length / 2.0;
+    return sqrt(1.0 - half_edge * half_edge - platonic->inradius * platonic->inradius);
+}
+
+static void check_rim_width(HdSceneChecker *checker, const HdSolid *solid,
+                            const HdPlatonic *platonic) {
+    const double limit = solid->circumradius * face_inradius(platonic);
+    char expected[96];
+    if (solid->rim_width >= 0.0 && solid->rim_width < limit)
+        return;
+    snprintf(expected, sizeof expected,
+             "at least 0 and less than the radius of the circle in a face, %.6g", limit);
+    tell_value(checker, "rim width", solid->rim_width, expected);
+}
+
+static void check_edge_lights(HdSceneChecker *checker, const HdEdgeLights *lights) {
+    if (lights->per_edge == 0)
+        return;
+    const HdObjectType *solid = hd_field(&hd_scene_fields, "solids")->object;
+    check_fields(checker, hd_field(solid, "edge_lights")->object, lights, NULL);
+    check_falloff(checker, &lights->falloff);
+}
+
+static void check_rim(HdSceneChecker *checker, const HdSolid *solid, int index) {
+    HdPlatonic platonic;
+    if (!checker->is_solid_wrong[index]) {
+        hd_platonic(solid->kind, &platonic);
+        check_rim_width(checker, solid, &platonic);
+    }
+    if (solid->rim_width > 0.0) {
+        enter_rim(checker, index);
+        check_rim_material(checker, &solid->rim);
+        enter_item(checker, "solid", "solids", index);
+    }
+}
+
+static void check_solid(HdSceneChecker *checker, const HdSolid *solid, int index) {
+    const int before = checker->problems->count;
+    const bool was_wrong = checker->is_solid_wrong[index];
+    enter_item(checker, "solid", "solids", index);
+    check_int(checker, "kind", (int)solid->kind, 0, HD_SOLID_KIND_COUNT - 1);
+    check_object(checker, "solids", solid);
+    checker->is_solid_wrong[index] |= checker->problems->count != before;
+    hd_check_material(checker, &solid->face, true);
+    if (!was_wrong)
+        check_rim(checker, solid, index);
+    check_edge_lights(checker, &solid->lights);
+    leave(checker);
+}
+
+static void check_lights(HdSceneChecker *checker, const HdScene *scene) {
+    if (!check_count(checker, "number of lights", scene->light_count, 0, HD_MAX_LIGHTS))
+        return;
+    for (int i = 0; i < scene->light_count; i++) {
+        enter_item(checker, "light", "lights", i);
+        check_object(checker, "lights", &scene->lights[i]);
+        check_falloff(checker, &scene->lights[i].falloff);
+        leave(checker);
+    }
+}
+
+static void check_solids(HdSceneChecker *checker, const HdScene *scene) {
+    if (!check_count(checker, "number of solids", scene->solid_count, 0, HD_MAX_SOLIDS))
+        return;
+    checker->solid_count = scene->solid_count;
+    for (int i = 0; i < checker->solid_count; i++)
+        check_solid(checker, &scene->solids[i], i);
+}
+
+/* Whether its lights can be counted. */
+static bool has_sound_lights(const HdSolid *solid) {
+    const int per_edge = solid->lights.per_edge, kind = (int)solid->kind;
+    return kind >= 0 && kind < HD_SOLID_KIND_COUNT && per_edge >= 0 && per_edge <= HD_MAX_LIGHTS;
+}
+
+/* Whether the solid's lights alone are too many, which it then tells. */
+static bool check_light_count(HdSceneChecker *checker, int per_edge, int count, int index) {
+    const bool is_json = checker->naming == HD_NAMING_JSON;
+    if (count <= HD_MAX_LIGHTS)
+        return false;
+    enter_item(checker, "solid", "solids", index);
+    tell(checker,
+         "%s is %d, which makes %d lights on its %d edges, expected at most %d lights in "
+         "the scene",
+         is_json ? "edge_lights.per_edge" : "number of lights per edge", per_edge, count,
+         count / per_edge, (int)HD_MAX_LIGHTS);
+    leave(checker);
+    return true;
+}
+
+static void check_all_lights(HdSceneChecker *checker, const HdScene *scene) {
+    int lights = scene->light_count;
+    bool is_told = scene->light_count > HD_MAX_LIGHTS;
+    for (int i = 0; i < checker->solid_count; i++) {
+        if (!has_sound_lights(&scene->solids[i]))
+            continue;
+        const int count = hd_edge_light_count(&scene->solids[i]);
+        lights += count;
+        is_told |= check_light_count(checker, scene->solids[i].lights.per_edge, count, i);
+    }
+    if (!is_told && lights > HD_MAX_LIGHTS)
+        tell(checker, "number of lights, those on the edges included, is %d, expected at most %d",
+             lights, (int)HD_MAX_LIGHTS);
+}
+
+/* The floor */
+
+/* The cross product of the diagonals is normal to both, so two opposite corners are always equally
+   high above it. */
+static void check_floor_shape(HdSceneChecker *checker, const HdVec3 corner[4]) {
+    static const double flatness = 1e-5; /* of the longer diagonal */
+    static const double sharpness = 1e-9;
+    const HdVec3 first = hd_sub(corner[2], corner[0]);
+    const HdVec3 second = hd_sub(corner[3], corner[1]);
+    const double size = fmax(hd_length(first), hd_length(second));
+    const HdVec3 normal = hd_cross(first, second);
+    const double area = hd_length(normal);
+    if (!(size >= HD_MIN_LENGTH && area > sharpness * size * size)) {
+        hd_problem(checker->problems,
+                   "%sits corners enclose no area or its sides cross, expected the corners of a "
+                   "convex quadrilateral in their order around it",
+                   checker->place);
+        return;
+    }
+    const double height = fabs(hd_dot(hd_sub(corner[1], corner[0]), normal)) / area;
+    if (height > flatness * size) {
+        tell(checker,
+             "its diagonals pass each other %.6g apart, expected four corners in one plane "
+             "(at most %.6g apart)",
+             height, flatness * size);
+        return;
+    }
+    for (int i = 0; i < 4; i++) {
+        const HdVec3 before = hd_sub(corner[i], corner[(i + 3) % 4]);
+        const HdVec3 after = hd_sub(corner[(i + 1) % 4], corner[i]);
+        if (!(hd_dot(hd_cross(before, after), normal) / area > sharpness * size * size))
+            tell(checker,
+                 "corner %d is not a convex corner, expected the corners of a convex "
+                 "quadrilateral in their order around it",
+                 i + 1);
+    }
+}
+
+static void check_floor(HdSceneChecker *checker, const HdFloor *floor) {
+    const int before = checker->problems->count;
+    if (!floor->present || checker->is_floor_wrong)
+        return;
+    enter(checker, "floor", "floor");
+    const HdObjectType *type = hd_field(&hd_scene_fields, "floor")->object;
+    check_vectors(checker, hd_field(type, "corners"), floor->corners, 4);
+    if (checker->problems->count == before)
+        check_floor_shape(checker, floor->corners);
+    checker->is_floor_wrong = checker->problems->count != before;
+    hd_check_material(checker, &floor->material, false);
+    if (floor->material.has_inner_side)
+        hd_problem(
+            checker->problems,
+            "%sits material has an inner side, expected none: a floor is alike on both sides",
+            checker->place);
+    if (floor->texture.width != 0) {
+        check_int(checker, "texture width", floor->texture.width, 1, HD_MAX_TEXTURE_SIDE);
+        check_int(checker, "texture height", floor->texture.height, 1, HD_MAX_TEXTURE_SIDE);
+    }
+    leave(checker);
+}
+
+/* Meshes in their places */
+
+static void check_reach(HdSceneChecker *checker, const char *what, double value, double low) {
+    const double high = 2.0 * HD_MAX_NUMBER;
+    if (!(value >= low && value <= high))
+        tell(checker, "%s is %.15g, expected a number from %.15g to %.15g", what, value, low, high);
+}
+
+/* As large or small as the triangles of any valid solid or floor may be: from corner to corner of a
+   box that fits all coordinates, and from a side that the least length is the diagonal of. */
+static void check_size(HdSceneChecker *checker, const HdMesh *mesh, HdVec3 scale) {
+    const HdVec3 sides = hd_sub(mesh->upper, mesh->lower);
+    const HdVec3 far = hd_vec3(fmax(fabs(mesh->lower.x), fabs(mesh->upper.x)) * scale.x,
+                               fmax(fabs(mesh->lower.y), fabs(mesh->upper.y)) * scale.y,
+                               fmax(fabs(mesh->lower.z), fabs(mesh->upper.z)) * scale.z);
+    check_reach(checker, "longest side of its mesh, scaled,",
+                fmax(sides.x * scale.x, fmax(sides.y * scale.y, sides.z * scale.z)),
+                HD_MIN_LENGTH / 2.0);
+    check_reach(checker, "farthest coordinate of its mesh, scaled,",
+                fmax(far.x, fmax(far.y, far.z)), 0.0);
+}
+
+static void check_instance(HdSceneChecker *checker, const HdScene *scene, int index) {
+    const HdInstance *instance = &scene->instances[index];
     const HdMeshEntry entry = {.instance = *instance};
-    check_fields(checker, object_of(&hd_scene_fields, "meshes"), &entry, NULL);
+    enter_item(checker, "mesh", "meshes", index);
+    const int before = checker->problems->count;
+    check_int(checker, "number of its mesh", instance->mesh, 0, scene->mesh_count - 1);
+    check_object(checker, "meshes", &entry);
+    if (checker->problems->count == before)
+        check_size(checker, &scene->meshes[instance->mesh], instance->scale);
+    if (instance->has_material)
+        hd_check_material(checker, &instance->material, true);
+    leave(checker);
 }
 
-static void check_corners(HdSceneChecker *checker, const HdFloor *floor) {
-    check_vectors(checker, hd_field(object_of(&hd_scene_fields, "floor"), "corners"),
-                  floor->corners, 4);
+void hd_check_instances(HdSceneChecker *checker, const HdScene *scene) {
+    check_int(checker, "number of meshes in their places", scene->instance_count, 0,
+              HD_MAX_INSTANCES);
+    for (int i = 0; i < scene->instance_count && i < HD_MAX_INSTANCES; i++)
+        check_instance(checker, scene, i);
 }
 
-void hd_check_values(HdSceneChecker *checker, HdScenePart part, const void *owner) {
-    const HdObjectType *solid = object_of(&hd_scene_fields, "solids");
-    if (part == HD_PART_CAMERA)
-        check_camera(checker, owner);
-    else if (part == HD_PART_PICTURE)
-        check_picture(checker, owner);
-    else if (part == HD_PART_LIGHT)
-        check_fields(checker, object_of(&hd_scene_fields, "lights"), owner, NULL);
-    else if (part == HD_PART_SOLID)
-        check_solid(checker, owner);
-    else if (part == HD_PART_EDGE_LIGHTS)
-        check_fields(checker, object_of(solid, "edge_lights"), owner, NULL);
-    else if (part == HD_PART_FLOOR)
-        check_corners(checker, owner);
-    else if (part == HD_PART_INSTANCE)
-        check_instance(checker, owner);
+/* Overlaps */
+
+static bool refracts(const HdSolid *solid) {
+    return solid->face.index_of_refraction != 1.0;
+}
+
+/* "solids[1] (cube)" */
+static void name_solid(const HdSceneChecker *checker, const HdSolid *solid, int index,
+                       char out[48]) {
+    const char *kind = hd_solid_kind_name(solid->kind);
+    if (checker->naming == HD_NAMING_JSON)
+        snprintf(out, 48, "solids[%d] (%s)", index, kind);
     else
-        check_fields(checker, &hd_material_fields, owner,
-                     part == HD_PART_COATING ? "index_of_refraction" : NULL);
+        snprintf(out, 48, "solid %d (%s)", index + 1, kind);
+}
+
+static void add_overlap(HdSceneChecker *checker, const char *refracting, const char *other,
+                        double depth) {
+    const bool is_json = checker->naming == HD_NAMING_JSON;
+    hd_problem(checker->problems,
+               "%s: it refracts and overlaps %s, %.3g deep; move them apart or give it %s",
+               refracting, other, depth,
+               is_json ? "index_of_refraction 1" : "an index of refraction of 1");
+}
+
+static void check_pair(HdSceneChecker *checker, const HdSolid *solids, int first, int second) {
+    char name[48], other_name[48];
+    if (checker->is_solid_wrong[second] || !(refracts(&solids[first]) || refracts(&solids[second])))
+        return;
+    const double depth = hd_solid_overlap(&solids[first], &solids[second]);
+    const int subject = refracts(&solids[first]) ? first : second;
+    const int other = first + second - subject;
+    if (depth <= 0.0)
+        return;
+    name_solid(checker, &solids[subject], subject, name);
+    name_solid(checker, &solids[other], other, other_name);
+    add_overlap(checker, name, other_name, depth);
+}
+
+static void check_above_floor(HdSceneChecker *checker, const HdScene *scene, int index) {
+    char name[48];
+    if (!scene->floor.present || checker->is_floor_wrong || !refracts(&scene->solids[index]))
+        return;
+    const double depth = hd_floor_overlap(&scene->solids[index], &scene->floor);
+    if (depth <= 0.0)
+        return;
+    name_solid(checker, &scene->solids[index], index, name);
+    add_overlap(checker, name, "the floor", depth);
+}
+
+/* Only refracting solids must keep clear of others, as far as all are where they are meant to be.
+ */
+static void check_overlaps(HdSceneChecker *checker, const HdScene *scene) {
+    for (int i = 0; i < checker->solid_count; i++) {
+        if (checker->is_solid_wrong[i])
+            continue;
+        for (int j = i + 1; j < checker->solid_count; j++)
+            check_pair(checker, scene->solids, i, j);
+        check_above_floor(checker, scene, i);
+    }
+}
+
+/* What is not there (no rim, no edge lights, no floor, no texture) is not checked. */
+void hd_check_scene(HdSceneChecker *checker, const HdScene *scene) {
+    check_camera(checker, scene);
+    check_picture(checker, scene);
+    check_lights(checker, scene);
+    check_solids(checker, scene);
+    check_all_lights(checker, scene);
+    check_floor(checker, &scene->floor);
+    hd_check_instances(checker, scene);
+    enter(checker, "", "camera");
+    check_flight(checker, scene);
+    leave(checker);
+    if (!checker->is_any_solid_wrong)
+        check_overlaps(checker, scene);
 }
 
 HdStatus hd_scene_validate(const HdScene *scene, HdError *error) {
     HdProblems problems = {0};
-    HdSceneChecker checker = {.problems = &problems, .check_values = hd_check_values};
+    HdSceneChecker checker = {.problems = &problems};
     hd_check_scene(&checker, scene);
     return hd_problems_first(&problems, error);
 }

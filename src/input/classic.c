@@ -57,18 +57,19 @@ static void leave(HdTokenReader *reader) {
     reader->where[0] = '\0';
 }
 
+enum { FLIGHT_NUMBERS = 10 };
+_Static_assert(sizeof(HdCylinderPath) == FLIGHT_NUMBERS * sizeof(double),
+               "a path on a cylinder has these numbers, in the order of the text");
+
 static void read_flight(HdTokenReader *reader, const char *name, HdCylinderPath *path) {
+    static const char *const names[FLIGHT_NUMBERS] = {
+        "r0",          "z0",          "phi0",          "r amplitude", "z amplitude",
+        "r frequency", "z frequency", "phi frequency", "r phase",     "z phase"};
+    double numbers[FLIGHT_NUMBERS] = {0.0};
     enter(reader, name, 0);
-    hd_read_number(reader, "r0", &path->r0);
-    hd_read_number(reader, "z0", &path->z0);
-    hd_read_number(reader, "phi0", &path->phi0);
-    hd_read_number(reader, "r amplitude", &path->r_amplitude);
-    hd_read_number(reader, "z amplitude", &path->z_amplitude);
-    hd_read_number(reader, "r frequency", &path->r_frequency);
-    hd_read_number(reader, "z frequency", &path->z_frequency);
-    hd_read_number(reader, "phi frequency", &path->phi_frequency);
-    hd_read_number(reader, "r phase", &path->r_phase);
-    hd_read_number(reader, "z phase", &path->z_phase);
+    for (int i = 0; i < FLIGHT_NUMBERS; i++)
+        hd_read_number(reader, names[i], &numbers[i]);
+    memcpy(path, numbers, sizeof *path);
     leave(reader);
 }
 
@@ -197,21 +198,18 @@ static void read_input(HdTokenReader *reader, const HdSolidKind *kinds, HdSceneF
         hd_error_prefix(reader->error, reader->name);
 }
 
-const HdSolidKind *hd_classic_variant_kinds(int variant) {
-    static const HdSolidKind kinds[HD_CLASSIC_VARIANTS][HD_CLASSIC_SOLIDS] = {
-        {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_OCTAHEDRON},
-        {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_DODECAHEDRON},
-        {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_ICOSAHEDRON},
-        {HD_TETRAHEDRON, HD_OCTAHEDRON, HD_DODECAHEDRON},
-        {HD_TETRAHEDRON, HD_OCTAHEDRON, HD_ICOSAHEDRON},
-        {HD_TETRAHEDRON, HD_DODECAHEDRON, HD_ICOSAHEDRON},
-        {HD_HEXAHEDRON, HD_OCTAHEDRON, HD_DODECAHEDRON},
-        {HD_HEXAHEDRON, HD_OCTAHEDRON, HD_ICOSAHEDRON},
-        {HD_HEXAHEDRON, HD_DODECAHEDRON, HD_ICOSAHEDRON},
-        {HD_OCTAHEDRON, HD_DODECAHEDRON, HD_ICOSAHEDRON},
-    };
-    return variant >= 1 && variant <= HD_CLASSIC_VARIANTS ? kinds[variant - 1] : NULL;
-}
+static const HdSolidKind variants[HD_CLASSIC_VARIANTS][HD_CLASSIC_SOLIDS] = {
+    {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_OCTAHEDRON},
+    {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_DODECAHEDRON},
+    {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_ICOSAHEDRON},
+    {HD_TETRAHEDRON, HD_OCTAHEDRON, HD_DODECAHEDRON},
+    {HD_TETRAHEDRON, HD_OCTAHEDRON, HD_ICOSAHEDRON},
+    {HD_TETRAHEDRON, HD_DODECAHEDRON, HD_ICOSAHEDRON},
+    {HD_HEXAHEDRON, HD_OCTAHEDRON, HD_DODECAHEDRON},
+    {HD_HEXAHEDRON, HD_OCTAHEDRON, HD_ICOSAHEDRON},
+    {HD_HEXAHEDRON, HD_DODECAHEDRON, HD_ICOSAHEDRON},
+    {HD_OCTAHEDRON, HD_DODECAHEDRON, HD_ICOSAHEDRON},
+};
 
 /* What begins a text behind characters of `before`; '\0': nothing. */
 static char first_beyond(const char *before, const char *text, size_t size) {
@@ -236,8 +234,7 @@ HdStatus hd_classic_parse(HdSceneFile *input, const char *text, size_t size, con
     *input = (HdSceneFile){.output.style = {.picture = {.curve = HD_CURVE_LINEAR, .bits = 8},
                                             .frames_per_second = HD_DEFAULT_FRAMES_PER_SECOND},
                            .texture_curve = HD_CURVE_LINEAR};
-    const HdSolidKind *kinds = hd_classic_variant_kinds(variant);
-    if (kinds == NULL)
+    if (variant < 1 || variant > HD_CLASSIC_VARIANTS)
         return hd_fail(error, HD_BAD_INPUT, "the variant is %d, expected 1 to %d", variant,
                        HD_CLASSIC_VARIANTS);
     if (text == NULL) /* an empty input may come without memory */
@@ -248,7 +245,7 @@ HdStatus hd_classic_parse(HdSceneFile *input, const char *text, size_t size, con
                        name);
     HdTokenReader reader = {.text = text, .size = size, .line = 1, .name = name, .error = error};
     reader.hides_tokens = !hd_classic_may_be(text, size);
-    read_input(&reader, kinds, input);
+    read_input(&reader, variants[variant - 1], input);
     if (reader.status != HD_OK)
         hd_scene_file_free(input);
     return reader.status;
@@ -276,17 +273,13 @@ static void print_vector(FILE *out, HdVec3 v) {
 }
 
 static void print_flight(FILE *out, const HdCylinderPath *path) {
-    const double base[3] = {path->r0, path->z0, path->phi0};
-    const double amplitudes[2] = {path->r_amplitude, path->z_amplitude};
-    const double frequencies[3] = {path->r_frequency, path->z_frequency, path->phi_frequency};
-    const double phases[2] = {path->r_phase, path->z_phase};
-    print_numbers(out, base, 3);
-    fputs("   ", out);
-    print_numbers(out, amplitudes, 2);
-    fputs("   ", out);
-    print_numbers(out, frequencies, 3);
-    fputs("   ", out);
-    print_numbers(out, phases, 2);
+    static const int group_sizes[4] = {3, 2, 3, 2}; /* start, amplitudes, frequencies, phases */
+    double numbers[FLIGHT_NUMBERS];
+    memcpy(numbers, path, sizeof numbers);
+    for (int group = 0, first = 0; group < 4; first += group_sizes[group++]) {
+        fputs(group > 0 ? "   " : "", out);
+        print_numbers(out, numbers + first, group_sizes[group]);
+    }
     putc('\n', out);
 }
 
@@ -350,9 +343,7 @@ static HdStatus check_fits(const HdSceneFile *input, HdError *error) {
 
 HdStatus hd_classic_print(FILE *out, const HdSceneFile *input, HdError *error) {
     const HdScene *scene = &input->scene;
-    const HdStatus status = check_fits(input, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(check_fits(input, error));
     fprintf(out, "%d\n%s\n%d %d ", scene->frame_count, input->output.path, scene->width,
             scene->height);
     print_number(out, scene->field_of_view_degrees);

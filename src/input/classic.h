@@ -27,9 +27,6 @@ enum {
     HD_CLASSIC_DEFAULT_VARIANT = 4
 };
 
-/* The kinds of the three solids of a variant; NULL where there is no such variant. */
-const HdSolidKind *hd_classic_variant_kinds(int variant);
-
 /* Whether the text begins with a number, as every classic input does and no scene. */
 bool hd_classic_may_be(const char *text, size_t size);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L
 
-#include "input/load.h"
+#include "input/scene_file.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -10,15 +10,12 @@
 
 #include "base/text.h"
 #include "image/picture.h"
-#include "input/builtin.h"
-#include "input/changes.h"
+#include "input/check.h"
 #include "input/classic.h"
 #include "input/fields.h"
+#include "input/files.h"
 #include "input/json/text.h"
-#include "input/meshes.h"
 #include "input/report.h"
-#include "scene/check.h"
-#include "scene/notes.h"
 #include "system/path.h"
 
 typedef struct NamedMaterial {
@@ -317,18 +314,10 @@ static void settle_inner_side(HdMaterial *material, const json_t *json) {
 static void check_shares(Reader *reader, HdMaterial *material) {
     HdSceneChecker checker = {.problems = reader->report.problems};
     const int before = checker.problems->count;
-    hd_check_enter(&checker, reader->report.path, "");
+    snprintf(checker.place, sizeof checker.place, "%s: ", reader->report.path);
     hd_check_material(&checker, material, true);
     if (checker.problems->count != before)
         material->reflection = material->inner_reflection = 0.0;
-}
-
-static bool number_materials(Reader *reader) {
-    reader->numbers = json_object();
-    for (int i = 0; i < reader->material_count; i++)
-        if (json_object_set_new(reader->numbers, reader->materials[i].name, json_integer(i)) != 0)
-            return false;
-    return reader->numbers != NULL;
 }
 
 static void read_materials(Reader *reader, const HdField *field, const json_t *value,
@@ -358,8 +347,10 @@ static void read_materials(Reader *reader, const HdField *field, const json_t *v
         check_shares(reader, &named->material);
         leave_to(reader, length);
     }
-    if (!number_materials(reader))
-        fail_memory(reader);
+    reader->numbers = json_object();
+    for (int i = 0; i < reader->material_count; i++)
+        if (json_object_set_new(reader->numbers, reader->materials[i].name, json_integer(i)) != 0)
+            fail_memory(reader);
 }
 
 typedef void ReadField(Reader *reader, const HdField *field, const json_t *value, void *owner);
@@ -567,9 +558,7 @@ static HdStatus parse_json(json_t **root, const char *text, size_t size, const c
         text += strlen(mark);
         size -= strlen(mark);
     }
-    HdStatus status = check_text(text, size, name, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(check_text(text, size, name, error));
     *root = json_loadb(text, size, HD_JSON_FLAGS, &found);
     return *root != NULL ? HD_OK : fail_syntax(&found, text, size, name, error);
 }
@@ -615,16 +604,15 @@ static HdStatus build(HdSceneFile *file, json_t *root, const HdSceneSource *sour
     HdProblems problems = {.count = 0};
     for (int i = 0; i < source->change_count; i++)
         hd_scene_change_apply(root, source->changes[i], &problems);
-    HdStatus status = read_and_check(file, root, source, &problems, error);
-    if (status == HD_OK && source->loads_files)
-        status = load_files(file, source, &problems, error);
-    if (status == HD_OK && source->notes != NULL)
+    HD_TRY(read_and_check(file, root, source, &problems, error));
+    if (source->loads_files)
+        HD_TRY(load_files(file, source, &problems, error));
+    if (source->notes != NULL)
         check_output(file, &problems);
-    if (status == HD_OK)
-        status = hd_problems_status(&problems, source->name, error);
-    if (status == HD_OK && source->notes != NULL)
+    HD_TRY(hd_problems_status(&problems, source->name, error));
+    if (source->notes != NULL)
         note_seldom_meant(file, source->notes);
-    return status;
+    return HD_OK;
 }
 
 HdStatus hd_scene_file_parse(HdSceneFile *file, const char *text, size_t size,
@@ -652,13 +640,12 @@ HdStatus hd_scene_file_read(HdSceneFile *file, const char *path, const HdSceneSo
     HdSceneSource placed = *source;
     *file = (HdSceneFile){.schema = ""};
     const char *slash = strrchr(path, '/');
-    HdStatus status = hd_file_read(path, "scene", HD_MAX_SCENE_BYTES, &bytes, &size, error);
-    if (status == HD_OK && slash != NULL)
+    HD_TRY(hd_file_read(path, "scene", HD_MAX_SCENE_BYTES, &bytes, &size, error));
+    if (slash != NULL)
         snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
     placed.name = path;
     placed.folder = folder;
-    if (status == HD_OK)
-        status = hd_scene_file_parse(file, (const char *)bytes, size, &placed, error);
+    const HdStatus status = hd_scene_file_parse(file, (const char *)bytes, size, &placed, error);
     free(bytes);
     return status;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What is wrong with the JSON of a scene, told with its place. */
+/* What is wrong with the JSON of a scene, told with its place, and the changes that a command line
+   makes to it: "solids[1].circumradius=2". */
 #ifndef HD_INPUT_REPORT_H
 #define HD_INPUT_REPORT_H
 
@@ -7,9 +8,17 @@
 #include <stdbool.h>
 
 #include "base/error.h"
+#include "input/check.h"
 #include "input/fields.h"
 #include "input/json/text.h"
-#include "scene/check.h"
+
+/* How JSON is read here: an integer is a number like others, however long it is. */
+#define HD_JSON_FLAGS (JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL)
+
+/* Puts the value in its place in the tree. The object or array that holds it must be there, but for
+   the objects at the top that may be left out ("image"); an element of an array must be there
+   itself. Whether the scene knows such a key is checked later, with the rest of the file. */
+void hd_scene_change_apply(json_t *root, HdSceneChange change, HdProblems *problems);
 
 typedef struct HdSceneReport {
     const HdSceneSource *source;

@@ -84,6 +84,11 @@ static void put_open(Printer *printer, char bracket) {
     printer->has_elements = false;
 }
 
+static void put_open_at(Printer *printer, const char *key, char bracket) {
+    put_key(printer, key);
+    put_open(printer, bracket);
+}
+
 static void put_close(Printer *printer, char bracket) {
     const char text[2] = {bracket, '\0'};
     printer->depth--;
@@ -370,13 +375,10 @@ static HdStatus check_text(const char *what, const char *text, HdError *error) {
 
 HdStatus hd_scene_file_print(FILE *out, const HdSceneFile *file, HdError *error) {
     Writer writer = {.printer = {.out = out}};
-    HdStatus status = check_text("path of the output", file->output.path, error);
-    if (status == HD_OK)
-        status = check_text("path of the texture", file->texture_path, error);
-    for (int i = 0; i < file->mesh_entry_count && status == HD_OK; i++)
-        status = check_text("path of a mesh", file->mesh_entries[i].file, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(check_text("path of the output", file->output.path, error));
+    HD_TRY(check_text("path of the texture", file->texture_path, error));
+    for (int i = 0; i < file->mesh_entry_count; i++)
+        HD_TRY(check_text("path of a mesh", file->mesh_entries[i].file, error));
     const size_t most = 2 * (size_t)file->scene.solid_count + (size_t)file->mesh_entry_count + 1;
     writer.materials = calloc(most, sizeof *writer.materials);
     if (writer.materials == NULL)
@@ -420,8 +422,7 @@ static void open_array(Printer *printer, int least, int most) {
     print_pair(printer, "type", "array");
     print_count(printer, "minItems", least);
     print_count(printer, "maxItems", most);
-    put_key(printer, "items");
-    put_open(printer, '{');
+    put_open_at(printer, "items", '{');
 }
 
 static void print_vector(Printer *printer, const HdField *field) {
@@ -431,8 +432,7 @@ static void print_vector(Printer *printer, const HdField *field) {
 }
 
 static void print_choices(Printer *printer, const HdField *field) {
-    put_key(printer, "enum");
-    put_open(printer, '[');
+    put_open_at(printer, "enum", '[');
     for (const HdChoice *choice = field->choices; choice->word != NULL; choice++)
         print_choice(printer, choice->word);
     put_close(printer, ']');
@@ -449,8 +449,7 @@ static void print_part(Printer *printer, const HdField *field) {
 /* A vector, or else an object or a number. */
 static void print_either(Printer *printer, const HdField *field) {
     const bool is_path = field->type == HD_FIELD_PATH;
-    put_key(printer, "oneOf");
-    put_open(printer, '[');
+    put_open_at(printer, "oneOf", '[');
     put_open(printer, '{');
     (is_path ? print_vector : print_number)(printer, field);
     put_close(printer, '}');
@@ -470,8 +469,7 @@ static void print_text(Printer *printer, const HdField *field) {
 static void print_materials(Printer *printer, const HdField *field) {
     print_pair(printer, "type", "object");
     print_count(printer, "maxProperties", field->most);
-    put_key(printer, "additionalProperties");
-    put_open(printer, '{');
+    put_open_at(printer, "additionalProperties", '{');
     print_object(printer, field->object);
     put_close(printer, '}');
 }
@@ -516,8 +514,7 @@ static void print_default(Printer *printer, const HdField *field) {
 }
 
 static void print_field(Printer *printer, const HdField *field) {
-    put_key(printer, field->key);
-    put_open(printer, '{');
+    put_open_at(printer, field->key, '{');
     print_pair(printer, "description", field->about);
     print_type(printer, field);
     print_default(printer, field);
@@ -525,17 +522,17 @@ static void print_field(Printer *printer, const HdField *field) {
 }
 
 static void print_required(Printer *printer, const HdObjectType *type) {
-    int count = 0;
-    for (int i = 0; i < type->field_count; i++)
-        count += type->fields[i].required;
-    if (count == 0)
-        return;
-    put_key(printer, "required");
-    put_open(printer, '[');
-    for (int i = 0; i < type->field_count; i++)
-        if (type->fields[i].required)
-            put_string(printer, type->fields[i].key);
-    put_close(printer, ']');
+    bool has_any = false;
+    for (int i = 0; i < type->field_count; i++) {
+        if (!type->fields[i].required)
+            continue;
+        if (!has_any)
+            put_open_at(printer, "required", '[');
+        put_string(printer, type->fields[i].key);
+        has_any = true;
+    }
+    if (has_any)
+        put_close(printer, ']');
 }
 
 /* Keys that exclude each other; no object has more than one such pair. */
@@ -544,10 +541,8 @@ static void print_exclusion(Printer *printer, const HdObjectType *type) {
         const HdField *field = &type->fields[i];
         if (field->instead_of == NULL)
             continue;
-        put_key(printer, "not");
-        put_open(printer, '{');
-        put_key(printer, "required");
-        put_open(printer, '[');
+        put_open_at(printer, "not", '{');
+        put_open_at(printer, "required", '[');
         put_string(printer, field->instead_of);
         put_string(printer, field->key);
         put_close(printer, ']');
@@ -562,12 +557,10 @@ static void print_object(Printer *printer, const HdObjectType *type) {
     put_raw(printer, "false");
     print_required(printer, type);
     print_exclusion(printer, type);
-    put_key(printer, "properties");
-    put_open(printer, '{');
+    put_open_at(printer, "properties", '{');
     for (int i = 0; i < type->field_count; i++)
         print_field(printer, &type->fields[i]);
-    put_key(printer, HD_COMMENT_KEY);
-    put_open(printer, '{');
+    put_open_at(printer, HD_COMMENT_KEY, '{');
     print_pair(printer, "description", "For people");
     print_pair(printer, "type", "string");
     put_close(printer, '}');

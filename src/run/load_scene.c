@@ -6,9 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "input/builtin.h"
 #include "input/check.h"
-#include "input/load.h"
+#include "input/classic.h"
+#include "input/files.h"
+#include "input/scene_file.h"
 #include "render/survey.h"
 #include "scene/contact.h"
 #include "scene/triangulate.h"

@@ -156,20 +156,18 @@ static double touch_of(HdVec3 centre_a, double radius_a, HdVec3 centre_b, double
     return touch * fmin(radius_a, radius_b) + rounding * extent;
 }
 
-static double overlap_of(double depth, double touch) {
-    return depth > touch ? depth : 0.0;
-}
-
 double hd_solid_overlap(const HdSolid *a, const HdSolid *b) {
     const double touch = touch_of(a->centre, a->circumradius, b->centre, b->circumradius);
-    return overlap_of(hd_solid_depth(a, b, touch), touch);
+    const double depth = hd_solid_depth(a, b, touch);
+    return depth > touch ? depth : 0.0;
 }
 
 double hd_floor_overlap(const HdSolid *solid, const HdFloor *floor) {
     Body body;
     body_of_floor(&body, floor);
     const double touch = touch_of(solid->centre, solid->circumradius, body.centre, body.radius);
-    return overlap_of(hd_floor_depth(solid, floor, touch), touch);
+    const double depth = hd_floor_depth(solid, floor, touch);
+    return depth > touch ? depth : 0.0;
 }
 
 /* ---- contact ---- */
@@ -287,18 +285,16 @@ static void raise_step(Parting *parting, int solid, double scale) {
 /* What does not move touches it: 0 is taken. */
 static bool touches_fixed(Parting *parting, int index) {
     const HdScene *scene = parting->scene;
+    const HdFloor *floor = &scene->floor;
     const HdSolid *solid = &scene->solids[index];
-    bool touches = false;
-    if (scene->floor.present && hd_contact_coincides(hd_floor_contact(solid, &scene->floor))) {
-        raise_step(parting, index, scale_of(solid, hd_floor_centre(&scene->floor), 0.0));
-        touches = true;
-    }
     int first;
-    if (hd_touching_lights(solid, scene->lights, scene->light_count, &first) > 0) {
+    const bool at_floor = floor->present && hd_contact_coincides(hd_floor_contact(solid, floor));
+    const bool at_light = hd_touching_lights(solid, scene->lights, scene->light_count, &first) > 0;
+    if (at_floor)
+        raise_step(parting, index, scale_of(solid, hd_floor_centre(floor), 0.0));
+    if (at_light)
         raise_step(parting, index, solid->circumradius);
-        touches = true;
-    }
-    return touches;
+    return at_floor || at_light;
 }
 
 static void place_solid(Parting *parting, int index) {

@@ -116,9 +116,6 @@ static HdStatus parse_text(HdFrameList *list, const char *text, int frame_count,
 
 HdStatus hd_frame_list_parse(HdFrameList *list, const char *text, int frame_count, HdError *error) {
     *list = (HdFrameList){0};
-    if (frame_count < 1)
-        return hd_fail(error, HD_BAD_INPUT, "the sequence has %d frames, expected at least 1",
-                       frame_count);
     if (text != NULL)
         return parse_text(list, text, frame_count, error);
     Range all = {0, frame_count - 1};

@@ -11,7 +11,7 @@ typedef struct HdFrameList {
 } HdFrameList;
 
 /* Parses `text` (numbers and ascending ranges, separated by commas; overlaps are merged) against a
-   sequence of `frame_count` frames; NULL stands for all of them. */
+   sequence of `frame_count` frames, at least one; NULL stands for all of them. */
 HdStatus hd_frame_list_parse(HdFrameList *list, const char *text, int frame_count, HdError *error);
 void hd_frame_list_free(HdFrameList *list);
 

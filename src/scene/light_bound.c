@@ -9,24 +9,17 @@
 /* More than all roundings, those of highlights' powers and of weights over many levels included. */
 #define MARGIN 1.02
 
-static HdVec3 greater3(HdVec3 a, HdVec3 b) {
-    return (HdVec3){fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z)};
-}
-
 static HdVec3 times(HdVec3 a, HdVec3 b) {
     return (HdVec3){a.x * b.x, a.y * b.y, a.z * b.z};
 }
 
-static HdVec3 colour_of_edge_lights(const HdEdgeLights *lights, int edge_light) {
-    return lights->colours[edge_light / lights->per_edge % lights->colour_count];
-}
-
 static HdVec3 solid_light(const HdSolid *solid) {
     HdVec3 sum = {0.0, 0.0, 0.0};
-    int count = solid->lights.intensity > 0.0 ? hd_edge_light_count(solid) : 0;
+    const HdEdgeLights *lights = &solid->lights;
+    int count = lights->intensity > 0.0 ? hd_edge_light_count(solid) : 0;
     for (int i = 0; i < count; i++)
-        sum = hd_add(sum, colour_of_edge_lights(&solid->lights, i));
-    return hd_scale(sum, solid->lights.intensity);
+        sum = hd_add(sum, lights->colours[i / lights->per_edge % lights->colour_count]);
+    return hd_scale(sum, lights->intensity);
 }
 
 HdVec3 hd_light_bound(const HdScene *scene) {
@@ -72,7 +65,7 @@ static HdVec3 sent_on(const HdMaterial *material, double reflection, double tran
     HdVec3 sum = hd_add(hd_scale(mirror, reflection),
                         hd_scale(times(material->colour, passing), transmission));
     if (material->index_of_refraction != 1.0)
-        sum = greater3(sum, hd_scale(mirror, reflection + transmission));
+        sum = hd_maximum(sum, hd_scale(mirror, reflection + transmission));
     return sum;
 }
 
@@ -89,7 +82,7 @@ static HdVec3 sent_inside(const HdMaterial *material, HdVec3 mirrored, HdVec3 pa
 
 /* Of the side where it is greater. */
 static HdVec3 sent_by_either(const HdMaterial *material, HdVec3 seen) {
-    return greater3(sent_outside(material, seen, seen), sent_inside(material, seen, seen));
+    return hd_maximum(sent_outside(material, seen, seen), sent_inside(material, seen, seen));
 }
 
 /* The most that a surface shows by itself, under `light`. */
@@ -121,14 +114,14 @@ static void bound_material(void *context, const HdMaterial *material, HdVec3 emi
     HdVec3 own = own_radiance(material, emission, bounding->light);
     HdVec3 share = sent_by_either(material, one);
     HdVec3 shown = {endless(own.x, share.x), endless(own.y, share.y), endless(own.z, share.z)};
-    bounding->own = greater3(bounding->own, own);
-    bounding->endless = greater3(bounding->endless, shown);
+    bounding->own = hd_maximum(bounding->own, own);
+    bounding->endless = hd_maximum(bounding->endless, shown);
 }
 
 static HdVec3 disc_bound(const HdSolid *solid) {
     HdVec3 most = {0.0, 0.0, 0.0};
     for (int i = 0; i < (solid->lights.per_edge > 0 ? solid->lights.colour_count : 0); i++)
-        most = greater3(most, solid->lights.colours[i]);
+        most = hd_maximum(most, solid->lights.colours[i]);
     return hd_scale(most, solid->lights.disc_radiance);
 }
 
@@ -153,7 +146,7 @@ HdVec3 hd_radiance_bound(const HdScene *scene) {
     Bounding bounding = bound_surfaces(scene);
     HdVec3 last = scene->background;
     for (int s = 0; s < scene->solid_count; s++)
-        last = greater3(last, disc_bound(&scene->solids[s]));
+        last = hd_maximum(last, disc_bound(&scene->solids[s]));
     return hd_scale((HdVec3){bound_of_channel(last.x, bounding.own.x, bounding.endless.x),
                              bound_of_channel(last.y, bounding.own.y, bounding.endless.y),
                              bound_of_channel(last.z, bounding.own.z, bounding.endless.z)},
@@ -208,8 +201,8 @@ static void show_material(Views *views, const HdMaterial *material, HdVec3 emiss
     HdVec3 own = own_radiance(material, emission, views->light);
     HdVec3 outer = sent_outside(material, seen->outside, seen->inside);
     HdVec3 inner = sent_inside(material, seen->inside, seen->outside);
-    shown->outer = greater3(shown->outer, hd_add(own, outer));
-    shown->inner = greater3(shown->inner, hd_add(own, inner));
+    shown->outer = hd_maximum(shown->outer, hd_add(own, outer));
+    shown->inner = hd_maximum(shown->inner, hd_add(own, inner));
 }
 
 static void show_mesh_material(void *context, const HdMaterial *material, HdVec3 emission) {
@@ -235,7 +228,7 @@ static void show_surfaces(Views *views) {
 }
 
 static HdVec3 either_side(const Shown *shown) {
-    return greater3(shown->outer, shown->inner);
+    return hd_maximum(shown->outer, shown->inner);
 }
 
 /* Within a solid: its inner side, and what reaches into it. */
@@ -243,7 +236,7 @@ static HdVec3 seen_within(const Views *views, int solid) {
     HdVec3 most = views->shown[solid].inner;
     for (int i = 0; i < views->scene->solid_count + 2; i++)
         if (i != solid && views->near[solid][i])
-            most = greater3(most, either_side(&views->shown[i]));
+            most = hd_maximum(most, either_side(&views->shown[i]));
     return most;
 }
 
@@ -255,20 +248,17 @@ static HdVec3 seen_around(const Views *views, int object) {
     for (int i = 0; i < solids; i++) {
         bool is_near = object < solids ? views->near[object][i] : views->near[i][object];
         if (i != object)
-            most = greater3(most, is_near ? either_side(&views->shown[i]) : views->shown[i].outer);
+            most =
+                hd_maximum(most, is_near ? either_side(&views->shown[i]) : views->shown[i].outer);
     }
     if (object != solids)
-        most = greater3(most, views->shown[solids].outer);
-    return greater3(most, either_side(&views->shown[solids + 1]));
-}
-
-static HdVec3 lesser3(HdVec3 a, HdVec3 b) {
-    return (HdVec3){fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z)};
+        most = hd_maximum(most, views->shown[solids].outer);
+    return hd_maximum(most, either_side(&views->shown[solids + 1]));
 }
 
 static bool take_view(HdVec3 *seen, HdVec3 most) {
     HdVec3 before = *seen;
-    *seen = lesser3(before, most);
+    *seen = hd_minimum(before, most);
     return seen->x < SETTLED * before.x || seen->y < SETTLED * before.y ||
            seen->z < SETTLED * before.z;
 }
@@ -297,24 +287,25 @@ void hd_seen_bounds(const HdScene *scene, HdSeen *seen) {
     for (int round = 0; round < MOST_ROUNDS && look_around(&views); round++)
         ;
     for (int i = 0; i < scene->solid_count + 2; i++) {
-        seen[i].outside = lesser3(most, hd_scale(seen[i].outside, MARGIN));
-        seen[i].inside = lesser3(most, hd_scale(seen[i].inside, MARGIN));
+        seen[i].outside = hd_minimum(most, hd_scale(seen[i].outside, MARGIN));
+        seen[i].inside = hd_minimum(most, hd_scale(seen[i].inside, MARGIN));
     }
+}
+
+/* Total reflection mirrors what would have passed. */
+static double strongest_of(const HdMaterial *material, double reflection, double transmission) {
+    return material->index_of_refraction != 1.0 ? reflection + transmission
+                                                : fmax(reflection, transmission);
 }
 
 static void find_strongest(void *context, const HdMaterial *material, HdVec3 emission) {
     double *strongest = context;
     (void)emission;
-    double outside = fmax(material->reflection, material->transmission);
-    if (material->index_of_refraction != 1.0) /* total reflection */
-        outside = material->reflection + material->transmission;
-    *strongest = fmax(*strongest, outside);
-    if (!material->has_inner_side)
-        return;
-    double inside = fmax(material->inner_reflection, material->inner_transmission);
-    if (material->index_of_refraction != 1.0)
-        inside = material->inner_reflection + material->inner_transmission;
-    *strongest = fmax(*strongest, inside);
+    *strongest =
+        fmax(*strongest, strongest_of(material, material->reflection, material->transmission));
+    if (material->has_inner_side)
+        *strongest = fmax(*strongest, strongest_of(material, material->inner_reflection,
+                                                   material->inner_transmission));
 }
 
 int hd_depth_for_bound(const HdScene *scene, double bound) {

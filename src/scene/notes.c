@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-#include "scene/notes.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "scene/camera.h"
 #include "scene/contact.h"
+#include "scene/scene.h"
 
 /* Degrees. Every angle in radians is less. */
 static const double narrow_field_of_view = 5.0;

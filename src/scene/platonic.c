@@ -52,26 +52,16 @@ static void add_rectangles(Points *points, double a, double b) {
 static void list_vertices(HdSolidKind kind, Points *points) {
     const double phi = (1.0 + sqrt(5.0)) / 2.0;
     points->count = 0;
-    switch (kind) {
-    case HD_TETRAHEDRON:
+    if (kind == HD_TETRAHEDRON)
         add_tetrahedron(points, 1.0);
-        break;
-    case HD_HEXAHEDRON:
-        add_cube(points);
-        break;
-    case HD_OCTAHEDRON:
+    if (kind == HD_OCTAHEDRON)
         add_axes(points);
-        break;
-    case HD_DODECAHEDRON:
-        /* Of the two such dodecahedra this is the dual of the icosahedron below. */
+    if (kind == HD_HEXAHEDRON || kind == HD_DODECAHEDRON)
         add_cube(points);
+    if (kind == HD_DODECAHEDRON) /* of the two this is the dual of the icosahedron below */
         add_rectangles(points, phi, 1.0 / phi);
-        break;
-    case HD_ICOSAHEDRON:
-    case HD_SOLID_KIND_COUNT:
+    if (kind == HD_ICOSAHEDRON)
         add_rectangles(points, 1.0, phi);
-        break;
-    }
 }
 
 static bool is_opposite(HdVec3 a, HdVec3 b) {
@@ -106,13 +96,6 @@ static void list_normals(HdSolidKind kind, Points *points) {
     }
 }
 
-static double inradius_of(const Points *vertices, HdVec3 normal) {
-    double largest = 0.0;
-    for (int i = 0; i < vertices->count; i++)
-        largest = fmax(largest, hd_dot(vertices->point[i], normal));
-    return largest;
-}
-
 /* One bit for every face that the vertex lies on. */
 static uint32_t faces_at(const HdPlatonic *solid, int vertex) {
     uint32_t faces = 0;
@@ -124,30 +107,19 @@ static uint32_t faces_at(const HdPlatonic *solid, int vertex) {
     return faces;
 }
 
-/* True where `set` has exactly two bits; then `pair` tells which. */
-static int is_pair(uint32_t set, int pair[2]) {
-    int count = 0;
-    for (int i = 0; i < HD_MAX_FACES; i++) {
-        if ((set >> i) & 1U) {
-            if (count < 2)
-                pair[count] = i;
-            count++;
-        }
-    }
-    return count == 2;
-}
-
 /* Two vertices that share exactly two faces are the ends of the edge between these faces. */
 static void find_edges(HdPlatonic *solid) {
-    solid->edge_count = 0;
-    for (int a = 0; a < solid->vertex_count; a++) {
-        const uint32_t faces_of_a = faces_at(solid, a);
+    for (int a = 0; a < solid->vertex_count; a++)
         for (int b = a + 1; b < solid->vertex_count; b++) {
+            const uint32_t shared = faces_at(solid, a) & faces_at(solid, b);
             HdPlatonicEdge edge = {.vertex = {a, b}};
-            if (is_pair(faces_of_a & faces_at(solid, b), edge.face))
+            int count = 0;
+            for (int i = 0; i < solid->face_count; i++)
+                if ((shared >> i) & 1U)
+                    edge.face[count++ % 2] = i;
+            if (count == 2)
                 solid->edge[solid->edge_count++] = edge;
         }
-    }
 }
 
 void hd_platonic(HdSolidKind kind, HdPlatonic *solid) {
@@ -161,7 +133,8 @@ void hd_platonic(HdSolidKind kind, HdPlatonic *solid) {
     solid->face_count = normals.count;
     for (int i = 0; i < normals.count; i++)
         solid->face_normal[i] = normals.point[i];
-    solid->inradius = inradius_of(&vertices, normals.point[0]);
+    for (int i = 0; i < vertices.count; i++)
+        solid->inradius = fmax(solid->inradius, hd_dot(vertices.point[i], normals.point[0]));
     find_edges(solid);
 
     const HdPlatonicEdge first = solid->edge[0];

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 
 #include "image/picture.h"
+#include "system/machine.h"
+#include "system/thread_pool.h"
 
 bool hd_scene_is_surveyed(const HdScene *scene) {
     return scene->sampling != HD_SAMPLING_GRID || scene->max_error > 0.0;
@@ -50,18 +52,14 @@ int hd_scene_light_count(const HdScene *scene) {
     return count;
 }
 
-static int is_endless(const HdFalloff *falloff) {
-    return falloff->end > 0.0 ? 0 : 1;
-}
-
 int hd_scene_endless_light_count(const HdScene *scene) {
     int count = 0;
     for (int i = 0; i < scene->light_count; i++)
-        count += is_endless(&scene->lights[i].falloff);
+        count += !(scene->lights[i].falloff.end > 0.0);
     for (int i = 0; i < scene->solid_count; i++) {
         const HdEdgeLights *lights = &scene->solids[i].lights;
-        if (lights->intensity > 0.0)
-            count += is_endless(&lights->falloff) * hd_edge_light_count(&scene->solids[i]);
+        if (lights->intensity > 0.0 && !(lights->falloff.end > 0.0))
+            count += hd_edge_light_count(&scene->solids[i]);
     }
     return count;
 }
@@ -71,6 +69,15 @@ int64_t hd_scene_triangle_count(const HdScene *scene) {
     for (int i = 0; i < scene->mesh_count; i++)
         count += scene->meshes[i].triangle_count;
     return count;
+}
+
+HdStatus hd_scene_build_meshes(HdScene *scene, HdError *error) {
+    HdThreadPool *pool = NULL;
+    HdStatus status = hd_thread_pool_create(&pool, hd_processor_count(), error);
+    for (int i = 0; i < scene->mesh_count && status == HD_OK; i++)
+        status = hd_mesh_build(&scene->meshes[i], pool, error);
+    hd_thread_pool_destroy(pool);
+    return status;
 }
 
 void hd_scene_drop_meshes(HdScene *scene) {

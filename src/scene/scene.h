@@ -165,8 +165,14 @@ int hd_scene_endless_light_count(const HdScene *scene);
 /* Triangles of all meshes, each counted once however often it is placed. */
 int64_t hd_scene_triangle_count(const HdScene *scene);
 
+/* Builds the hierarchies of all meshes, on all processors. */
+HdStatus hd_scene_build_meshes(HdScene *scene, HdError *error);
+
 /* Frees the meshes, their instances and pictures; the scene then has none. */
 void hd_scene_drop_meshes(HdScene *scene);
+
+/* Adds a sentence to `notes` for each thing in a valid scene that is allowed and seldom meant. */
+void hd_scene_notes(const HdScene *scene, HdProblems *notes);
 
 /* Frees what the scene owns and clears it. */
 void hd_scene_free(HdScene *scene);

@@ -1,42 +1,256 @@
 /* SPDX-License-Identifier: MIT */
+/* A solid's surface is cut into convex facets. Two facets that meet have one side in common, with
+   the same two points, whatever is cut: there are no gaps. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "scene/triangulate.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/growth.h"
 #include "base/trigonometry.h"
-#include "mesh/mesh.h"
-#include "scene/facets.h"
-#include "system/machine.h"
 
 /* In circumradii: the least rim and the least side of a disc or of what a rim leaves of a face.
    Smaller ones could hardly be told from points that are one. */
 static const double least_length = 1e-8;
 
+/* Points that are no farther from a border lie on it; in circumradii. */
+static const double same_place = 1e-9;
+
+/* A side of a facet, which lies to its left as seen from outside. */
+typedef struct Side {
+    int32_t from;       /* the point where it begins; it ends where the next one does */
+    int32_t next, twin; /* of the same facet; of the facet beyond it, the other way round */
+} Side;
+
+typedef struct Facet {
+    int32_t side; /* one of its sides */
+    int face, material;
+    HdVec3 corner; /* one of its points; none is farther from it than `reach` */
+    double reach;
+} Facet;
+
+/* The points for which direction . point >= offset; the direction is unit. */
+typedef struct HalfSpace {
+    HdVec3 direction;
+    double offset;
+} HalfSpace;
+
 /* A solid on the way, in units of its circumradius. */
 typedef struct Work {
     const HdSolid *solid;
-    HdPlatonic shape; /* turned as it is in the scene */
-    HdFacets facets;
+    HdPlatonic shape;   /* turned as it is in the scene */
     double rim_width;   /* 0: no rim */
     double disc_radius; /* 0: no discs */
     int disc_sides;
     double widening;                    /* from a disc's radius to that of its polygon's corners */
     double flatness;                    /* from that to the radius of the middles of its sides */
     HdVec2 outwards[HD_MAX_DISC_SIDES]; /* the directions to the middles of its sides */
-    HdHalfSpace borders[HD_MAX_DISC_SIDES + 6];
+    int point_count, side_count, facet_count, border_count;
+    int point_room, side_room, facet_room;
+    HdVec3 *points;
+    Side *sides;
+    Facet *facets;
+    HalfSpace borders[HD_MAX_DISC_SIDES + 6]; /* of what is cut out */
 } Work;
 
 static HdStatus no_memory(HdError *error) {
     return hd_fail(error, HD_FAILED, "out of memory: the solid has too many triangles");
 }
 
-/* The half space beyond a point in some direction. */
-static HdHalfSpace beyond(HdVec3 point, HdVec3 direction) {
-    return (HdHalfSpace){direction, hd_dot(direction, point)};
+/* Facets */
+
+static bool add_point(Work *work, HdVec3 point) {
+    return hd_append(&work->points, sizeof point, &work->point_count, &work->point_room, &point);
+}
+
+static bool add_side(Work *work, int from, int next, int twin) {
+    const Side side = {from, next, twin};
+    return hd_append(&work->sides, sizeof side, &work->side_count, &work->side_room, &side);
+}
+
+static bool add_facet(Work *work, Facet facet) {
+    return hd_append(&work->facets, sizeof facet, &work->facet_count, &work->facet_room, &facet);
+}
+
+static int end_of(const Work *work, int side) {
+    return work->sides[work->sides[side].twin].from;
+}
+
+static void measure(Work *work, int number) {
+    Facet *facet = &work->facets[number];
+    int side = facet->side;
+    facet->corner = work->points[work->sides[side].from];
+    facet->reach = 0.0;
+    do {
+        const HdVec3 point = work->points[work->sides[side].from];
+        facet->reach = fmax(facet->reach, hd_length(hd_sub(point, facet->corner)));
+        side = work->sides[side].next;
+    } while (side != facet->side);
+}
+
+/* Makes a facet of each face. Sides 2e and 2e + 1 are those of edge e. */
+static bool start(Work *work, int material) {
+    const HdPlatonic *shape = &work->shape;
+    int face_of[2 * HD_MAX_EDGES] = {0};
+    bool is_done = true;
+    for (int v = 0; v < shape->vertex_count; v++)
+        is_done = is_done && add_point(work, shape->vertex[v]);
+    for (int f = 0; f < shape->face_count; f++)
+        is_done = is_done && add_facet(work, (Facet){.face = f, .material = material});
+    for (int e = 0; e < shape->edge_count && is_done; e++) {
+        const int *ends = shape->edge[e].vertex, *faces = shape->edge[e].face;
+        const HdVec3 leftwards = hd_cross(shape->vertex[ends[0]], shape->vertex[ends[1]]);
+        const bool is_first = hd_dot(leftwards, shape->face_normal[faces[0]]) > 0.0;
+        face_of[2 * e] = faces[is_first ? 0 : 1];
+        face_of[2 * e + 1] = faces[is_first ? 1 : 0];
+        is_done = add_side(work, ends[0], 0, 2 * e + 1) && add_side(work, ends[1], 0, 2 * e);
+    }
+    for (int s = 0; s < work->side_count && is_done; s++) {
+        work->facets[face_of[s]].side = s;
+        for (int t = 0; t < work->side_count; t++)
+            if (face_of[t] == face_of[s] && work->sides[t].from == end_of(work, s))
+                work->sides[s].next = t;
+    }
+    for (int f = 0; f < shape->face_count && is_done; f++)
+        measure(work, f);
+    return is_done;
+}
+
+/* Cutting */
+
+/* How far a point is inside of the border. */
+static double depth_of(const Work *work, int point, const HalfSpace *border) {
+    return hd_dot(border->direction, work->points[point]) - border->offset;
+}
+
+/* 1: inside of the border, -1: outside, 0: on it. */
+static int place_of(const Work *work, int point, const HalfSpace *border) {
+    const double depth = depth_of(work, point, border);
+    return (depth > same_place) - (depth < -same_place);
+}
+
+/* Whether one of the facet's points is inside of the border (1), or outside (-1). */
+static bool has_point(const Work *work, int facet, const HalfSpace *border, int place) {
+    const int first = work->facets[facet].side;
+    int side = first;
+    do {
+        if (place_of(work, work->sides[side].from, border) == place)
+            return true;
+        side = work->sides[side].next;
+    } while (side != first);
+    return false;
+}
+
+/* Puts a point on a side, which then ends there, and another side behind it; in the facet beyond
+   likewise. */
+static bool divide_side(Work *work, int side, double share) {
+    const int twin = work->sides[side].twin, point = work->point_count, rest = work->side_count;
+    const HdVec3 from = work->points[work->sides[side].from];
+    const HdVec3 to = work->points[work->sides[twin].from];
+    if (!add_point(work, hd_add(from, hd_scale(hd_sub(to, from), share))) ||
+        !add_side(work, point, work->sides[side].next, twin) ||
+        !add_side(work, point, work->sides[twin].next, side))
+        return false;
+    work->sides[side].next = rest;
+    work->sides[side].twin = rest + 1;
+    work->sides[twin].next = rest + 1;
+    work->sides[twin].twin = rest;
+    return true;
+}
+
+/* Puts points where the border crosses the sides of a facet. */
+static bool divide_sides(Work *work, int facet, const HalfSpace *border) {
+    const int first = work->facets[facet].side;
+    int side = first;
+    do {
+        const int from = work->sides[side].from, to = end_of(work, side);
+        const int next = work->sides[side].next;
+        if (place_of(work, from, border) * place_of(work, to, border) < 0) {
+            const double depth = depth_of(work, from, border);
+            if (!divide_side(work, side, depth / (depth - depth_of(work, to, border))))
+                return false;
+        }
+        side = next;
+    } while (side != first);
+    return true;
+}
+
+static int side_before(const Work *work, int side) {
+    int before = side;
+    while (work->sides[before].next != side)
+        before = work->sides[before].next;
+    return before;
+}
+
+/* Cuts a facet with points on both sides of the border in two: it stays inside, and a new one is
+   what lies outside. */
+static bool cut(Work *work, int facet, const HalfSpace *border) {
+    if (!divide_sides(work, facet, border))
+        return false;
+    int side = work->facets[facet].side;
+    while (place_of(work, work->sides[side].from, border) <= 0)
+        side = work->sides[side].next;
+    while (place_of(work, end_of(work, side), border) >= 0)
+        side = work->sides[side].next;
+    const int out = side; /* begins on the border and leads outside */
+    while (place_of(work, end_of(work, side), border) <= 0)
+        side = work->sides[side].next;
+    const int in = side; /* begins on the border and leads back */
+    const int before_out = side_before(work, out), before_in = side_before(work, in);
+    const int outer = work->side_count, inner = outer + 1;
+    if (!add_side(work, work->sides[in].from, out, inner) ||
+        !add_side(work, work->sides[out].from, in, outer) || !add_facet(work, work->facets[facet]))
+        return false;
+    work->sides[before_in].next = outer;
+    work->sides[before_out].next = inner;
+    work->facets[facet].side = inner;
+    work->facets[work->facet_count - 1].side = outer;
+    measure(work, facet);
+    measure(work, work->facet_count - 1);
+    return true;
+}
+
+static bool carve_facet(Work *work, int facet, int material) {
+    const HalfSpace *borders = work->borders;
+    for (int b = 0; b < work->border_count; b++)
+        if (!has_point(work, facet, &borders[b], 1))
+            return true;
+    for (int b = 0; b < work->border_count; b++) {
+        if (!has_point(work, facet, &borders[b], 1))
+            return true;
+        if (has_point(work, facet, &borders[b], -1) && !cut(work, facet, &borders[b]))
+            return false;
+    }
+    const int former = work->facets[facet].material;
+    work->facets[facet].material = material == 0 ? 0 : material + former % 2;
+    return true;
+}
+
+/* Cuts the facets of a face, which are its own one and those from number `first` on, along the
+   borders of what lies inside of all of them, which is within a ball, and gives what does the
+   material; on the facets of an odd material, the next one. */
+static bool carve(Work *work, int face, int first, HdVec3 centre, double radius, int material) {
+    const int end = work->facet_count;
+    bool is_done = carve_facet(work, face, material);
+    for (int f = first; f < end && is_done; f++) {
+        const Facet *facet = &work->facets[f];
+        if (hd_length(hd_sub(facet->corner, centre)) <= facet->reach + radius)
+            is_done = carve_facet(work, f, material);
+    }
+    return is_done;
+}
+
+/* Rims and discs */
+
+/* Adds the border of what is beyond a point in some direction, and as far before it as
+   `distance`. */
+static void add_border(Work *work, HdVec3 point, HdVec3 direction, double distance) {
+    work->borders[work->border_count++] =
+        (HalfSpace){direction, hd_dot(direction, point) - distance};
 }
 
 static HdVec3 middle_of_face(const Work *work, int face) {
@@ -56,7 +270,7 @@ static bool face_has_edge(const Work *work, int face, int edge) {
 /* The whole face is rim at first; what the rim leaves becomes the face. */
 static bool carve_rim(Work *work, int face, int first) {
     const HdVec3 middle = middle_of_face(work, face);
-    int count = 0;
+    work->border_count = 0;
     for (int e = 0; e < work->shape.edge_count; e++) {
         if (!face_has_edge(work, face, e))
             continue;
@@ -64,11 +278,9 @@ static bool carve_rim(Work *work, int face, int first) {
         const double inradius = hd_length(inwards);
         if (inradius - work->rim_width <= least_length * inradius)
             return true;
-        work->borders[count] = beyond(side, hd_scale(inwards, 1.0 / inradius));
-        work->borders[count++].offset += work->rim_width;
+        add_border(work, side, hd_scale(inwards, 1.0 / inradius), -work->rim_width);
     }
-    return hd_facets_carve(&work->facets, face, first, work->borders, count,
-                           HD_SOLID_MATERIAL_FACE);
+    return carve(work, face, first, middle, 1.0, HD_SOLID_MATERIAL_FACE);
 }
 
 static HdVec3 direction_of(const Work *work, int edge) {
@@ -92,54 +304,30 @@ static HdVec3 along_face(const Work *work, int face, HdVec3 direction) {
     return hd_normalize(hd_cross(normal, axis));
 }
 
-/* The polygon that stands for what a disc, seen as a ball, has of a face's plane. */
-typedef struct Disc {
-    HdVec3 centre;
-    HdVec3 along, across; /* unit, in the plane; along the edge where the face has it */
-    double corner_radius;
-} Disc;
-
-/* Of a disc's polygon: the number of its borders, whose inner sides they leave in common. Two that
-   only touch it come first, then the sides that are steepest on the edge: they end where those are,
-   so that no cut leaves the disc's surroundings. */
-static int list_sides(Work *work, const Disc *disc) {
+/* Adds the sides of the polygon that stands for what a disc, seen as a ball, has of a face's plane,
+   in which the unit vectors lie. Two borders that only touch it come first, then the sides that are
+   steepest on the edge: they end where those are, so that no cut leaves the disc's surroundings. */
+static void add_disc_sides(Work *work, HdVec3 centre, HdVec3 along, HdVec3 across, double radius) {
     const int half = work->disc_sides / 2;
-    int count = 0;
-    for (int sign = -1; sign <= 1; sign += 2) {
-        const HdVec3 inwards = hd_scale(disc->across, sign);
-        work->borders[count] = beyond(disc->centre, inwards);
-        work->borders[count++].offset -= disc->corner_radius;
-    }
+    for (int sign = -1; sign <= 1; sign += 2)
+        add_border(work, centre, hd_scale(across, sign), radius);
     for (int k = 0; 2 * k < half; k++) {
         const int sides[4] = {k, half - 1 - k, half + k, 2 * half - 1 - k};
         for (int i = 0; i < 4; i++) {
             const HdVec2 outwards = work->outwards[sides[i]];
             const HdVec3 inwards =
-                hd_add(hd_scale(disc->along, -outwards.x), hd_scale(disc->across, -outwards.y));
-            work->borders[count] = beyond(disc->centre, inwards);
-            work->borders[count++].offset -= work->flatness * disc->corner_radius;
+                hd_add(hd_scale(along, -outwards.x), hd_scale(across, -outwards.y));
+            add_border(work, centre, inwards, work->flatness * radius);
         }
     }
-    return count;
 }
 
-/* Adds the borders beyond which another light of the edge is nearer. */
-static int list_cell(Work *work, int edge, int light, int count) {
-    const HdVec3 direction = direction_of(work, edge);
-    if (light > 0)
-        work->borders[count++] = beyond(point_of_edge(work, edge, light), direction);
-    if (light < work->solid->lights.per_edge - 1)
-        work->borders[count++] =
-            beyond(point_of_edge(work, edge, light + 1), hd_scale(direction, -1.0));
-    return count;
-}
-
-/* What the ball about a light has of the face, as far as the light is the nearest of its edge. Of
-   overlapping discs the last edge's shows, as in the kernels. These ask of a disc's points that
-   they be near a side, too: all are, for no edge is nearer to a point of a face than the face's
-   nearest side. */
+/* Cuts out what the ball about a light has of the face, as far as the light is the nearest of its
+   edge. Of overlapping discs the last edge's shows, as in the kernels. These ask of a disc's points
+   that they be near a side, too: all are, for no edge is nearer to a point of a face than the
+   face's nearest side. */
 static bool carve_disc(Work *work, int face, int first, int edge, int light) {
-    const HdVec3 normal = work->shape.face_normal[face];
+    const HdVec3 normal = work->shape.face_normal[face], direction = direction_of(work, edge);
     const HdVec3 place = point_of_edge(work, edge, light + 0.5);
     double height = 0.0;
     if (!face_has_edge(work, face, edge))
@@ -147,17 +335,21 @@ static bool carve_disc(Work *work, int face, int first, int edge, int light) {
     const double squared = work->disc_radius * work->disc_radius - height * height;
     if (!(squared > 0.0))
         return true;
-    const HdVec3 along = along_face(work, face, direction_of(work, edge));
-    const Disc disc = {hd_sub(place, hd_scale(normal, height)), along, hd_cross(normal, along),
-                       work->widening * sqrt(squared)};
-    const int count = list_cell(work, edge, light, list_sides(work, &disc));
-    const int colour = edge % work->solid->lights.colour_count;
-    return hd_facets_carve(&work->facets, face, first, work->borders, count,
-                           HD_SOLID_MATERIAL_DISCS + 2 * colour);
+    const HdVec3 centre = hd_sub(place, hd_scale(normal, height));
+    const HdVec3 along = along_face(work, face, direction);
+    const double radius = work->widening * sqrt(squared);
+    work->border_count = 0;
+    add_disc_sides(work, centre, along, hd_cross(normal, along), radius);
+    if (light > 0)
+        add_border(work, point_of_edge(work, edge, light), direction, 0.0);
+    if (light < work->solid->lights.per_edge - 1)
+        add_border(work, point_of_edge(work, edge, light + 1), hd_scale(direction, -1.0), 0.0);
+    return carve(work, face, first, centre, radius,
+                 HD_SOLID_MATERIAL_DISCS + 2 * (edge % work->solid->lights.colour_count));
 }
 
 static bool carve_face(Work *work, int face) {
-    const int first = work->facets.facet_count;
+    const int first = work->facet_count;
     bool is_done = work->rim_width == 0.0 || carve_rim(work, face, first);
     for (int e = 0; e < work->shape.edge_count && work->disc_radius > 0.0; e++)
         for (int k = 0; k < work->solid->lights.per_edge && is_done; k++)
@@ -187,54 +379,131 @@ static void prepare(Work *work, const HdSolid *solid, int disc_sides) {
                        &work->outwards[i].x);
 }
 
-static HdStatus add_material(HdMesh *mesh, const char *name, const HdMaterial *material,
+/* Triangles */
+
+/* Lists the points of a facet and returns how many there are. */
+static int list_points(const Work *work, int facet, int32_t *loop) {
+    const int first = work->facets[facet].side;
+    int side = first, count = 0;
+    do {
+        loop[count++] = work->sides[side].from;
+        side = work->sides[side].next;
+    } while (side != first);
+    return count;
+}
+
+/* The least height of a triangle. */
+static double height_of(HdVec3 a, HdVec3 b, HdVec3 c, HdVec3 normal) {
+    const HdVec3 ab = hd_sub(b, a), bc = hd_sub(c, b), ca = hd_sub(a, c);
+    const double longest = fmax(hd_length(ab), fmax(hd_length(bc), hd_length(ca)));
+    return hd_dot(hd_cross(ca, ab), normal) / longest;
+}
+
+/* The same for the flattest triangle of the fan about a corner, as far as that is above `enough`.
+ */
+static double least_height(const HdVec3 *points, const int32_t *loop, int count, int corner,
+                           HdVec3 normal, double enough) {
+    double least = HUGE_VAL;
+    for (int k = 1; k < count - 1 && least > enough; k++) {
+        const HdVec3 b = points[loop[(corner + k) % count]];
+        const HdVec3 c = points[loop[(corner + k + 1) % count]];
+        least = fmin(least, height_of(points[loop[corner]], b, c, normal));
+    }
+    return least;
+}
+
+/* The corner of the fan whose flattest triangle is the least flat; -1 where points on one line
+   leave none. */
+static int best_corner(const HdVec3 *points, const int32_t *loop, int count, HdVec3 normal) {
+    double best_height = 1e-2 * same_place;
+    int best = count == 3 ? 0 : -1;
+    for (int i = 0; i < count; i++) {
+        const double height = least_height(points, loop, count, i, normal, best_height);
+        if (height > best_height) {
+            best_height = height;
+            best = i;
+        }
+    }
+    return best;
+}
+
+/* Adds a facet as a fan of triangles about one of its points, or about a new one in its middle. */
+static void add_fan(const Work *work, const Facet *facet, const int32_t *loop, int count,
+                    HdMesh *mesh) {
+    const HdVec3 normal = work->shape.face_normal[facet->face];
+    int corner = best_corner(work->points, loop, count, normal), apex = mesh->vertex_count;
+    if (corner >= 0)
+        apex = loop[corner];
+    else {
+        HdVec3 sum = hd_vec3(0.0, 0.0, 0.0);
+        for (int i = 0; i < count; i++)
+            sum = hd_add(sum, work->points[loop[i]]);
+        mesh->vertices[mesh->vertex_count++] = hd_scale(sum, work->solid->circumradius / count);
+        corner = 0;
+    }
+    for (int k = 0; k < count; k++) {
+        const int32_t corners[3] = {apex, loop[(corner + k) % count],
+                                    loop[(corner + k + 1) % count]};
+        if (corners[1] == apex || corners[2] == apex)
+            continue;
+        const int t = mesh->triangle_count++;
+        memcpy(mesh->corners[t], corners, sizeof corners);
+        mesh->material_of[t] = facet->material;
+        mesh->group_of[t] = (uint8_t)(facet->face + 1);
+    }
+}
+
+static bool fill_mesh(const Work *work, HdMesh *mesh) {
+    int32_t *loop = malloc((size_t)work->side_count * sizeof *loop);
+    const bool has_room =
+        loop != NULL &&
+        hd_mesh_allocate(mesh, (size_t)work->point_count + (size_t)work->facet_count,
+                         (size_t)work->side_count);
+    for (int p = 0; p < work->point_count && has_room; p++)
+        mesh->vertices[mesh->vertex_count++] = hd_scale(work->points[p], work->solid->circumradius);
+    for (int f = 0; f < work->facet_count && has_room; f++)
+        add_fan(work, &work->facets[f], loop, list_points(work, f, loop), mesh);
+    free(loop);
+    return has_room;
+}
+
+static HdStatus add_material(HdMesh *mesh, const char *name, const HdMeshMaterial *material,
                              HdError *error) {
-    HdMeshMaterial *added = &mesh->materials[mesh->material_count];
-    *added = (HdMeshMaterial){.material = *material, .picture = -1, .passes_as = -1};
+    HdMeshMaterial *added = &mesh->materials[mesh->material_count++];
+    *added = *material;
+    added->picture = -1;
     added->name = strdup(name);
-    mesh->material_count++;
     return added->name != NULL ? HD_OK : no_memory(error);
 }
 
 /* A disc shows its own radiance and nothing else. */
-static HdStatus add_disc_material(HdMesh *mesh, const HdEdgeLights *lights, int colour, bool on_rim,
-                                  HdError *error) {
-    static const HdMaterial nothing = {.shininess = 1, .index_of_refraction = 1.0};
-    char name[64];
-    snprintf(name, sizeof name, "disc of colour %d%s", colour + 1, on_rim ? " on the rim" : "");
-    HdStatus status = add_material(mesh, name, &nothing, error);
-    if (status != HD_OK)
-        return status;
-    HdMeshMaterial *added = &mesh->materials[mesh->material_count - 1];
-    added->emission = hd_scale(lights->colours[colour], lights->disc_radiance);
-    added->passes_as = on_rim ? HD_SOLID_MATERIAL_RIM : HD_SOLID_MATERIAL_FACE;
+static HdStatus add_materials(HdMesh *mesh, const HdSolid *solid, bool has_discs, HdError *error) {
+    const int discs = has_discs ? 2 * solid->lights.colour_count : 0;
+    mesh->materials = calloc(HD_SOLID_MATERIAL_DISCS + (size_t)discs, sizeof *mesh->materials);
+    if (mesh->materials == NULL)
+        return no_memory(error);
+    HdMeshMaterial added = {.material = solid->face, .passes_as = -1};
+    HD_TRY(add_material(mesh, "face", &added, error));
+    added.material = solid->rim;
+    HD_TRY(add_material(mesh, "rim", &added, error));
+    added.material = (HdMaterial){.shininess = 1, .index_of_refraction = 1.0};
+    for (int i = 0; i < discs; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "disc of colour %d%s", i / 2 + 1, i % 2 ? " on the rim" : "");
+        added.emission = hd_scale(solid->lights.colours[i / 2], solid->lights.disc_radiance);
+        added.passes_as = i % 2 ? HD_SOLID_MATERIAL_RIM : HD_SOLID_MATERIAL_FACE;
+        HD_TRY(add_material(mesh, name, &added, error));
+    }
     return HD_OK;
 }
 
-static HdStatus add_materials(HdMesh *mesh, const HdSolid *solid, bool has_discs, HdError *error) {
-    int colours = has_discs ? solid->lights.colour_count : 0;
-    mesh->materials =
-        calloc(HD_SOLID_MATERIAL_DISCS + 2 * (size_t)colours, sizeof *mesh->materials);
-    if (mesh->materials == NULL)
-        return no_memory(error);
-    HdStatus status = add_material(mesh, "face", &solid->face, error);
-    if (status == HD_OK)
-        status = add_material(mesh, "rim", &solid->rim, error);
-    for (int i = 0; i < 2 * colours && status == HD_OK; i++)
-        status = add_disc_material(mesh, &solid->lights, i / 2, i % 2 == 1, error);
-    return status;
-}
-
 static HdStatus make_solid(Work *work, HdMesh *mesh, int divisions, HdError *error) {
-    const int material = work->rim_width > 0.0 ? HD_SOLID_MATERIAL_RIM : HD_SOLID_MATERIAL_FACE;
-    HdStatus status = add_materials(mesh, work->solid, work->disc_radius > 0.0, error);
-    if (status != HD_OK)
-        return status;
-    bool is_done = hd_facets_start(&work->facets, &work->shape, material);
+    HD_TRY(add_materials(mesh, work->solid, work->disc_radius > 0.0, error));
+    bool is_done =
+        start(work, work->rim_width > 0.0 ? HD_SOLID_MATERIAL_RIM : HD_SOLID_MATERIAL_FACE);
     for (int f = 0; f < work->shape.face_count && is_done; f++)
         is_done = carve_face(work, f);
-    if (!is_done ||
-        !hd_facets_fill_mesh(&work->facets, &work->shape, work->solid->circumradius, mesh))
+    if (!is_done || !fill_mesh(work, mesh))
         return no_memory(error);
     return hd_divide_triangles(mesh, divisions, error);
 }
@@ -251,12 +520,16 @@ HdStatus hd_triangulate_solid(HdMesh *mesh, const HdSolid *solid, int disc_sides
         return no_memory(error);
     prepare(work, solid, disc_sides);
     const HdStatus status = make_solid(work, mesh, divisions, error);
-    hd_facets_free(&work->facets);
+    free(work->points);
+    free(work->sides);
+    free(work->facets);
     free(work);
     if (status != HD_OK)
         hd_mesh_free(mesh);
     return status;
 }
+
+/* The floor */
 
 /* The floor's point at a share of the way from corner 0 to 1 and from there towards 3 and 2. */
 static HdVec3 floor_point(const HdVec3 corner[4], double s, double t) {
@@ -281,51 +554,44 @@ static void fill_floor_points(HdMesh *mesh, const HdFloor *floor, int divisions)
     mesh->uv_count = mesh->vertex_count;
 }
 
-static void add_floor_triangle(HdMesh *mesh, int a, int b, int c) {
-    int t = mesh->triangle_count++;
-    int32_t corners[3] = {a, b, c};
-    memcpy(mesh->corners[t], corners, sizeof corners);
-    memcpy(mesh->corner_uvs[t], corners, sizeof corners);
-    mesh->group_of[t] = 1;
-}
-
 static void fill_floor_triangles(HdMesh *mesh, int divisions) {
     for (int row = 0; row < divisions; row++)
         for (int column = 0; column < divisions; column++) {
-            int upper = row * (divisions + 1) + column, lower = upper + divisions + 1;
-            add_floor_triangle(mesh, upper, upper + 1, lower + 1);
-            add_floor_triangle(mesh, upper, lower + 1, lower);
+            const int32_t upper = row * (divisions + 1) + column, lower = upper + divisions + 1;
+            const int32_t corners[2][3] = {{upper, upper + 1, lower + 1},
+                                           {upper, lower + 1, lower}};
+            memcpy(mesh->corners[mesh->triangle_count], corners, sizeof corners);
+            memcpy(mesh->corner_uvs[mesh->triangle_count], corners, sizeof corners);
+            mesh->triangle_count += 2;
         }
+    memset(mesh->group_of, 1, (size_t)mesh->triangle_count);
 }
 
-static HdStatus allocate_floor(HdMesh *mesh, int divisions, HdError *error) {
-    size_t n = (size_t)divisions, points = (n + 1) * (n + 1), triangles = 2 * n * n;
+static HdStatus make_floor_mesh(HdMesh *mesh, const HdFloor *floor, int divisions, HdError *error) {
+    const size_t n = (size_t)divisions, points = (n + 1) * (n + 1), triangles = 2 * n * n;
+    const HdMeshMaterial material = {.material = floor->material, .passes_as = -1};
     mesh->uvs = malloc(points * sizeof *mesh->uvs);
     mesh->corner_uvs = malloc(triangles * sizeof *mesh->corner_uvs);
     mesh->materials = calloc(1, sizeof *mesh->materials);
     if (mesh->uvs == NULL || mesh->corner_uvs == NULL || mesh->materials == NULL ||
         !hd_mesh_allocate(mesh, points, triangles))
         return hd_fail(error, HD_FAILED, "out of memory: no room for %zu triangles", triangles);
+    HD_TRY(add_material(mesh, "floor", &material, error));
+    fill_floor_points(mesh, floor, divisions);
+    fill_floor_triangles(mesh, divisions);
     return HD_OK;
 }
 
 HdStatus hd_triangulate_floor(HdMesh *mesh, const HdFloor *floor, int divisions, HdError *error) {
     *mesh = (HdMesh){0};
-    HdStatus status = hd_check_divisions(2, divisions, error);
-    if (status == HD_OK)
-        status = allocate_floor(mesh, divisions, error);
-    if (status == HD_OK)
-        status = add_material(mesh, "floor", &floor->material, error);
-    if (status == HD_OK) {
-        fill_floor_points(mesh, floor, divisions);
-        fill_floor_triangles(mesh, divisions);
-    } else {
+    HD_TRY(hd_check_divisions(2, divisions, error));
+    const HdStatus status = make_floor_mesh(mesh, floor, divisions, error);
+    if (status != HD_OK)
         hd_mesh_free(mesh);
-    }
     return status;
 }
 
-/* ---- the scene ---- */
+/* The scene */
 
 /* In `made` is what the scene gets in front of its own meshes and instances, and behind its
    pictures, in arrays that have room for those too. */
@@ -350,9 +616,7 @@ static HdStatus copy_texture(HdPicture *picture, const HdTexture *texture, HdErr
 static HdStatus make_floor(HdScene *made, const HdScene *scene, int divisions, HdError *error) {
     const HdFloor *floor = &scene->floor;
     HdMesh *mesh = &made->meshes[made->mesh_count];
-    HdStatus status = hd_triangulate_floor(mesh, floor, divisions, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_triangulate_floor(mesh, floor, divisions, error));
     place(made, hd_floor_centre(floor));
     mesh->materials[0].is_opaque_to_shadows = true;
     if (floor->texture.width == 0)
@@ -362,34 +626,23 @@ static HdStatus make_floor(HdScene *made, const HdScene *scene, int divisions, H
     return copy_texture(&made->pictures[scene->picture_count], &floor->texture, error);
 }
 
-static HdStatus build_meshes(const HdScene *made, HdError *error) {
-    HdThreadPool *pool = NULL;
-    HdStatus status = hd_thread_pool_create(&pool, hd_processor_count(), error);
-    for (int i = 0; status == HD_OK && i < made->mesh_count; i++)
-        status = hd_mesh_build(&made->meshes[i], pool, error);
-    hd_thread_pool_destroy(pool);
-    return status;
-}
-
 static HdStatus make(HdScene *made, const HdScene *scene, int disc_sides, int divisions,
                      HdError *error) {
     size_t own = (size_t)scene->solid_count + 1;
-    HdStatus status = HD_OK;
     made->meshes = calloc(own + (size_t)scene->mesh_count, sizeof *made->meshes);
     made->instances = calloc(own + (size_t)scene->instance_count, sizeof *made->instances);
     made->pictures = calloc((size_t)scene->picture_count + 1, sizeof *made->pictures);
     if (made->meshes == NULL || made->instances == NULL || made->pictures == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for %zu meshes",
                        own + (size_t)scene->mesh_count);
-    for (int s = 0; s < scene->solid_count && status == HD_OK; s++) {
+    for (int s = 0; s < scene->solid_count; s++) {
         const HdSolid *solid = &scene->solids[s];
-        status = hd_triangulate_solid(&made->meshes[s], solid, disc_sides, divisions, error);
-        if (status == HD_OK)
-            place(made, solid->centre);
+        HD_TRY(hd_triangulate_solid(&made->meshes[s], solid, disc_sides, divisions, error));
+        place(made, solid->centre);
     }
-    if (status == HD_OK && scene->floor.present)
-        status = make_floor(made, scene, divisions, error);
-    return status == HD_OK ? build_meshes(made, error) : status;
+    if (scene->floor.present)
+        HD_TRY(make_floor(made, scene, divisions, error));
+    return hd_scene_build_meshes(made, error);
 }
 
 static void take(HdScene *scene, const HdScene *made) {

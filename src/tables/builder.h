@@ -40,6 +40,7 @@ typedef struct HdMeshPlace {
 typedef struct HdGroupedLight {
     HdVec3 position; /* in world space */
     HdVec3 about;    /* the middle of its edge, if it has one */
+    double key;      /* by which they are sorted */
     int light, group;
 } HdGroupedLight;
 
@@ -80,9 +81,11 @@ typedef struct HdFloorFrame {
 
 /* ---- solids, the floor and lights (elements.c) ---- */
 
-HdStatus hd_builder_shape_solids(HdBuilder *builder, HdError *error);
-/* Objects, planes, edges and lights. */
-void hd_builder_count(HdBuilder *builder);
+/* Shapes the solids, and counts objects, planes, edges, lights and pictures. */
+HdStatus hd_builder_count(HdBuilder *builder, HdError *error);
+/* Lists the lights, and groups them: halves the lights across their longest side, and the halves,
+   until there are as many groups as HD_LIGHT_GROUPS says; an edge's lights stay together where they
+   can. */
 void hd_builder_list_lights(HdBuilder *builder);
 
 /* Solids, the floor and all meshes together, as far as there are any of them; and where one of
@@ -100,9 +103,6 @@ HdVec3 hd_edge_colour(const HdEdgeLights *lights, int edge);
 /* A light relative to an object. */
 HdVec3 hd_light_offset(const HdBuilder *builder, const HdLightSource *source, int object);
 HdFloorFrame hd_floor_frame(const HdFloor *floor);
-/* Halves the lights across their longest side, and the halves, until there are as many groups as
-   HD_LIGHT_GROUPS says; an edge's lights stay together where they can. */
-void hd_builder_group_lights(HdBuilder *builder);
 
 /* No ray sees more radiance, contributions being clamped. */
 HdVec3 hd_most_radiance(const HdScene *scene);

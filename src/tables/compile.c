@@ -80,14 +80,14 @@ static HdStatus allocate_builder(HdBuilder *builder, HdSceneTables *tables, HdEr
     const HdMemoryRoom machine = {.name = "this machine",
                                   .advice = "fewer triangles need less",
                                   .memory = hd_physical_memory()};
-    HdStatus status = hd_check_room(tables, &machine, error);
-    for (int i = 0; status == HD_OK && i < HD_SCENE_TABLE_COUNT; i++) {
+    HD_TRY(hd_check_room(tables, &machine, error));
+    for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++) {
         char what[64];
         snprintf(what, sizeof what, "scene's %s", hd_scene_table_content(i));
-        status = hd_table_allocate(&tables->table[i], what, error);
+        HD_TRY(hd_table_allocate(&tables->table[i], what, error));
         builder->table[i] = tables->table[i].data;
     }
-    return status;
+    return HD_OK;
 }
 
 static void describe_material(HdSceneTables *tables, const HdMaterial *material) {
@@ -116,11 +116,10 @@ static void describe_shape(const HdBuilder *builder, HdSceneTables *tables) {
 
 HdStatus NAMED(hd_compile_scene)(HdSceneTables *tables, const HdScene *scene, HdError *error) {
     HdBuilder builder = {.scene = scene, .lanes = tables->lanes};
-    HdStatus status = hd_builder_shape_solids(&builder, error);
+    HdStatus status = hd_builder_count(&builder, error);
     if (status == HD_OK)
         status = hd_builder_prepare_meshes(&builder, error);
     if (status == HD_OK) {
-        hd_builder_count(&builder);
         describe_shape(&builder, tables);
         builder.first_mesh_material = 2 * builder.solid_count + 1;
         status = allocate_builder(&builder, tables, error);
@@ -129,7 +128,6 @@ HdStatus NAMED(hd_compile_scene)(HdSceneTables *tables, const HdScene *scene, Hd
         for (int i = 0; i < builder.object_count; i++)
             builder.centres[i] = hd_object_centre(scene, i);
         hd_builder_list_lights(&builder);
-        hd_builder_group_lights(&builder);
         NAMED(hd_fill_header)(&builder, tables);
         NAMED(hd_fill_solids)(&builder);
         if (tables->surveyed)
@@ -157,10 +155,6 @@ static int ceil_log2(int n) {
     return bits;
 }
 
-static real power_of_two(int exponent) {
-    return (real)ldexp(1.0, exponent);
-}
-
 /* Bounds are small where they matter, so they have the more bits after the point the less can be
    left out. */
 enum { MOST_BOUND_BITS = 44 };
@@ -171,8 +165,8 @@ static void fill_fixed_bound(View *view, double most_left_out, int samples) {
     int bits = exponent + MOST_BOUND_BITS <= 61 ? MOST_BOUND_BITS : 61 - exponent;
     int excess = exponent + bits + ceil_log2(samples) - 62;
     view->bound_shift = excess > 0 ? excess : 0;
-    view->bound_to_fixed = power_of_two(bits);
-    view->bound_from_fixed = power_of_two(view->bound_shift - bits);
+    view->bound_to_fixed = (real)ldexp(1.0, bits);
+    view->bound_from_fixed = (real)ldexp(1.0, view->bound_shift - bits);
 }
 
 /* A contribution is at most 2^16 and the weights of one level add up to at most 1, so a sample's
@@ -182,8 +176,8 @@ static void fill_fixed_point(View *view, const HdScene *scene, int samples) {
     int sample_bits = sum_bits + 40 <= 62 ? 40 : 62 - sum_bits;
     int excess = sum_bits + sample_bits + ceil_log2(samples) - 62;
     view->pixel_shift = excess > 0 ? excess : 0;
-    view->to_fixed = power_of_two(sample_bits);
-    view->from_fixed = power_of_two(view->pixel_shift - sample_bits);
+    view->to_fixed = (real)ldexp(1.0, sample_bits);
+    view->from_fixed = (real)ldexp(1.0, view->pixel_shift - sample_bits);
 }
 
 static void fill_view(View *view, const HdFrameTables *tables, const HdScene *scene,
@@ -235,11 +229,8 @@ HdStatus NAMED(hd_compile_frame)(HdFrameTables *tables, const HdScene *scene,
             2 * sizeof(int) * (size_t)tables->width * (size_t)tables->height;
         tables->table[HD_TABLE_sample_places].bytes = sizeof(int) * (size_t)list->place_count;
     }
-    for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++) {
-        HdStatus status = hd_table_allocate(&tables->table[i], "tables of a frame", error);
-        if (status != HD_OK)
-            return status;
-    }
+    for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
+        HD_TRY(hd_table_allocate(&tables->table[i], "tables of a frame", error));
     fill_view(tables->table[HD_TABLE_view].data, tables, scene, camera, list);
     if (list != NULL)
         fill_list(tables, list);

@@ -15,17 +15,6 @@ int hd_solid_plane_count(const HdPlatonic *shape) {
     return shape->face_count / hd_faces_per_plane(shape);
 }
 
-HdStatus hd_builder_shape_solids(HdBuilder *builder, HdError *error) {
-    const HdScene *scene = builder->scene;
-    builder->shapes = calloc((size_t)scene->solid_count + 1, sizeof *builder->shapes);
-    if (builder->shapes == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: the scene has %d solids",
-                       scene->solid_count);
-    for (int s = 0; s < scene->solid_count; s++)
-        builder->shapes[s] = hd_solid_shape(&scene->solids[s]);
-    return HD_OK;
-}
-
 static bool has_solids(const HdScene *scene) {
     return scene->geometry == HD_GEOMETRY_SOLIDS;
 }
@@ -66,8 +55,14 @@ static void count_pictures(HdBuilder *builder) {
     }
 }
 
-void hd_builder_count(HdBuilder *builder) {
+HdStatus hd_builder_count(HdBuilder *builder, HdError *error) {
     const HdScene *scene = builder->scene;
+    builder->shapes = calloc((size_t)scene->solid_count + 1, sizeof *builder->shapes);
+    if (builder->shapes == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: the scene has %d solids",
+                       scene->solid_count);
+    for (int s = 0; s < scene->solid_count; s++)
+        builder->shapes[s] = hd_solid_shape(&scene->solids[s]);
     builder->solid_count = has_solids(scene) ? scene->solid_count : 0;
     builder->has_floor = has_floor(scene);
     builder->object_count = hd_object_count(scene);
@@ -83,6 +78,7 @@ void hd_builder_count(HdBuilder *builder) {
     if (builder->has_floor)
         builder->plane_count += HD_FLOOR_PLANES;
     count_pictures(builder);
+    return HD_OK;
 }
 
 /* ---- lights ---- */
@@ -118,20 +114,6 @@ static int list_edge_lights(const HdBuilder *builder, int solid, HdLightSource *
     return count;
 }
 
-void hd_builder_list_lights(HdBuilder *builder) {
-    const HdScene *scene = builder->scene;
-    int count = 0;
-    for (int i = 0; i < scene->light_count; i++)
-        builder->sources[count++] = (HdLightSource){
-            .position = scene->lights[i].position,
-            .owner = -1,
-            .intensity = scene->lights[i].intensity,
-            .falloff = scene->lights[i].falloff,
-        };
-    for (int s = 0; s < scene->solid_count; s++)
-        count += list_edge_lights(builder, s, builder->sources + count);
-}
-
 /* The difference of the centres comes first: an edge light keeps all its digits at its own solid,
    however far from the world's origin that is. */
 HdVec3 hd_light_offset(const HdBuilder *builder, const HdLightSource *source, int object) {
@@ -158,9 +140,8 @@ HdFloorFrame hd_floor_frame(const HdFloor *floor) {
 /* ---- radiance ---- */
 
 HdVec3 hd_most_radiance(const HdScene *scene) {
-    HdVec3 most = hd_radiance_bound(scene);
     double limit = HD_RADIANCE_LIMIT / scene->exposure;
-    return (HdVec3){fmin(most.x, limit), fmin(most.y, limit), fmin(most.z, limit)};
+    return hd_minimum(hd_radiance_bound(scene), hd_vec3(limit, limit, limit));
 }
 
 /* ---- groups of lights near each other ---- */
@@ -170,24 +151,11 @@ static double coordinate(HdVec3 v, int axis) {
 }
 
 /* Ties are broken by number, so that every machine makes the same groups. */
-static int compare_coordinate(const HdGroupedLight *a, const HdGroupedLight *b, int axis) {
-    double x = coordinate(a->about, axis), y = coordinate(b->about, axis);
-    return x != y ? (x < y ? -1 : 1) : (a->light > b->light) - (a->light < b->light);
-}
-
-static int compare_x(const void *a, const void *b) {
-    return compare_coordinate(a, b, 0);
-}
-static int compare_y(const void *a, const void *b) {
-    return compare_coordinate(a, b, 1);
-}
-static int compare_z(const void *a, const void *b) {
-    return compare_coordinate(a, b, 2);
-}
-
-static int compare_number(const void *a, const void *b) {
-    int i = ((const HdGroupedLight *)a)->light, j = ((const HdGroupedLight *)b)->light;
-    return (i > j) - (i < j);
+static int compare_keys(const void *a, const void *b) {
+    const HdGroupedLight *left = a, *right = b;
+    if (left->key != right->key)
+        return left->key < right->key ? -1 : 1;
+    return (left->light > right->light) - (left->light < right->light);
 }
 
 static double extent(const HdGroupedLight *lights, int count, int axis) {
@@ -218,17 +186,20 @@ static int place_between(const HdGroupedLight *lights, int count, int place) {
 /* There are no more groups than lights. */
 static void split(HdGroupedLight *lights, int count, int first_group, int groups) {
     if (groups == 1) {
-        qsort(lights, (size_t)count, sizeof *lights, compare_number);
-        for (int i = 0; i < count; i++)
+        for (int i = 0; i < count; i++) {
             lights[i].group = first_group;
+            lights[i].key = 0.0;
+        }
+        qsort(lights, (size_t)count, sizeof *lights, compare_keys);
         return;
     }
     int axis = 0;
     for (int other = 1; other < 3; other++)
         if (extent(lights, count, other) > extent(lights, count, axis))
             axis = other;
-    static int (*const compare[])(const void *, const void *) = {compare_x, compare_y, compare_z};
-    qsort(lights, (size_t)count, sizeof *lights, compare[axis]);
+    for (int i = 0; i < count; i++)
+        lights[i].key = coordinate(lights[i].about, axis);
+    qsort(lights, (size_t)count, sizeof *lights, compare_keys);
     int part = place_between(lights, count, (int)((int64_t)count * (groups / 2) / groups));
     int half = (int)(((int64_t)groups * part + count / 2) / count);
     half = half < 1 ? 1 : half < groups ? half : groups - 1;
@@ -254,7 +225,7 @@ static int set_middle(HdBuilder *builder, int first) {
     return next;
 }
 
-void hd_builder_group_lights(HdBuilder *builder) {
+static void group_lights(HdBuilder *builder) {
     int groups = HD_LIGHT_GROUPS(builder->light_count);
     for (int i = 0; i < builder->light_count; i++) {
         const HdLightSource *source = &builder->sources[i];
@@ -267,4 +238,19 @@ void hd_builder_group_lights(HdBuilder *builder) {
         next = set_middle(builder, i);
     if (groups > 0)
         split(builder->grouped, builder->light_count, 0, groups);
+}
+
+void hd_builder_list_lights(HdBuilder *builder) {
+    const HdScene *scene = builder->scene;
+    int count = 0;
+    for (int i = 0; i < scene->light_count; i++)
+        builder->sources[count++] = (HdLightSource){
+            .position = scene->lights[i].position,
+            .owner = -1,
+            .intensity = scene->lights[i].intensity,
+            .falloff = scene->lights[i].falloff,
+        };
+    for (int s = 0; s < scene->solid_count; s++)
+        count += list_edge_lights(builder, s, builder->sources + count);
+    group_lights(builder);
 }

@@ -58,23 +58,17 @@ static void fill_falloff(Light *light, const HdFalloff *falloff) {
     light->inverse_falloff_squared = falloff->end > 0.0 ? -inverse : inverse;
 }
 
-/* The kernels' number of a solid's face: 2 * plane + side, planes counted from `first_plane`. */
-static int face_number(const HdPlatonic *shape, int first_plane, int face) {
-    return 2 * first_plane + (hd_faces_per_plane(shape) == 2 ? face : 2 * face);
-}
-
-/* A solid's face, or the group of triangles that it became. */
+/* The kernels' number of a solid's face, 2 * plane + side, or the group of triangles that it
+   became; -1: the light is on no solid. */
 static int own_face(const HdBuilder *builder, const HdLightSource *source, int face) {
     const Object *objects = builder->table[HD_TABLE_objects];
     const Instance *instances = builder->table[HD_TABLE_instances];
+    if (source->owner < 0)
+        return -1;
     if (builder->scene->geometry == HD_GEOMETRY_TRIANGLES)
         return instances[source->owner].first_face + face;
-    return face_number(&builder->shapes[source->owner], objects[source->owner].first_plane, face);
-}
-
-static void set_own_faces(const HdBuilder *builder, const HdLightSource *source, Light *light) {
-    for (int i = 0; i < 2; i++)
-        light->own_face[i] = source->owner < 0 ? -1 : own_face(builder, source, source->face[i]);
+    const bool is_paired = hd_faces_per_plane(&builder->shapes[source->owner]) == 2;
+    return 2 * objects[source->owner].first_plane + (is_paired ? face : 2 * face);
 }
 
 /* A sphere about lights near each other. */
@@ -185,7 +179,8 @@ static void fill_lights(const HdBuilder *builder) {
         const HdLightSource *source = &builder->sources[i];
         hd_store3(lights[i].intensity, source->intensity);
         fill_falloff(&lights[i], &source->falloff);
-        set_own_faces(builder, source, &lights[i]);
+        lights[i].own_face[0] = own_face(builder, source, source->face[0]);
+        lights[i].own_face[1] = own_face(builder, source, source->face[1]);
         for (int object = 0; object < builder->object_count; object++)
             offsets[object * builder->light_count + i] =
                 hd_as_vector(hd_light_offset(builder, source, object));

@@ -23,11 +23,8 @@ void NAMED(hd_fill_header)(const HdBuilder *builder, const HdSceneTables *tables
 }
 
 static void store_seen(Object *out, const HdSeen *seen, HdVec3 limit) {
-    const HdVec3 outside = seen->outside, inside = seen->inside;
-    hd_store3(out->seen_outside, (HdVec3){fmin(outside.x, limit.x), fmin(outside.y, limit.y),
-                                          fmin(outside.z, limit.z)});
-    hd_store3(out->seen_inside,
-              (HdVec3){fmin(inside.x, limit.x), fmin(inside.y, limit.y), fmin(inside.z, limit.z)});
+    hd_store3(out->seen_outside, hd_minimum(seen->outside, limit));
+    hd_store3(out->seen_inside, hd_minimum(seen->inside, limit));
 }
 
 void NAMED(hd_fill_seen)(const HdBuilder *builder) {

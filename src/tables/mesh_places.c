@@ -42,14 +42,6 @@ HdPlacement hd_placement_of(const HdScene *scene, int number) {
     return to;
 }
 
-static HdVec3 larger(HdVec3 a, HdVec3 b) {
-    return hd_vec3(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z));
-}
-
-static HdVec3 smaller(HdVec3 a, HdVec3 b) {
-    return hd_vec3(fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z));
-}
-
 /* Half the sides of the box about a placed mesh. */
 static HdVec3 reach_of(const HdMesh *mesh, const HdPlacement *to) {
     HdVec3 half = hd_scale(hd_sub(mesh->upper, mesh->lower), 0.5 / hd_mesh_half_side(mesh));
@@ -64,8 +56,8 @@ double hd_box_meshes(const HdScene *scene, HdVec3 *centre) {
     for (int i = 0; i < scene->instance_count; i++) {
         HdPlacement to = hd_placement_of(scene, i);
         HdVec3 reach = reach_of(hd_mesh_of(scene, i), &to);
-        lower = i == 0 ? hd_sub(to.start, reach) : smaller(lower, hd_sub(to.start, reach));
-        upper = i == 0 ? hd_add(to.start, reach) : larger(upper, hd_add(to.start, reach));
+        lower = i == 0 ? hd_sub(to.start, reach) : hd_minimum(lower, hd_sub(to.start, reach));
+        upper = i == 0 ? hd_add(to.start, reach) : hd_maximum(upper, hd_add(to.start, reach));
     }
     HdVec3 half = hd_scale(hd_sub(upper, lower), 0.5);
     *centre = hd_add(lower, half);
@@ -98,29 +90,28 @@ static HdStatus add_mesh(HdBuilder *builder, const HdMesh *mesh, HdMeshPlace *pl
         sizes->nodes += (size_t)mesh->tree.node_count;
         return HD_OK;
     }
-    HdStatus status = hd_hierarchy_widen(&place->wide, &mesh->tree, builder->lanes, error);
+    HD_TRY(hd_hierarchy_widen(&place->wide, &mesh->tree, builder->lanes, error));
     sizes->wide_nodes += (size_t)place->wide.node_count;
     builder->wide_stack = hd_max((builder->lanes - 1) * place->wide.depth + 1, builder->wide_stack);
-    return status;
+    return HD_OK;
 }
 
 static HdStatus count_meshes(HdBuilder *builder, HdError *error) {
     const HdScene *scene = builder->scene;
     HdMeshSizes *sizes = &builder->sizes;
-    HdStatus status = HD_OK;
     builder->places = calloc((size_t)scene->mesh_count + 1, sizeof *builder->places);
     if (builder->places == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: the scene has %d meshes",
                        scene->mesh_count);
-    for (int i = 0; status == HD_OK && i < scene->mesh_count; i++)
-        status = add_mesh(builder, &scene->meshes[i], &builder->places[i], error);
-    if (status == HD_OK && sizes->triangles > HD_MAX_MESH_TRIANGLES)
-        status = hd_fail(error, HD_BAD_INPUT,
-                         "the meshes have %zu triangles in all, expected at most %d",
-                         sizes->triangles, (int)HD_MAX_MESH_TRIANGLES);
+    for (int i = 0; i < scene->mesh_count; i++)
+        HD_TRY(add_mesh(builder, &scene->meshes[i], &builder->places[i], error));
+    if (sizes->triangles > HD_MAX_MESH_TRIANGLES)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the meshes have %zu triangles in all, expected at most %d",
+                       sizes->triangles, (int)HD_MAX_MESH_TRIANGLES);
     for (int i = 0; i < scene->instance_count; i++)
         sizes->skins += (size_t)hd_mesh_of(builder->scene, i)->material_count;
-    return status;
+    return HD_OK;
 }
 
 /* ---- over the instances ---- */
@@ -173,14 +164,11 @@ static HdStatus build_top(HdBuilder *builder, HdError *error) {
 HdStatus hd_builder_prepare_meshes(HdBuilder *builder, HdError *error) {
     if (builder->scene->instance_count == 0)
         return HD_OK;
-    HdStatus status = count_meshes(builder, error);
-    if (status == HD_OK) {
-        builder->mesh_reach = hd_box_meshes(builder->scene, &builder->mesh_centre);
-        status = build_top(builder, error);
-    }
-    if (builder->node_stack == 0)
-        builder->node_stack = 1;
-    return status;
+    HD_TRY(count_meshes(builder, error));
+    builder->mesh_reach = hd_box_meshes(builder->scene, &builder->mesh_centre);
+    HD_TRY(build_top(builder, error));
+    builder->node_stack = hd_max(builder->node_stack, 1);
+    return HD_OK;
 }
 
 void hd_builder_free_meshes(HdBuilder *builder) {

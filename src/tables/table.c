@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "tables/table.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -83,40 +84,30 @@ void hd_byte_text(double bytes, char out[HD_BYTE_TEXT_SIZE]) {
     snprintf(out, HD_BYTE_TEXT_SIZE, "%.*f %s", decimals, bytes, units[unit]);
 }
 
-static HdStatus fail_table(const HdSceneTables *tables, int largest, const HdMemoryRoom *room,
-                           HdError *error) {
-    char need[HD_BYTE_TEXT_SIZE], at_once[HD_BYTE_TEXT_SIZE], memory[HD_BYTE_TEXT_SIZE];
-    hd_byte_text((double)tables->table[largest].bytes, need);
-    hd_byte_text(room->at_once, at_once);
-    hd_byte_text(room->memory, memory);
-    return hd_fail(
-        error, HD_UNAVAILABLE, "the scene's %s need %s in one buffer; %s allows %s of its %s; %s",
-        hd_scene_table_content(largest), need, room->name, at_once, memory, room->advice);
-}
-
-static HdStatus fail_all(const HdSceneTables *tables, int largest, double all,
-                         const HdMemoryRoom *room, HdError *error) {
-    char need[HD_BYTE_TEXT_SIZE], most[HD_BYTE_TEXT_SIZE], memory[HD_BYTE_TEXT_SIZE];
-    hd_byte_text(all, need);
-    hd_byte_text((double)tables->table[largest].bytes, most);
-    hd_byte_text(room->memory, memory);
-    return hd_fail(error, HD_UNAVAILABLE,
-                   "the scene's tables need %s, %s of them for its %s; %s has %s; %s", need, most,
-                   hd_scene_table_content(largest), room->name, memory, room->advice);
-}
-
 HdStatus hd_check_room(const HdSceneTables *tables, const HdMemoryRoom *room, HdError *error) {
-    double all = 0.0;
+    char need[HD_BYTE_TEXT_SIZE], most[HD_BYTE_TEXT_SIZE], at_once[HD_BYTE_TEXT_SIZE],
+        memory[HD_BYTE_TEXT_SIZE];
+    double all = 0.0, largest_bytes = 0.0;
     int largest = 0;
     for (int i = 0; i < tables->table_count; i++) {
-        all += (double)tables->table[i].bytes;
-        if (tables->table[i].bytes > tables->table[largest].bytes)
-            largest = i;
+        const double bytes = (double)tables->table[i].bytes;
+        all += bytes;
+        largest = bytes > largest_bytes ? i : largest;
+        largest_bytes = fmax(bytes, largest_bytes);
     }
+    hd_byte_text(all, need);
+    hd_byte_text(largest_bytes, most);
+    hd_byte_text(room->at_once, at_once);
+    hd_byte_text(room->memory, memory);
+    const char *content = hd_scene_table_content(largest);
     if (room->memory > 0.0 && all > room->memory)
-        return fail_all(tables, largest, all, room, error);
-    if (room->at_once > 0.0 && (double)tables->table[largest].bytes > room->at_once)
-        return fail_table(tables, largest, room, error);
+        return hd_fail(error, HD_UNAVAILABLE,
+                       "the scene's tables need %s, %s of them for its %s; %s has %s; %s", need,
+                       most, content, room->name, memory, room->advice);
+    if (room->at_once > 0.0 && largest_bytes > room->at_once)
+        return hd_fail(error, HD_UNAVAILABLE,
+                       "the scene's %s need %s in one buffer; %s allows %s of its %s; %s", content,
+                       most, room->name, at_once, memory, room->advice);
     return HD_OK;
 }
 

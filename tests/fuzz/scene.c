@@ -3,7 +3,7 @@
    and read back. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "input/load.h"
+#include "input/scene_file.h"
 
 #include <math.h>
 #include <stdlib.h>

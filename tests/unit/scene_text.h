@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "input/load.h"
+#include "input/scene_file.h"
 #include "unit_test.h"
 
 /* What must be there, and nothing else. */

@@ -2,7 +2,7 @@
 /* Meshes of scene files: which entries share one, their normals and textures, and what is wrong. */
 #define _XOPEN_SOURCE 700
 
-#include "input/meshes.h"
+#include "input/files.h"
 #include "scene_text.h"
 #include "test_folder.h"
 

@@ -2,7 +2,7 @@
 /* Scene files are read as they say, and where a change says otherwise. */
 #define _XOPEN_SOURCE 700
 
-#include "input/builtin.h"
+#include "input/files.h"
 #include "same_scene.h"
 #include "scene_text.h"
 #include "test_folder.h"

@@ -51,8 +51,7 @@ static void make(void) {
 static const char *found(HdNaming naming) {
     static HdProblems problems;
     problems = (HdProblems){0};
-    HdSceneChecker checker = {
-        .problems = &problems, .naming = naming, .check_values = hd_check_values};
+    HdSceneChecker checker = {.problems = &problems, .naming = naming};
     hd_check_scene(&checker, &scene);
     return problems.text;
 }
@@ -314,8 +313,7 @@ TEST(test_no_problem_hides_another) {
     solids[0].rim.reflection = -1.0;
     solids[1].face.transmission = 0.5;
     hd_problem(&problems, "an earlier one");
-    HdSceneChecker checker = {
-        .problems = &problems, .naming = HD_NAMING_JSON, .check_values = hd_check_values};
+    HdSceneChecker checker = {.problems = &problems, .naming = HD_NAMING_JSON};
     hd_check_scene(&checker, &scene);
     assert_int_equal(problems.count, 9);
     assert_string_equal(

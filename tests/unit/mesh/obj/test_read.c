@@ -291,7 +291,7 @@ static HdMeshMaterial read_material(const char *text) {
     assert_string_equal(mesh.materials[0].name, "m");
     const HdMeshMaterial material = mesh.materials[0];
     const HdMaterial *m = &material.material;
-    HdSceneChecker checker = {.problems = &problems, .check_values = hd_check_values};
+    HdSceneChecker checker = {.problems = &problems};
     hd_check_material(&checker, m, true);
     assert_int_equal(problems.count, 0);
     assert_false(m->has_inner_side || m->lit_from_behind);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "input/meshes.h"
+#include "input/files.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -7,10 +7,54 @@
 #include <string.h>
 
 #include "image/picture.h"
+#include "input/check.h"
+#include "input/classic.h"
 #include "mesh/obj/read.h"
-#include "scene/check.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
+
+/* Built in, and the texture */
+
+/* Made by the build from default.json, starter.json, classic.in and floor.png of scenes/. */
+extern const unsigned char hd_default_scene[], hd_starter_scene[], hd_default_classic[],
+    hd_default_texture[];
+extern const size_t hd_default_scene_size, hd_starter_scene_size, hd_default_classic_size,
+    hd_default_texture_size;
+
+const char *hd_default_scene_text(size_t *size) {
+    *size = hd_default_scene_size;
+    return (const char *)hd_default_scene;
+}
+
+const char *hd_starter_scene_text(size_t *size) {
+    *size = hd_starter_scene_size;
+    return (const char *)hd_starter_scene;
+}
+
+HdStatus hd_default_input(HdSceneFile *input, HdError *error) {
+    return hd_classic_parse(input, (const char *)hd_default_classic, hd_default_classic_size,
+                            "the built-in configuration", HD_CLASSIC_DEFAULT_VARIANT, error);
+}
+
+bool hd_texture_path_is_relative(const char *path) {
+    const bool is_at_home = path[0] == '~' && (path[1] == '\0' || path[1] == '/');
+    return path[0] != '\0' && path[0] != '/' && !is_at_home &&
+           strcmp(path, HD_BUILTIN_TEXTURE) != 0;
+}
+
+HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdError *error) {
+    HdTexture *texture = &file->scene.floor.texture;
+    char expanded[HD_MAX_PATH];
+    if (file->texture_path[0] == '\0')
+        return HD_OK;
+    if (strcmp(file->texture_path, HD_BUILTIN_TEXTURE) == 0)
+        return hd_texture_decode(texture, hd_default_texture, hd_default_texture_size,
+                                 "the built-in texture", file->texture_curve, error);
+    HD_TRY(hd_path_expand_home(file->texture_path, expanded, error));
+    return hd_texture_read(texture, expanded, file->texture_curve, error);
+}
+
+/* Meshes */
 
 typedef struct Loader {
     const HdSceneFile *file;
@@ -120,34 +164,32 @@ static void flatten(HdMesh *mesh) {
 
 static HdStatus read_mesh(Loader *loader, HdMesh *mesh, const HdMeshEntry *entry) {
     char path[HD_MAX_PATH];
-    HdStatus status = hd_path_expand_home(entry->file, path, loader->error);
     const double room = fmin(fmax(loader->room, 0.0), (double)(SIZE_MAX / 2));
-    if (status == HD_OK)
-        status = hd_mesh_read_obj(mesh, path, (size_t)room, loader->notes, loader->error);
-    if (status == HD_OK && entry->normals == HD_NORMALS_FLAT)
+    HD_TRY(hd_path_expand_home(entry->file, path, loader->error));
+    HD_TRY(hd_mesh_read_obj(mesh, path, (size_t)room, loader->notes, loader->error));
+    if (entry->normals == HD_NORMALS_FLAT)
         flatten(mesh);
-    if (status == HD_OK && entry->normals == HD_NORMALS_SMOOTH)
-        status = hd_mesh_smooth(mesh, entry->crease_degrees, loader->error);
+    if (entry->normals == HD_NORMALS_SMOOTH)
+        HD_TRY(hd_mesh_smooth(mesh, entry->crease_degrees, loader->error));
     loader->room -= bytes_of(mesh);
-    return status;
+    return HD_OK;
 }
 
 static HdStatus read_meshes(Loader *loader) {
     HdScene *scene = loader->scene;
-    HdStatus status = HD_OK;
     scene->meshes = calloc((size_t)scene->mesh_count, sizeof *scene->meshes);
     if (scene->meshes == NULL) {
         scene->mesh_count = 0;
         return fail_memory(loader);
     }
-    for (int i = 0; i < scene->mesh_count && status == HD_OK; i++) {
+    for (int i = 0; i < scene->mesh_count; i++) {
         const HdMeshEntry *entry = &loader->file->mesh_entries[loader->first_entry[i]];
         if (hd_interrupt_signal() != 0)
             return hd_fail(loader->error, HD_INTERRUPTED, "interrupted while reading meshes");
         if (entry->file != NULL)
-            status = told(loader, read_mesh(loader, &scene->meshes[i], entry), i);
+            HD_TRY(told(loader, read_mesh(loader, &scene->meshes[i], entry), i));
     }
-    return status;
+    return HD_OK;
 }
 
 /* Textures */
@@ -156,21 +198,6 @@ static int compare_textures(const void *a, const void *b) {
     const HdMeshMaterial *first = *(HdMeshMaterial *const *)a;
     const HdMeshMaterial *second = *(HdMeshMaterial *const *)b;
     return strcmp(first->texture, second->texture);
-}
-
-/* Materials with a texture; without `out` only their number. */
-static size_t gather_textured(const HdScene *scene, HdMeshMaterial **out) {
-    size_t count = 0;
-    for (int i = 0; i < scene->mesh_count; i++)
-        for (int k = 0; k < scene->meshes[i].material_count; k++) {
-            HdMeshMaterial *material = &scene->meshes[i].materials[k];
-            if (material->texture == NULL)
-                continue;
-            if (out != NULL)
-                out[count] = material;
-            count++;
-        }
-    return count;
 }
 
 static HdStatus read_picture(Loader *loader, const char *path, int *number) {
@@ -196,58 +223,45 @@ static HdStatus read_picture(Loader *loader, const char *path, int *number) {
 }
 
 static HdStatus read_pictures(Loader *loader, HdMeshMaterial **textured, size_t count) {
-    HdStatus status = HD_OK;
     int number = -1;
     qsort(textured, count, sizeof(HdMeshMaterial *), compare_textures);
-    for (size_t i = 0; i < count && status == HD_OK && loader->room >= 0.0; i++) {
+    for (size_t i = 0; i < count && loader->room >= 0.0; i++) {
         if (i == 0 || compare_textures(&textured[i - 1], &textured[i]) != 0)
-            status = read_picture(loader, textured[i]->texture, &number);
+            HD_TRY(read_picture(loader, textured[i]->texture, &number));
         textured[i]->picture = number;
     }
-    return status;
+    return HD_OK;
 }
 
 static HdStatus load_pictures(Loader *loader) {
-    const size_t count = gather_textured(loader->scene, NULL);
-    if (count == 0)
-        return HD_OK;
-    HdMeshMaterial **textured = malloc(count * sizeof(HdMeshMaterial *));
-    loader->scene->pictures = calloc(count, sizeof *loader->scene->pictures);
-    if (textured == NULL || loader->scene->pictures == NULL) {
-        free(textured);
-        return fail_memory(loader);
-    }
-    gather_textured(loader->scene, textured);
-    const HdStatus status = read_pictures(loader, textured, count);
+    HdScene *scene = loader->scene;
+    size_t most = 1, count = 0;
+    for (int i = 0; i < scene->mesh_count; i++)
+        most += (size_t)scene->meshes[i].material_count;
+    HdMeshMaterial **textured = malloc(most * sizeof(HdMeshMaterial *));
+    scene->pictures = calloc(most, sizeof *scene->pictures);
+    const bool has_room = textured != NULL && scene->pictures != NULL;
+    for (int i = 0; i < scene->mesh_count && has_room; i++)
+        for (int k = 0; k < scene->meshes[i].material_count; k++)
+            if (scene->meshes[i].materials[k].texture != NULL)
+                textured[count++] = &scene->meshes[i].materials[k];
+    const HdStatus status = has_room ? read_pictures(loader, textured, count) : fail_memory(loader);
     free(textured);
     return status;
 }
 
 /* The whole */
 
-static HdStatus build(Loader *loader) {
-    HdThreadPool *pool;
-    HdStatus status = hd_thread_pool_create(&pool, hd_processor_count(), loader->error);
-    if (status != HD_OK)
-        return status;
-    for (int i = 0; i < loader->scene->mesh_count && status == HD_OK; i++)
-        status = hd_mesh_build(&loader->scene->meshes[i], pool, loader->error);
-    hd_thread_pool_destroy(pool);
-    return status;
-}
-
 static HdStatus load(Loader *loader) {
-    HdStatus status = place_instances(loader);
-    if (status == HD_OK)
-        status = read_meshes(loader);
-    if (status == HD_OK)
-        status = load_pictures(loader);
-    if (status == HD_OK && loader->problems->count == 0)
-        status = build(loader);
     HdSceneChecker checker = {.problems = loader->problems, .naming = HD_NAMING_JSON};
-    if (status == HD_OK && loader->problems->count == 0)
-        hd_check_instances(&checker, loader->scene);
-    return status;
+    HD_TRY(place_instances(loader));
+    HD_TRY(read_meshes(loader));
+    HD_TRY(load_pictures(loader));
+    if (loader->problems->count > 0)
+        return HD_OK;
+    HD_TRY(hd_scene_build_meshes(loader->scene, loader->error));
+    hd_check_instances(&checker, loader->scene);
+    return HD_OK;
 }
 
 HdStatus hd_scene_file_load_meshes(HdSceneFile *file, HdProblems *problems, HdProblems *notes,
