@@ -26,13 +26,44 @@
 #include "input/meshes.h"
 #include "render/backends.h"
 #include "render/frame.h"
-#include "switches.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
 #include "verify/trust.h"
 
 enum { MOST_ROUNDS = 99, MOST_CHANGES = 32, MOST_SWITCHES = 64, SKIPPED = 77, USAGE = 2 };
+
+/* What is measured against what the program does by itself. */
+typedef struct Switch {
+    const char *name;
+    HdPipeline pipeline;
+    int registers, block; /* 0: what suits */
+    size_t queue_bytes;   /* of the wavefront; 0: what suits */
+    bool is_surveyed;     /* for surveyed scenes only */
+    bool is_cuda;         /* for CUDA only */
+} Switch;
+
+#define MEGA      .pipeline = HD_PIPELINE_MEGA
+#define WAVEFRONT .pipeline = HD_PIPELINE_WAVEFRONT
+
+#define GIB ((size_t)1 << 30)
+
+/* The first one is what the others are compared with. */
+static const Switch switches[] = {
+    {"mega", MEGA},
+    {"registers-64", MEGA, .registers = 64, .is_cuda = true},
+    {"registers-80", MEGA, .registers = 80, .is_cuda = true},
+    {"registers-96", MEGA, .registers = 96, .is_cuda = true},
+    {"registers-128", MEGA, .registers = 128, .is_cuda = true},
+    {"block-32", MEGA, .block = 32},
+    {"block-64", MEGA, .block = 64},
+    {"block-256", MEGA, .block = 256},
+    {"registers-64+block-32", MEGA, .registers = 64, .block = 32, .is_cuda = true},
+    {"wavefront", WAVEFRONT},
+    {"wavefront-4GiB", WAVEFRONT, .queue_bytes = 4 * GIB, .is_surveyed = true},
+    {"wavefront-16GiB", WAVEFRONT, .queue_bytes = 16 * GIB, .is_surveyed = true},
+};
+enum { SWITCH_COUNT = sizeof switches / sizeof *switches };
 
 typedef struct Bench {
     const HdBackend *backend;
@@ -314,7 +345,7 @@ int main(int argc, char **argv) {
         return SKIPPED;
     HdStatus status = read_scene(&bench, argv[scene], (const HdSceneChange *)(argv + scene + 1),
                                  argc - scene - 1, &error);
-    for (int i = 0; i < switch_count; i++)
+    for (int i = 0; i < SWITCH_COUNT; i++)
         if (status == HD_OK && is_wanted(&bench, &switches[i]))
             contenders[count++].is = &switches[i];
     if (status == HD_OK && count > 0)
