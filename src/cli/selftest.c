@@ -6,7 +6,7 @@
 #include <time.h>
 
 #include "base/text.h"
-#include "choice/candidates.h"
+#include "choice/devices.h"
 #include "cli/options.h"
 #include "input/json/json_device_text.h"
 #include "verify/certificate.h"

@@ -2,7 +2,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "choice/tune.h"
+#include "choice/measure.h"
 #include "cli/console.h"
 #include "cli/options.h"
 #include "input/json/json_device_text.h"

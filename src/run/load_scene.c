@@ -79,7 +79,8 @@ HdStatus hd_read_scene(HdSceneFile *file, const char *path, const HdSceneSource 
     return status;
 }
 
-static void set_numbers(HdScene *scene, const HdScenePlan *plan) {
+static HdStatus set_numbers(HdScene *scene, const HdScenePlan *plan, HdError *error) {
+    const HdPlannedCrop *part = &plan->crop;
     if (plan->size.width > 0) {
         scene->width = plan->size.width;
         scene->height = plan->size.height;
@@ -88,18 +89,8 @@ static void set_numbers(HdScene *scene, const HdScenePlan *plan) {
         scene->samples_per_side = plan->samples;
     if (plan->max_error > 0.0)
         scene->max_error = plan->max_error;
-}
-
-/* Rays end by the limit of a scene that has one, and by what was given. */
-static void set_ends(HdScene *scene, const HdScenePlan *plan) {
-    hd_survey_end_rays(scene);
-    if (plan->depth >= 0)
-        scene->depth = plan->depth;
-    if (plan->cutoff >= 0.0)
-        scene->cutoff = plan->cutoff;
-}
-
-static HdStatus crop(HdScene *scene, const HdPlannedCrop *part, HdError *error) {
+    if (plan->given[0] != '\0')
+        HD_TRY(hd_scene_validate(scene, error));
     if (part->width == 0)
         return HD_OK;
     if (part->left + part->width > scene->width || part->top + part->height > scene->height)
@@ -111,18 +102,20 @@ static HdStatus crop(HdScene *scene, const HdPlannedCrop *part, HdError *error) 
     return HD_OK;
 }
 
+/* Rays end by the limit of a scene that has one, and by what was given. */
 HdStatus hd_scene_apply_numbers(HdScene *scene, const HdScenePlan *plan, HdError *error) {
-    set_numbers(scene, plan);
-    HdStatus status = plan->given[0] != '\0' ? hd_scene_validate(scene, error) : HD_OK;
-    if (status == HD_OK)
-        status = crop(scene, &plan->crop, error);
+    HdStatus status = set_numbers(scene, plan, error);
     if (status != HD_OK) {
         hd_error_prefix(error, plan->given);
         return status;
     }
     if (plan->sampling >= 0)
         scene->sampling = (HdSampling)plan->sampling;
-    set_ends(scene, plan);
+    hd_survey_end_rays(scene);
+    if (plan->depth >= 0)
+        scene->depth = plan->depth;
+    if (plan->cutoff >= 0.0)
+        scene->cutoff = plan->cutoff;
     return HD_OK;
 }
 
@@ -137,24 +130,18 @@ static HdStatus apply_geometry(HdScene *scene, const HdScenePlan *plan, HdError 
                                 error);
 }
 
-static HdStatus read_planned(HdSceneFile *file, const HdScenePlan *plan, HdProblems *notes,
-                             HdError *error) {
+HdStatus hd_load_scene(HdSceneFile *file, const HdScenePlan *plan, HdProblems *notes,
+                       HdError *error) {
     const HdSceneSource source = {.folder = "",
                                   .changes = plan->changes,
                                   .change_count = plan->change_count,
                                   .loads_files = true,
                                   .file_notes = notes};
-    return plan->is_classic ? hd_read_classic(file, NULL, plan->variant, error)
-                            : hd_read_scene(file, plan->path, &source, error);
-}
-
-HdStatus hd_load_scene(HdSceneFile *file, const HdScenePlan *plan, HdProblems *notes,
-                       HdError *error) {
-    HdStatus status = read_planned(file, plan, notes, error);
+    HdStatus status = plan->is_classic ? hd_read_classic(file, NULL, plan->variant, error)
+                                       : hd_read_scene(file, plan->path, &source, error);
     if (status != HD_OK && notes != NULL)
         *notes = (HdProblems){.count = 0};
-    if (status != HD_OK)
-        return status;
+    HD_TRY(status);
     status = hd_scene_apply_numbers(&file->scene, plan, error);
     if (status == HD_OK && plan->is_classic)
         status = hd_scene_file_load_texture(file, error);
