@@ -21,9 +21,7 @@
 
 #include "device/renderer.h"
 #include "input/builtin.h"
-#include "input/check.h"
 #include "input/load.h"
-#include "input/meshes.h"
 #include "render/backends.h"
 #include "render/frame.h"
 #include "system/interrupt.h"
@@ -92,22 +90,10 @@ typedef struct Contender {
 static HdStatus read_scene(Bench *bench, const char *path, const HdSceneChange *changes, int count,
                            HdError *error) {
     HdSceneFile *file = &bench->file;
-    HdProblems problems = {0};
-    const HdSceneSource source = {.changes = changes, .change_count = count};
-    HdStatus status = hd_scene_file_read(file, path, &source, error);
-    if (status == HD_OK)
-        status = hd_scene_file_load_texture(file, error);
-    if (status == HD_OK)
-        status = hd_scene_file_load_meshes(file, &problems, NULL, error);
-    if (status == HD_OK)
-        status = hd_problems_status(&problems, path, error);
-    if (status == HD_OK)
-        status = hd_scene_validate(&file->scene, error);
-    if (status == HD_OK)
-        status = hd_camera_at(&bench->camera, &file->scene, 0, error);
-    if (status == HD_OK)
-        status = hd_frame_create(&bench->frame, file->scene.width, file->scene.height, error);
-    return status;
+    const HdSceneSource source = {.changes = changes, .change_count = count, .loads_files = true};
+    HD_TRY(hd_scene_file_read(file, path, &source, error));
+    HD_TRY(hd_camera_at(&bench->camera, &file->scene, 0, error));
+    return hd_frame_create(&bench->frame, file->scene.width, file->scene.height, error);
 }
 
 /* ---- contenders ---- */
@@ -123,15 +109,9 @@ static HdStatus open_contender(Contender *contender, const Bench *bench, HdError
     };
     HdFrameMaker *maker = &contender->maker;
     *maker = (HdFrameMaker){.scene = &bench->file.scene, .wish = {true, HD_CURVE_SRGB, 0}};
-    HdStatus status = hd_renderer_open(&maker->renderer, &bench->device, &options, error);
-    if (status == HD_OK)
-        status = hd_put_scene(maker->renderer, maker->scene, NULL, error);
-    return status == HD_OK ? hd_frame_maker_open(maker, error) : status;
-}
-
-static void close_contender(Contender *contender) {
-    hd_frame_maker_close(&contender->maker);
-    hd_renderer_close(contender->maker.renderer);
+    HD_TRY(hd_renderer_open(&maker->renderer, &bench->device, &options, error));
+    HD_TRY(hd_put_scene(maker->renderer, maker->scene, NULL, error));
+    return hd_frame_maker_open(maker, error);
 }
 
 typedef struct Opening {
@@ -157,9 +137,7 @@ static bool is_interrupted(const void *context) {
 static HdStatus open_all(const Bench *bench, Contender *contenders, int count, HdError *error) {
     Opening opening = {bench, contenders}, others = {bench, contenders + 1};
     HdThreadPool *pool;
-    HdStatus status = hd_thread_pool_create(&pool, bench->threads, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_thread_pool_create(&pool, bench->threads, error));
     open_one(&opening, 0, 0);
     hd_thread_pool_run(pool, count - 1, open_one, &others, is_interrupted);
     hd_thread_pool_destroy(pool);
@@ -214,12 +192,6 @@ static double quantile(const Contender *contender, double q) {
     return contender->ms[below] + (place - below) * (contender->ms[above] - contender->ms[below]);
 }
 
-static void print_kernels(const Contender *contender) {
-    char text[512];
-    hd_renderer_describe(contender->maker.renderer, text, (int)sizeof text);
-    printf("kernels %s %.1f %s\n", contender->is->name, contender->build_seconds, text);
-}
-
 static void print_times(Contender *contenders, int count) {
     double first = 0.0;
     for (int i = 0; i < count; i++) {
@@ -247,10 +219,14 @@ static int measure(Bench *bench, Contender *contenders, int count) {
         wrong += run_round(bench, contenders, count, round, &expected);
     }
     for (int i = 0; i < count; i++) {
-        if (contenders[i].status == HD_OK)
-            print_kernels(&contenders[i]);
-        else
+        char text[512];
+        if (contenders[i].status != HD_OK) {
             printf("skip %s %s\n", contenders[i].is->name, contenders[i].error.message);
+        } else {
+            hd_renderer_describe(contenders[i].maker.renderer, text, (int)sizeof text);
+            printf("kernels %s %.1f %s\n", contenders[i].is->name, contenders[i].build_seconds,
+                   text);
+        }
         wrong += contenders[i].status != HD_OK && contenders[i].status != HD_UNAVAILABLE;
     }
     print_times(contenders, count);
@@ -355,8 +331,10 @@ int main(int argc, char **argv) {
         return 1;
     }
     int wrong = count > 0 ? measure(&bench, contenders, count) : 0;
-    for (int i = 0; i < count; i++)
-        close_contender(&contenders[i]);
+    for (int i = 0; i < count; i++) {
+        hd_frame_maker_close(&contenders[i].maker);
+        hd_renderer_close(contenders[i].maker.renderer);
+    }
     hd_frame_free(&bench.frame);
     hd_scene_file_free(&bench.file);
     return wrong > 0 ? 1 : 0;

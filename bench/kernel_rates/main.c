@@ -24,9 +24,7 @@
 
 #include "cpu/builds.h"
 #include "input/builtin.h"
-#include "input/check.h"
 #include "input/load.h"
-#include "input/meshes.h"
 #include "loops.h"
 
 /* bench/CMakeLists.txt names the builds in HD_BUILDS. */
@@ -138,12 +136,7 @@ enum { PEAK_ROUNDS = 1 << 16 };
 
 static bool compile(HdLoopScene *scene, HdSceneFile *file, int lanes, HdError *error) {
     HdCamera camera;
-    HdProblems problems = {0};
-    return hd_scene_file_load_texture(file, error) == HD_OK &&
-           hd_scene_file_load_meshes(file, &problems, NULL, error) == HD_OK &&
-           hd_problems_status(&problems, scene->name, error) == HD_OK &&
-           hd_scene_validate(&file->scene, error) == HD_OK &&
-           hd_camera_at(&camera, &file->scene, 0, error) == HD_OK &&
+    return hd_camera_at(&camera, &file->scene, 0, error) == HD_OK &&
            hd_compile_scene(&scene->tables[0], &file->scene, HD_PRECISION_FLOAT, lanes, error) ==
                HD_OK &&
            hd_compile_scene(&scene->tables[1], &file->scene, HD_PRECISION_FLOAT, 1, error) ==
@@ -155,7 +148,7 @@ static bool compile(HdLoopScene *scene, HdSceneFile *file, int lanes, HdError *e
 /* Reads a scene file, for bundles of so many lanes; without `floor` its floor is left out. Prints
    what is wrong and returns false on failure. */
 static bool read_loop_scene(HdLoopScene *scene, const char *path, bool floor, int lanes) {
-    HdSceneSource source = {0};
+    const HdSceneSource source = {.loads_files = true};
     HdSceneFile file;
     HdError error;
     memset(scene, 0, sizeof *scene);
@@ -164,8 +157,6 @@ static bool read_loop_scene(HdLoopScene *scene, const char *path, bool floor, in
     bool done = hd_scene_file_read(&file, path, &source, &error) == HD_OK;
     if (done) {
         file.scene.floor.present = file.scene.floor.present && floor;
-        if (!file.scene.floor.present)
-            file.texture_path[0] = '\0';
         done = compile(scene, &file, lanes, &error);
         hd_scene_file_free(&file);
     }
@@ -183,12 +174,6 @@ static void free_loop_scene(HdLoopScene *scene) {
 /* For kernels of so many lanes: those that it was read for, or one. */
 static const HdTable *tables_for(const HdLoopScene *scene, int lanes) {
     return scene->tables[lanes == 1].table;
-}
-
-void hd_work_free(HdWork *work) {
-    free(work->items);
-    work->items = NULL;
-    work->count = 0;
 }
 
 /* Does the measure's work once, and returns how much it was, in its unit. */
@@ -372,7 +357,7 @@ int main(int count, char **words) {
         measure_all(&bench);
     }
     for (int i = 0; i < bench.measure_count; i++)
-        hd_work_free(&bench.measures[i].work);
+        free(bench.measures[i].work.items);
     for (int i = 0; i < bench.scene_count; i++)
         free_loop_scene(&bench.scenes[i]);
     return code;

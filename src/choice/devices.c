@@ -19,10 +19,6 @@ static void add_reason(HdCandidates *candidates, const char *name, const char *r
         hd_add_text(candidates->reasons, sizeof candidates->reasons, "; ", "%s: %s", name, reason);
 }
 
-static void note_failure(HdCandidates *candidates, const char *message) {
-    hd_add_text(candidates->note, sizeof candidates->note, "; ", "%.600s", message);
-}
-
 /* A GPU that is there and not used is worth a word, unless the user's own wish rules out all. */
 static void tell_passed(HdCandidates *candidates, const char *what, const char *reason,
                         const char *help) {
@@ -30,15 +26,6 @@ static void tell_passed(HdCandidates *candidates, const char *what, const char *
     if (candidates->is_free && wish->kind != HD_ONLY_CPU && wish->options->lanes <= 1)
         hd_add_text(candidates->passed, sizeof candidates->passed, "; ", "%s is passed over: %s%s",
                     what, reason, help);
-}
-
-static void tell_passed_device(HdCandidates *candidates, const HdDevice *device,
-                               const char *reason) {
-    char what[sizeof device->name + 32];
-    bool is_strictness = reason == device->not_strict;
-    snprintf(what, sizeof what, "%s:%d (%s)", device->backend->name, device->index, device->name);
-    tell_passed(candidates, what, reason,
-                is_strictness ? "; --math fast would take it, for other bytes" : "");
 }
 
 /* ---- names ---- */
@@ -105,15 +92,13 @@ static bool is_in_question(const HdDevice *device, const HdDeviceWish *wish) {
             wish->device != NULL || wish->kind == HD_PREFER_GPU);
 }
 
-static double speed(const HdDevice *device) {
-    return (double)device->compute_units * (double)device->clock_mhz;
-}
-
 /* `other` was found earlier, in the same backend or in one that comes first. */
 static bool is_better(const HdDevice *device, const HdDevice *other) {
     if (device->is_cpu != other->is_cpu)
         return other->is_cpu;
-    return device->backend == other->backend && speed(device) > speed(other);
+    return device->backend == other->backend &&
+           (double)device->compute_units * (double)device->clock_mhz >
+               (double)other->compute_units * (double)other->clock_mhz;
 }
 
 static void add_candidate(HdCandidates *candidates, const HdDevice *device) {
@@ -131,14 +116,19 @@ static void add_candidate(HdCandidates *candidates, const HdDevice *device) {
 
 static void consider(HdCandidates *candidates, const HdDevice *device) {
     const char *reason = hd_device_obstacle(device, candidates->wish.options);
+    char what[sizeof device->name + 32];
     if (candidates->wish.kind == HD_ONLY_CPU && !device->is_cpu)
         reason = "it is not a CPU";
-    if (reason != NULL && !device->is_cpu)
-        tell_passed_device(candidates, device, reason);
-    if (reason != NULL)
-        add_reason(candidates, device->name, reason);
-    else
+    if (reason == NULL) {
         add_candidate(candidates, device);
+        return;
+    }
+    snprintf(what, sizeof what, "%s:%d (%s)", device->backend->name, device->index, device->name);
+    if (!device->is_cpu)
+        tell_passed(candidates, what, reason,
+                    reason == device->not_strict ? "; --math fast would take it, for other bytes"
+                                                 : "");
+    add_reason(candidates, device->name, reason);
 }
 
 static void search_backend(HdCandidates *candidates, const HdBackend *backend, HdError *error) {
@@ -218,14 +208,6 @@ static HdStatus estimate_any(HdCandidates *candidates, HdError *error) {
     return HD_OK;
 }
 
-static HdStatus fail_to_find(const HdCandidates *candidates, HdError *error) {
-    const char *device = candidates->wish.device;
-    return hd_fail(error, HD_UNAVAILABLE, "no device can do this%s%s%s: %s%s",
-                   device != NULL ? " (asked for device '" : "", device != NULL ? device : "",
-                   device != NULL ? "')" : "", candidates->reasons,
-                   device != NULL ? "; see 'hedron devices'" : "");
-}
-
 HdStatus hd_candidates_find(HdCandidates *candidates, const HdDeviceWish *wish, HdError *error) {
     memset(candidates, 0, sizeof *candidates);
     candidates->wish = *wish;
@@ -235,8 +217,12 @@ HdStatus hd_candidates_find(HdCandidates *candidates, const HdDeviceWish *wish, 
     if (candidates->is_free && wish->kind == HD_WANT_ANY)
         HD_TRY(estimate_any(candidates, error));
     search(candidates, error);
+    const char *device = candidates->wish.device;
     if (candidates->count == 0)
-        return fail_to_find(candidates, error);
+        return hd_fail(error, HD_UNAVAILABLE, "no device can do this%s%s%s: %s%s",
+                       device != NULL ? " (asked for device '" : "", device != NULL ? device : "",
+                       device != NULL ? "')" : "", candidates->reasons,
+                       device != NULL ? "; see 'hedron devices'" : "");
     if (candidates->is_free)
         candidates->compared = count_compared(candidates);
     return candidates->compared > 1 && wish->kind == HD_PREFER_GPU
@@ -308,7 +294,7 @@ static HdStatus measure_all(HdCandidates *candidates, HdError *error) {
         if (status == HD_INTERRUPTED || status == HD_BAD_INPUT)
             return status;
         if (status != HD_OK)
-            note_failure(candidates, error->message);
+            hd_add_text(candidates->note, sizeof candidates->note, "; ", "%.600s", error->message);
         bool is_passing = status == HD_FAILED || (status != HD_OK && hd_is_loss(error));
         is_lasting = is_lasting && !is_passing;
     }
@@ -323,13 +309,6 @@ static HdStatus measure_all(HdCandidates *candidates, HdError *error) {
 
 /* ---- opening ---- */
 
-static int find_plain_c(const HdCandidates *candidates) {
-    for (int i = 0; i < candidates->compared; i++)
-        if (candidates->list[i].device.backend->needs_no_driver)
-            return i;
-    return -1;
-}
-
 static HdStatus choose(HdCandidates *candidates, HdError *error) {
     candidates->best = -1;
     candidates->compared = hd_min(candidates->compared, MAX_COMPARED);
@@ -341,7 +320,9 @@ static HdStatus choose(HdCandidates *candidates, HdError *error) {
     }
     if (job_seconds(candidates) >= HD_AUTO_MEASURE_SECONDS)
         return measure_all(candidates, error);
-    candidates->best = find_plain_c(candidates);
+    for (int i = 0; candidates->best < 0 && i < candidates->compared; i++)
+        if (candidates->list[i].device.backend->needs_no_driver)
+            candidates->best = i;
     if (candidates->best >= 0)
         snprintf(candidates->why, sizeof candidates->why,
                  "it needs about %.2g s, too little to measure other devices for",
@@ -362,7 +343,7 @@ static HdStatus open_next(HdCandidates *candidates, HdError *error) {
         bool is_proven = candidates->is_free && member->device.backend->functions->kernels != NULL;
         status = hd_team_device_open(member, wish->options, wish->job, is_proven, error);
         if (status == HD_UNAVAILABLE)
-            note_failure(candidates, error->message);
+            hd_add_text(candidates->note, sizeof candidates->note, "; ", "%.600s", error->message);
         if (i > 0 && candidates->compared > 0)
             snprintf(candidates->why, sizeof candidates->why,
                      "the next after one that cannot be used");

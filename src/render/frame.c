@@ -89,14 +89,6 @@ static void order_pixels(HdRefinement *r) {
             }
 }
 
-static HdStatus reserve_requests(HdRefinement *r, int count, HdError *error) {
-    r->requests = hd_reserved(r->requests, sizeof *r->requests, count, &r->request_room);
-    r->surveys = hd_reserved(r->surveys, sizeof *r->surveys, count, &r->survey_room);
-    if (r->requests == NULL || r->surveys == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for surveys of %d pixels", count);
-    return HD_OK;
-}
-
 /* The scene was uploaded to the renderer; both live on. */
 static HdStatus fill_refinement(HdRefinement *r, const HdFrameMaker *maker, HdError *error) {
     const HdScene *scene = maker->scene;
@@ -183,11 +175,6 @@ static void add_surveys(const HdRefinement *r, Pixel *pixel, const HdSurvey *sur
 
 /* ---- passes ---- */
 
-/* Rows from 32768 on reach into the sign. */
-static int pack(int x, int y) {
-    return (int)((uint32_t)y << 16 | (uint32_t)x);
-}
-
 /* The chosen pixels' samples from number `from` on, in parts of `each`. */
 typedef struct Pass {
     HdRefinement *refinement;
@@ -200,8 +187,9 @@ static void request_samples(void *context, int first, int end) {
     HdSurveyRequest *request = &r->requests[(size_t)first * (size_t)pass->parts];
     for (int i = first; i < end; i++) {
         int x = r->chosen[i] % r->width, y = r->chosen[i] / r->width;
+        const int packed = (int)((uint32_t)y << 16 | (uint32_t)x); /* the sign is the row's, too */
         for (int p = 0; p < pass->parts; p++)
-            *request++ = (HdSurveyRequest){pack(x, y), pass->from + p * pass->each};
+            *request++ = (HdSurveyRequest){packed, pass->from + p * pass->each};
     }
 }
 
@@ -226,11 +214,15 @@ static HdStatus sample_chosen(HdRefinement *r, int count, int from, int samples,
         return HD_OK;
     if (count > INT_MAX / parts)
         return hd_fail(error, HD_FAILED, "%d pixels are too many for adaptive sampling", count);
-    HD_TRY(reserve_requests(r, count * parts, error));
+    const int all = count * parts;
+    r->requests = hd_reserved(r->requests, sizeof *r->requests, all, &r->request_room);
+    r->surveys = hd_reserved(r->surveys, sizeof *r->surveys, all, &r->survey_room);
+    if (r->requests == NULL || r->surveys == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for surveys of %d pixels", all);
     hd_chunks_run(r->threads, count, request_samples, &pass);
     const double own = (double)count * (samples - from);
     const HdSurveyPass asked = {.requests = r->requests,
-                                .count = count * parts,
+                                .count = all,
                                 .samples = pass.each,
                                 .surveys = r->surveys,
                                 .watched = hd_watched_take(&r->left, own / (own + later))};
@@ -440,7 +432,7 @@ HdStatus hd_frame_begin(const HdFrameMaker *maker, HdFlight *flight, HdError *er
         return HD_OK;
     HdStatus status = hd_renderer_submit(maker->renderer, &flight->tables, &maker->wish, error);
     if (status != HD_OK)
-        hd_flight_drop(flight);
+        hd_frame_tables_free(&flight->tables);
     return status;
 }
 
@@ -451,12 +443,8 @@ HdStatus hd_frame_end(const HdFrameMaker *maker, HdFlight *flight, HdFrame *fram
     if (status == HD_OK && frame->first != NULL)
         status = hd_renderer_first_hits(maker->renderer, &flight->tables, frame, error);
     hd_frame_fill_samples(frame, flight->tables.samples);
-    hd_flight_drop(flight);
-    return status;
-}
-
-void hd_flight_drop(HdFlight *flight) {
     hd_frame_tables_free(&flight->tables);
+    return status;
 }
 
 HdStatus hd_frame_render(const HdFrameMaker *maker, const HdCamera *camera, HdFrame *frame,

@@ -20,7 +20,8 @@ typedef struct HdFrameMaker {
     struct HdRefinement *refinement; /* the maker's own: of a surveyed scene */
 } HdFrameMaker;
 
-/* A frame under way. The struct stays where it is until the frame has ended or was dropped. */
+/* A frame under way. The struct stays where it is until the frame has ended, or its tables are
+   freed since the renderer was told to forget it (hd_renderer_drop). */
 typedef struct HdFlight {
     HdCamera camera;
     HdFrameTables tables;
@@ -45,9 +46,6 @@ HdStatus hd_frame_begin(const HdFrameMaker *maker, HdFlight *flight, HdError *er
 /* Waits for the oldest frame under way, which is so no longer; `frame` has room for what is wished
    for (hd_renderer_collect), and gets the layers that it has room for. */
 HdStatus hd_frame_end(const HdFrameMaker *maker, HdFlight *flight, HdFrame *frame, HdError *error);
-
-/* Of a frame that the renderer was told to forget (hd_renderer_drop). */
-void hd_flight_drop(HdFlight *flight);
 
 /* A frame's radiance, none being under way, with a maker that need not be open. */
 HdStatus hd_frame_render(const HdFrameMaker *maker, const HdCamera *camera, HdFrame *frame,

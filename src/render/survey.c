@@ -311,11 +311,6 @@ static HdStatus survey_open(HdSurveyor *surveyor, const HdSurveyPass *pass, doub
     return HD_OK;
 }
 
-static double rays_so_far(const HdSurveyor *surveyor) {
-    const HdFrame *sums = surveyor->sums;
-    return (double)(sums->primary_rays + sums->mirrored_rays + sums->transmitted_rays);
-}
-
 /* Smaller and smaller cut-offs, until no request is open. The first one is worth most of what is
    left, for few samples need another one; without a limit there is one. */
 HdStatus hd_survey_pass(HdSurveyor *surveyor, const HdSurveyPass *pass, HdError *error) {
@@ -328,10 +323,12 @@ HdStatus hd_survey_pass(HdSurveyor *surveyor, const HdSurveyPass *pass, HdError 
     HdWatched watched = pass->watched;
     HD_TRY(reserve(surveyor, open, error));
     while (open > 0) {
-        double before = rays_so_far(surveyor), tried = (double)open * pass->samples;
+        const double before = (double)hd_frame_rays(surveyor->sums),
+                     tried = (double)open * pass->samples;
         const HdWatched own = hd_watched_take(&watched, limit > 0.0 ? 0.875 : 1.0);
         HD_TRY(survey_open(surveyor, pass, cutoff, is_first, own, &open, error));
-        if (cutoff <= last || rays_so_far(surveyor) - before > tried * MOST_RAYS * NEXT_CUTOFF)
+        if (cutoff <= last ||
+            (double)hd_frame_rays(surveyor->sums) - before > tried * MOST_RAYS * NEXT_CUTOFF)
             break;
         cutoff = cutoff * NEXT_CUTOFF > last ? cutoff * NEXT_CUTOFF : last;
         is_first = false;

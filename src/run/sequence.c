@@ -216,7 +216,7 @@ static void give_all_back(Tracer *tracer) {
     hd_renderer_drop(tracer->maker.renderer);
     for (; tracer->ended < tracer->begun; tracer->ended++) {
         Flight *flight = flight_of(tracer, tracer->ended);
-        hd_flight_drop(&flight->frame);
+        hd_frame_tables_free(&flight->frame.tables);
         hd_turns_ended(&tracer->run->turns, tracer->number, 0.0, hd_monotonic_seconds());
         hd_stages_give_back(tracer->run->stages, flight->place);
     }
@@ -391,20 +391,6 @@ static HdStatus trace_all(Run *run, HdError *error) {
 
 /* ---- the sequence ---- */
 
-static void begin_devices(Run *run) {
-    const HdSequence *sequence = run->sequence;
-    pthread_mutex_init(&run->mutex, NULL);
-    pthread_mutex_init(&run->turns.mutex, NULL);
-    for (int i = 0; i < sequence->team->count; i++)
-        run->turns.list[i].is_cpu = sequence->team->list[i].device.is_cpu;
-}
-
-static void end_devices(Run *run) {
-    free_tables(run);
-    pthread_mutex_destroy(&run->turns.mutex);
-    pthread_mutex_destroy(&run->mutex);
-}
-
 static HdStatus start_store(Run *run, HdError *error) {
     const HdSequence *sequence = run->sequence;
     const HdFrameStorePlan plan = {
@@ -431,13 +417,18 @@ HdStatus hd_sequence_render(const HdSequence *sequence, HdError *error) {
         .waiting = sequence->team->count,
         .alive = sequence->team->count,
     };
-    begin_devices(&run);
+    pthread_mutex_init(&run.mutex, NULL);
+    pthread_mutex_init(&run.turns.mutex, NULL);
+    for (int i = 0; i < run.turns.count; i++)
+        run.turns.list[i].is_cpu = sequence->team->list[i].device.is_cpu;
     hd_known_folders_forget(); /* what was there before another sequence may rightly be gone */
     HdStatus status = sequence->team->count == 1 ? upload(&run, 0, error) : HD_OK;
     if (status == HD_OK)
         status = start_store(&run, error);
     if (status == HD_OK)
         status = hd_frame_store_end(run.store, trace_all(&run, error), error);
-    end_devices(&run);
+    free_tables(&run);
+    pthread_mutex_destroy(&run.turns.mutex);
+    pthread_mutex_destroy(&run.mutex);
     return status;
 }
