@@ -152,25 +152,6 @@ static int in_flight(const Tracer *tracer) {
     return tracer->begun - tracer->ended;
 }
 
-/* On failure the frame is not begun; the earlier ones are still under way. */
-static HdStatus begin(Tracer *tracer, int place, HdError *error) {
-    const HdSequence *sequence = tracer->run->sequence;
-    Flight *flight = flight_of(tracer, tracer->begun);
-    double now = seconds_since_start(tracer);
-    HdCamera camera;
-    *flight = (Flight){.place = place, .prepare = {.began = now}};
-    HdStatus status =
-        hd_camera_at(&camera, sequence->scene, sequence->resume->all->frames[place], error);
-    if (status == HD_OK)
-        status = hd_frame_prepare(&tracer->maker, &camera, &flight->frame, error);
-    flight->prepare.seconds = seconds_since_start(tracer) - now;
-    if (status == HD_OK)
-        status = hd_frame_begin(&tracer->maker, &flight->frame, error);
-    if (status == HD_OK)
-        tracer->begun++;
-    return status;
-}
-
 /* Frames are traced one after the other. One that was waited for as long as its tracing took was
    traced then; another one as soon as the device could. What a device says by its own clock may not
    agree with ours to the last digit. */
@@ -266,11 +247,26 @@ static int take_frame(Tracer *tracer) {
     return hd_stages_take(tracer->run->stages, &taker, in_flight(tracer) == 0);
 }
 
-static HdStatus begin_taken(Tracer *tracer, int place, HdError *error) {
-    HdStatus status = begin(tracer, place, error);
+/* On failure the frame is not begun; the earlier ones are still under way. */
+static HdStatus begin(Tracer *tracer, int place, HdError *error) {
+    const HdSequence *sequence = tracer->run->sequence;
+    Flight *flight = flight_of(tracer, tracer->begun);
+    double now = seconds_since_start(tracer);
+    HdCamera camera;
+    *flight = (Flight){.place = place, .prepare = {.began = now}};
+    HdStatus status =
+        hd_camera_at(&camera, sequence->scene, sequence->resume->all->frames[place], error);
     if (status == HD_OK)
+        status = hd_frame_prepare(&tracer->maker, &camera, &flight->frame, error);
+    flight->prepare.seconds = seconds_since_start(tracer) - now;
+    if (status == HD_OK)
+        status = hd_frame_begin(&tracer->maker, &flight->frame, error);
+    if (status == HD_OK) {
+        tracer->begun++;
         hd_turns_begun(&tracer->run->turns, tracer->number, hd_monotonic_seconds());
-    if (status == HD_OK || is_told(tracer, place, status, error))
+        return HD_OK;
+    }
+    if (is_told(tracer, place, status, error))
         return HD_OK;
     hd_stages_give_back(tracer->run->stages, place);
     return status;
@@ -283,7 +279,7 @@ static HdStatus trace(Tracer *tracer, HdError *error) {
     while (status == HD_OK) {
         int place = beginning == HD_OK ? take_frame(tracer) : -1;
         if (place >= 0)
-            beginning = begin_taken(tracer, place, &of_beginning);
+            beginning = begin(tracer, place, &of_beginning);
         else if (in_flight(tracer) > 0)
             status = finish_oldest(tracer, error);
         else
