@@ -25,13 +25,44 @@
 #include "input/scene_file.h"
 #include "render/backends.h"
 #include "render/frame.h"
-#include "switches.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
 #include "verify/trust.h"
 
 enum { MOST_ROUNDS = 99, MOST_CHANGES = 32, MOST_SWITCHES = 64, SKIPPED = 77, USAGE = 2 };
+
+/* What is measured against what the program does by itself. */
+typedef struct Switch {
+    const char *name;
+    HdPipeline pipeline;
+    int registers, block; /* 0: what suits */
+    size_t queue_bytes;   /* of the wavefront; 0: what suits */
+    bool is_surveyed;     /* for surveyed scenes only */
+    bool is_cuda;         /* for CUDA only */
+} Switch;
+
+#define MEGA      .pipeline = HD_PIPELINE_MEGA
+#define WAVEFRONT .pipeline = HD_PIPELINE_WAVEFRONT
+
+#define GIB ((size_t)1 << 30)
+
+/* The first one is what the others are compared with. */
+static const Switch switches[] = {
+    {"mega", MEGA},
+    {"registers-64", MEGA, .registers = 64, .is_cuda = true},
+    {"registers-80", MEGA, .registers = 80, .is_cuda = true},
+    {"registers-96", MEGA, .registers = 96, .is_cuda = true},
+    {"registers-128", MEGA, .registers = 128, .is_cuda = true},
+    {"block-32", MEGA, .block = 32},
+    {"block-64", MEGA, .block = 64},
+    {"block-256", MEGA, .block = 256},
+    {"registers-64+block-32", MEGA, .registers = 64, .block = 32, .is_cuda = true},
+    {"wavefront", WAVEFRONT},
+    {"wavefront-4GiB", WAVEFRONT, .queue_bytes = 4 * GIB, .is_surveyed = true},
+    {"wavefront-16GiB", WAVEFRONT, .queue_bytes = 16 * GIB, .is_surveyed = true},
+};
+enum { SWITCH_COUNT = sizeof switches / sizeof *switches };
 
 typedef struct Bench {
     const HdBackend *backend;
@@ -60,22 +91,10 @@ typedef struct Contender {
 static HdStatus read_scene(Bench *bench, const char *path, const HdSceneChange *changes, int count,
                            HdError *error) {
     HdSceneFile *file = &bench->file;
-    HdProblems problems = {0};
-    const HdSceneSource source = {.changes = changes, .change_count = count};
-    HdStatus status = hd_scene_file_read(file, path, &source, error);
-    if (status == HD_OK)
-        status = hd_scene_file_load_texture(file, error);
-    if (status == HD_OK)
-        status = hd_scene_file_load_meshes(file, &problems, NULL, error);
-    if (status == HD_OK)
-        status = hd_problems_status(&problems, path, error);
-    if (status == HD_OK)
-        status = hd_scene_validate(&file->scene, error);
-    if (status == HD_OK)
-        status = hd_camera_at(&bench->camera, &file->scene, 0, error);
-    if (status == HD_OK)
-        status = hd_frame_create(&bench->frame, file->scene.width, file->scene.height, error);
-    return status;
+    const HdSceneSource source = {.changes = changes, .change_count = count, .loads_files = true};
+    HD_TRY(hd_scene_file_read(file, path, &source, error));
+    HD_TRY(hd_camera_at(&bench->camera, &file->scene, 0, error));
+    return hd_frame_create(&bench->frame, file->scene.width, file->scene.height, error);
 }
 
 /* ---- contenders ---- */
@@ -91,15 +110,9 @@ static HdStatus open_contender(Contender *contender, const Bench *bench, HdError
     };
     HdFrameMaker *maker = &contender->maker;
     *maker = (HdFrameMaker){.scene = &bench->file.scene, .wish = {true, HD_CURVE_SRGB, 0}};
-    HdStatus status = hd_renderer_open(&maker->renderer, &bench->device, &options, error);
-    if (status == HD_OK)
-        status = hd_put_scene(maker->renderer, maker->scene, NULL, error);
-    return status == HD_OK ? hd_frame_maker_open(maker, error) : status;
-}
-
-static void close_contender(Contender *contender) {
-    hd_frame_maker_close(&contender->maker);
-    hd_renderer_close(contender->maker.renderer);
+    HD_TRY(hd_renderer_open(&maker->renderer, &bench->device, &options, error));
+    HD_TRY(hd_put_scene(maker->renderer, maker->scene, NULL, error));
+    return hd_frame_maker_open(maker, error);
 }
 
 typedef struct Opening {
@@ -125,9 +138,7 @@ static bool is_interrupted(const void *context) {
 static HdStatus open_all(const Bench *bench, Contender *contenders, int count, HdError *error) {
     Opening opening = {bench, contenders}, others = {bench, contenders + 1};
     HdThreadPool *pool;
-    HdStatus status = hd_thread_pool_create(&pool, bench->threads, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_thread_pool_create(&pool, bench->threads, error));
     open_one(&opening, 0, 0);
     hd_thread_pool_run(pool, count - 1, open_one, &others, is_interrupted);
     hd_thread_pool_destroy(pool);
@@ -182,12 +193,6 @@ static double quantile(const Contender *contender, double q) {
     return contender->ms[below] + (place - below) * (contender->ms[above] - contender->ms[below]);
 }
 
-static void print_kernels(const Contender *contender) {
-    char text[512];
-    hd_renderer_describe(contender->maker.renderer, text, (int)sizeof text);
-    printf("kernels %s %.1f %s\n", contender->is->name, contender->build_seconds, text);
-}
-
 static void print_times(Contender *contenders, int count) {
     double first = 0.0;
     for (int i = 0; i < count; i++) {
@@ -215,10 +220,14 @@ static int measure(Bench *bench, Contender *contenders, int count) {
         wrong += run_round(bench, contenders, count, round, &expected);
     }
     for (int i = 0; i < count; i++) {
-        if (contenders[i].status == HD_OK)
-            print_kernels(&contenders[i]);
-        else
+        char text[512];
+        if (contenders[i].status != HD_OK) {
             printf("skip %s %s\n", contenders[i].is->name, contenders[i].error.message);
+        } else {
+            hd_renderer_describe(contenders[i].maker.renderer, text, (int)sizeof text);
+            printf("kernels %s %.1f %s\n", contenders[i].is->name, contenders[i].build_seconds,
+                   text);
+        }
         wrong += contenders[i].status != HD_OK && contenders[i].status != HD_UNAVAILABLE;
     }
     print_times(contenders, count);
@@ -313,7 +322,7 @@ int main(int argc, char **argv) {
         return SKIPPED;
     HdStatus status = read_scene(&bench, argv[scene], (const HdSceneChange *)(argv + scene + 1),
                                  argc - scene - 1, &error);
-    for (int i = 0; i < switch_count; i++)
+    for (int i = 0; i < SWITCH_COUNT; i++)
         if (status == HD_OK && is_wanted(&bench, &switches[i]))
             contenders[count++].is = &switches[i];
     if (status == HD_OK && count > 0)
@@ -323,8 +332,10 @@ int main(int argc, char **argv) {
         return 1;
     }
     int wrong = count > 0 ? measure(&bench, contenders, count) : 0;
-    for (int i = 0; i < count; i++)
-        close_contender(&contenders[i]);
+    for (int i = 0; i < count; i++) {
+        hd_frame_maker_close(&contenders[i].maker);
+        hd_renderer_close(contenders[i].maker.renderer);
+    }
     hd_frame_free(&bench.frame);
     hd_scene_file_free(&bench.file);
     return wrong > 0 ? 1 : 0;

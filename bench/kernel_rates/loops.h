@@ -8,7 +8,8 @@
 
 #include "tables/tables.h"
 
-/* Bundles, or lit points of bundles, ready to be worked on; made and freed by the same build. */
+/* Bundles, or lit points of bundles, ready to be worked on; made by the same build; free `items`.
+ */
 typedef struct HdWork {
     void *items; /* owned; laid out as the build's lanes */
     int count;
@@ -39,7 +40,5 @@ typedef struct HdLoops {
 } HdLoops;
 
 enum { HD_PEAK_CHAINS = 12 };
-
-void hd_work_free(HdWork *work);
 
 #endif

@@ -9,13 +9,23 @@
      uncounted NAME                          the system does not let a process be stepped
 
    Ends with 0, 1 where a scene cannot be read, 2 where it is called wrongly. */
+#define _GNU_SOURCE
+#include <signal.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ptrace.h>
+#include <sys/types.h>
+#include <sys/user.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
 
 #include "cpu/builds.h"
-#include "measures.h"
-#include "steps.h"
+#include "input/files.h"
+#include "input/scene_file.h"
+#include "loops.h"
 
 /* bench/CMakeLists.txt names the builds in HD_BUILDS. */
 #define X(build) extern const HdLoops build;
@@ -29,6 +39,22 @@ enum { MOST_RAYS = 512, MOST_POINTS = 64 };
 enum { COUNTED_RAYS = 24, COUNTED_POINTS = 4 };
 enum { MOST_SCENES = 16, MOST_MEASURES = 64 };
 
+/* The tables of a scene's first frame. */
+typedef struct HdLoopScene {
+    const char *name;        /* of its file, without folder and ending */
+    HdSceneTables tables[2]; /* for bundles; for single lanes */
+    HdFrameTables frame;
+} HdLoopScene;
+
+typedef struct HdMeasure {
+    char name[96];
+    const char *unit; /* of what is done */
+    const HdLoops *loops;
+    const HdLoopScene *scene; /* NULL: an arithmetic peak */
+    HdWork work;
+    enum { HD_MEASURE_SEARCH, HD_MEASURE_LIGHT, HD_MEASURE_FMA, HD_MEASURE_MUL_ADD } what;
+} HdMeasure;
+
 typedef struct Bench {
     double seconds;
     int rounds;
@@ -37,6 +63,165 @@ typedef struct Bench {
     HdLoopScene scenes[MOST_SCENES]; /* the first has no floor, and rays search it */
     HdMeasure measures[MOST_MEASURES];
 } Bench;
+
+/* ---- counting the instructions that a function executes, one by one ---- */
+
+/* How often the instruction at each offset from a function's first one was executed. */
+typedef struct HdSteps {
+    uint32_t *times; /* owned */
+    long size;       /* offsets from 0 to size - 1 are watched */
+} HdSteps;
+
+/* The largest function that is watched, in bytes. */
+enum { WATCHED_BYTES = 1 << 20 };
+
+#if defined(__linux__) && defined(__x86_64__)
+
+static _Noreturn void run_child(void (*work)(void *), void *context) {
+    if (ptrace(PTRACE_TRACEME, 0, NULL, NULL) != 0)
+        _exit(1);
+    raise(SIGSTOP);
+    work(context);
+    _exit(0);
+}
+
+/* Steps the child, which is stopped, to its end. */
+static bool follow(HdSteps *steps, uintptr_t start, pid_t child) {
+    int status;
+    while (ptrace(PTRACE_SINGLESTEP, child, NULL, NULL) == 0 &&
+           waitpid(child, &status, 0) == child) {
+        if (!WIFSTOPPED(status))
+            return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+        long place =
+            ptrace(PTRACE_PEEKUSER, child, (void *)offsetof(struct user_regs_struct, rip), NULL);
+        uintptr_t offset = (uintptr_t)place - start;
+        if (offset < (uintptr_t)steps->size)
+            steps->times[offset]++;
+    }
+    return false;
+}
+
+/* Runs work(context) in a child process, instruction by instruction, and counts those from `start`
+   on. False where the system does not allow it. Free `steps->times` either way. */
+static bool count_steps(HdSteps *steps, uintptr_t start, void (*work)(void *), void *context) {
+    int status;
+    steps->size = WATCHED_BYTES;
+    steps->times = calloc(WATCHED_BYTES, sizeof *steps->times);
+    if (steps->times == NULL)
+        return false;
+    pid_t child = fork();
+    if (child == 0)
+        run_child(work, context);
+    if (child < 0 || waitpid(child, &status, 0) != child)
+        return false;
+    return WIFSTOPPED(status) && follow(steps, start, child);
+}
+
+#else
+
+static bool count_steps(HdSteps *steps, uintptr_t start, void (*work)(void *), void *context) {
+    (void)start;
+    (void)work;
+    (void)context;
+    steps->times = NULL;
+    steps->size = 0;
+    return false;
+}
+
+#endif
+
+/* ---- a measure ---- */
+
+enum { PEAK_ROUNDS = 1 << 16 };
+
+static bool compile(HdLoopScene *scene, HdSceneFile *file, int lanes, HdError *error) {
+    HdCamera camera;
+    return hd_camera_at(&camera, &file->scene, 0, error) == HD_OK &&
+           hd_compile_scene(&scene->tables[0], &file->scene, HD_PRECISION_FLOAT, lanes, error) ==
+               HD_OK &&
+           hd_compile_scene(&scene->tables[1], &file->scene, HD_PRECISION_FLOAT, 1, error) ==
+               HD_OK &&
+           hd_compile_frame(&scene->frame, &file->scene, &camera, HD_PRECISION_FLOAT, error) ==
+               HD_OK;
+}
+
+/* Reads a scene file, for bundles of so many lanes; without `floor` its floor is left out. Prints
+   what is wrong and returns false on failure. */
+static bool read_loop_scene(HdLoopScene *scene, const char *path, bool floor, int lanes) {
+    const HdSceneSource source = {.loads_files = true};
+    HdSceneFile file;
+    HdError error;
+    memset(scene, 0, sizeof *scene);
+    const char *slash = strrchr(path, '/');
+    scene->name = slash == NULL ? path : slash + 1;
+    bool done = hd_scene_file_read(&file, path, &source, &error) == HD_OK;
+    if (done) {
+        file.scene.floor.present = file.scene.floor.present && floor;
+        done = compile(scene, &file, lanes, &error);
+        hd_scene_file_free(&file);
+    }
+    if (!done)
+        fprintf(stderr, "%s\n", error.message);
+    return done;
+}
+
+static void free_loop_scene(HdLoopScene *scene) {
+    hd_frame_tables_free(&scene->frame);
+    for (int i = 0; i < 2; i++)
+        hd_scene_tables_free(&scene->tables[i]);
+}
+
+/* For kernels of so many lanes: those that it was read for, or one. */
+static const HdTable *tables_for(const HdLoopScene *scene, int lanes) {
+    return scene->tables[lanes == 1].table;
+}
+
+/* Does the measure's work once, and returns how much it was, in its unit. */
+static double run_measure(const HdMeasure *measure) {
+    static volatile double kept; /* so that no work is in vain */
+    (void)kept;
+    const HdLoops *loops = measure->loops;
+    const HdLoopScene *scene = measure->scene;
+    double sum = 0, done = (double)PEAK_ROUNDS * HD_PEAK_CHAINS;
+    switch (measure->what) {
+    case HD_MEASURE_SEARCH:
+        kept = (double)loops->search(tables_for(scene, loops->lanes), scene->frame.table,
+                                     &measure->work);
+        return (double)loops->live_rays(&measure->work);
+    case HD_MEASURE_LIGHT:
+        done = (double)loops->light(tables_for(scene, loops->lanes), scene->frame.table,
+                                    &measure->work, &sum);
+        break;
+    case HD_MEASURE_FMA:
+        sum = loops->multiply_adds(PEAK_ROUNDS);
+        break;
+    case HD_MEASURE_MUL_ADD:
+        sum = loops->multiplications_and_additions(PEAK_ROUNDS);
+        break;
+    }
+    kept = sum;
+    return done;
+}
+
+/* Of this thread: what others do to the machine is not in it, but for caches and clocks. */
+static double processor_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Its work for a second of the processor's time, from at least `seconds` of it. */
+static double rate_of(const HdMeasure *measure, double seconds) {
+    run_measure(measure); /* warms the caches */
+    double start = processor_seconds(), end = start, done = 0;
+    while (end - start < seconds) {
+        done += run_measure(measure);
+        end = processor_seconds();
+    }
+    return done / (end - start);
+}
+
+/* ---- all measures ---- */
 
 /* The build for this processor, with the lanes that it takes by itself or with one; where there is
    none, the program ends with a sentence. */
@@ -68,7 +253,7 @@ static void add_search(Bench *bench, const HdLoops *loops) {
     const HdLoopScene *scene = &bench->scenes[0];
     HdMeasure measure = {
         .unit = "searches", .loops = loops, .scene = scene, .what = HD_MEASURE_SEARCH};
-    measure.work = loops->make_rays(hd_loop_scene_tables(scene, loops->lanes), scene->frame.table,
+    measure.work = loops->make_rays(tables_for(scene, loops->lanes), scene->frame.table,
                                     bench->counts ? COUNTED_RAYS : MOST_RAYS);
     add_measure(bench, measure, "search", "meeting");
 }
@@ -76,7 +261,7 @@ static void add_search(Bench *bench, const HdLoops *loops) {
 static void add_light(Bench *bench, const HdLoops *loops, const HdLoopScene *scene) {
     char name[64];
     HdMeasure measure = {.unit = "pairs", .loops = loops, .scene = scene, .what = HD_MEASURE_LIGHT};
-    measure.work = loops->make_points(hd_loop_scene_tables(scene, loops->lanes), scene->frame.table,
+    measure.work = loops->make_points(tables_for(scene, loops->lanes), scene->frame.table,
                                       bench->counts ? COUNTED_POINTS : MOST_POINTS);
     snprintf(name, sizeof name, "%.*s", (int)strcspn(scene->name, "."), scene->name);
     add_measure(bench, measure, "light", name);
@@ -101,7 +286,7 @@ static void add_measures(Bench *bench) {
 }
 
 static void run_once(void *context) {
-    hd_measure_run(context);
+    run_measure(context);
 }
 
 static void count(HdMeasure *measure) {
@@ -109,9 +294,9 @@ static void count(HdMeasure *measure) {
     const HdLoops *loops = measure->loops;
     bool searches = measure->what == HD_MEASURE_SEARCH;
     uintptr_t start = searches ? (uintptr_t)loops->search : (uintptr_t)loops->light;
-    if (hd_count_steps(&steps, start, run_once, measure)) {
+    if (count_steps(&steps, start, run_once, measure)) {
         printf("counted %s %s %d %s %.0f\n", measure->name, loops->instruction_set, loops->lanes,
-               searches ? loops->search_symbol : loops->light_symbol, hd_measure_run(measure));
+               searches ? loops->search_symbol : loops->light_symbol, run_measure(measure));
         for (long i = 0; i < steps.size; i++)
             if (steps.times[i] > 0)
                 printf("step %s %ld %lu\n", measure->name, i, (unsigned long)steps.times[i]);
@@ -130,13 +315,13 @@ static void measure_all(Bench *bench) {
     for (int round = 0; round < bench->rounds; round++)
         for (int i = 0; i < bench->measure_count; i++)
             printf("rate %s %s %.6e\n", bench->measures[i].name, bench->measures[i].unit,
-                   hd_measure_rate(&bench->measures[i], bench->seconds));
+                   rate_of(&bench->measures[i], bench->seconds));
 }
 
 static bool read_scene(Bench *bench, const char *path) {
     HdLoopScene *scene = &bench->scenes[bench->scene_count];
-    if (!hd_loop_scene_read(scene, path, bench->scene_count > 0, find_build(false)->lanes)) {
-        hd_loop_scene_free(scene);
+    if (!read_loop_scene(scene, path, bench->scene_count > 0, find_build(false)->lanes)) {
+        free_loop_scene(scene);
         return false;
     }
     bench->scene_count++;
@@ -172,8 +357,8 @@ int main(int count, char **words) {
         measure_all(&bench);
     }
     for (int i = 0; i < bench.measure_count; i++)
-        hd_work_free(&bench.measures[i].work);
+        free(bench.measures[i].work.items);
     for (int i = 0; i < bench.scene_count; i++)
-        hd_loop_scene_free(&bench.scenes[i]);
+        free_loop_scene(&bench.scenes[i]);
     return code;
 }

@@ -7,7 +7,6 @@
 
 #include "../../scenes/models/random.h"
 #include "compiled.h"
-#include "methods.h"
 #include "product.h"
 #include "shapes.h"
 #include "studies.h"

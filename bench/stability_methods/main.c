@@ -16,7 +16,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "methods.h"
 #include "studies.h"
 
 const HdPlace hd_places[] = {

@@ -6,6 +6,9 @@
 
 #include <stdbool.h>
 
+#include "base/vector.h"
+#include "triangle_tests.h"
+
 /* How large things are, and how many of their sizes away from the origin of the world. */
 typedef struct HdPlace {
     double scale, offset;
@@ -24,5 +27,17 @@ extern const int hd_place_count, hd_all_place_count;
 bool hd_study_crossings(int count);
 bool hd_study_paths(int count);
 bool hd_study_shadows(int count);
+
+/* Whether this processor runs the tests that are compiled with contraction. */
+bool hd_can_contract(void);
+
+static inline HdFloat3 hd_to_float(HdVec3 v) {
+    return (HdFloat3){(float)v.x, (float)v.y, (float)v.z};
+}
+
+/* Rounded to float, and back. */
+static inline HdVec3 hd_round(HdVec3 v) {
+    return hd_vec3((double)(float)v.x, (double)(float)v.y, (double)(float)v.z);
+}
 
 #endif

@@ -13,17 +13,12 @@ typedef struct {
     int x, y;
 } Pixel;
 
-/* Column and row of pixel number `z` of a block, in the order described at HD_BLOCK_SIDE; of an
-   integer or a bundle of them. */
-#define Z_COLUMN(z) (((z)&1) | ((z) >> 1 & 2) | ((z) >> 2 & 4))
-#define Z_ROW(z)    (((z) >> 1 & 1) | ((z) >> 2 & 2) | ((z) >> 3 & 4))
-
-/* The pixel at a place of that order, whose block begins at `corner`. */
+/* The pixel at a place in a block's order (HD_BLOCK_SIDE); the block begins at `corner`. */
 FN Pixel pixel_in_block(Pixel corner, int place) {
     int z = place % HD_BLOCK_PIXELS;
     Pixel pixel;
-    pixel.x = corner.x + Z_COLUMN(z);
-    pixel.y = corner.y + Z_ROW(z);
+    pixel.x = corner.x + HD_Z_COLUMN(z);
+    pixel.y = corner.y + HD_Z_ROW(z);
     return pixel;
 }
 
@@ -74,8 +69,8 @@ FN void listed_samples(SAMPLE_PARAMETERS vint within, vmask *alive, vint *x, vin
 FN vmask pixels_at(GLOBAL const View *view, int item, vint place, vint *x, vint *y) {
     vint z = (place + item * HD_PIXELS_PER_ITEM % HD_BLOCK_PIXELS) & (HD_BLOCK_PIXELS - 1);
     Pixel corner = block_of_item(view, item);
-    *x = Z_COLUMN(z) + corner.x;
-    *y = Z_ROW(z) + corner.y;
+    *x = HD_Z_COLUMN(z) + corner.x;
+    *y = HD_Z_ROW(z) + corner.y;
     return lt_int(place, splat_int(HD_PIXELS_PER_ITEM)) & lt_int(*x, splat_int(view->width)) &
            lt_int(*y, splat_int(view->height));
 }

@@ -365,4 +365,8 @@ enum { HD_FLOOR_SIDES = 4, HD_FLOOR_PLANES = 1 + HD_FLOOR_SIDES };
    order. */
 enum { HD_BLOCK_SIDE = 8, HD_BLOCK_PIXELS = 64 };
 
+/* Column and row of pixel number `z` of a block; of an integer or a bundle of them. */
+#define HD_Z_COLUMN(z) (((z)&1) | ((z) >> 1 & 2) | ((z) >> 2 & 4))
+#define HD_Z_ROW(z)    (((z) >> 1 & 1) | ((z) >> 2 & 2) | ((z) >> 3 & 4))
+
 #endif

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
+#define _GNU_SOURCE
 #include "choice/devices.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,12 +11,364 @@
 #include "base/text.h"
 #include "system/machine.h"
 
+/* ---- reasons ---- */
+
+/* Each reason once, though several devices may have it. */
+static void add_reason(HdCandidates *candidates, const char *name, const char *reason) {
+    if (strstr(candidates->reasons, reason) == NULL)
+        hd_add_text(candidates->reasons, sizeof candidates->reasons, "; ", "%s: %s", name, reason);
+}
+
+/* A GPU that is there and not used is worth a word, unless the user's own wish rules out all. */
+static void tell_passed(HdCandidates *candidates, const char *what, const char *reason,
+                        const char *help) {
+    const HdDeviceWish *wish = &candidates->wish;
+    if (candidates->is_free && wish->kind != HD_ONLY_CPU && wish->options->lanes <= 1)
+        hd_add_text(candidates->passed, sizeof candidates->passed, "; ", "%s is passed over: %s%s",
+                    what, reason, help);
+}
+
+/* ---- names ---- */
+
+static bool is_number(const char *text) {
+    return *text != '\0' && text[strspn(text, "0123456789")] == '\0';
+}
+
+/* "c:0" names the backend as well. */
+static HdStatus split_name(HdDeviceWish *wish, HdError *error) {
+    for (int i = 0; i < HD_BACKEND_COUNT && wish->device != NULL; i++) {
+        const char *name = hd_backends[i]->name;
+        size_t length = strlen(name);
+        if (strncmp(wish->device, name, length) != 0 || wish->device[length] != ':' ||
+            !is_number(wish->device + length + 1))
+            continue;
+        if (wish->backend != NULL && strcmp(wish->backend, name) != 0)
+            return hd_fail(error, HD_BAD_INPUT, "--device is '%s', but --backend is '%s'",
+                           wish->device, wish->backend);
+        wish->backend = name;
+        wish->device += length + 1;
+    }
+    return HD_OK;
+}
+
+static bool is_named(const HdDevice *device, const char *wish) {
+    if (wish == NULL)
+        return true;
+    return is_number(wish) ? strtol(wish, NULL, 10) == device->index
+                           : strcasestr(device->name, wish) != NULL;
+}
+
+HdStatus hd_devices_named(const char *backend, const char *device, HdDevice *devices, int *count,
+                          HdError *error) {
+    bool is_any = device == NULL || strcmp(device, "all") == 0;
+    HdCandidates none = {.wish = {.backend = backend, .device = is_any ? NULL : device}};
+    *count = 0;
+    HD_TRY(split_name(&none.wish, error));
+    for (int i = 0; i < HD_BACKEND_COUNT; i++) {
+        int found = 0, kept = *count;
+        if (none.wish.backend != NULL && strcmp(none.wish.backend, hd_backends[i]->name) != 0)
+            continue;
+        if (hd_backend_enumerate(hd_backends[i], devices + kept, HD_MAX_DEVICES, &found, error) !=
+            HD_OK)
+            add_reason(&none, hd_backends[i]->name, error->message);
+        for (int d = kept; d < kept + found; d++)
+            if (is_named(&devices[d], none.wish.device))
+                devices[(*count)++] = devices[d];
+        if (found > 0 && *count == kept)
+            add_reason(&none, hd_backends[i]->name, "no device of that number or name");
+    }
+    if (*count == 0)
+        return hd_fail(error, HD_UNAVAILABLE, "there is no such device%s%s%s: %s",
+                       device != NULL ? " ('" : "", device != NULL ? device : "",
+                       device != NULL ? "')" : "", none.reasons);
+    return HD_OK;
+}
+
+/* ---- finding ---- */
+
+static bool is_in_question(const HdDevice *device, const HdDeviceWish *wish) {
+    return is_named(device, wish->device) &&
+           (!device->is_cpu || device->backend->needs_no_driver || wish->backend != NULL ||
+            wish->device != NULL || wish->kind == HD_PREFER_GPU);
+}
+
+/* `other` was found earlier, in the same backend or in one that comes first. */
+static bool is_better(const HdDevice *device, const HdDevice *other) {
+    if (device->is_cpu != other->is_cpu)
+        return other->is_cpu;
+    return device->backend == other->backend &&
+           (double)device->compute_units * (double)device->clock_mhz >
+               (double)other->compute_units * (double)other->clock_mhz;
+}
+
+static void add_candidate(HdCandidates *candidates, const HdDevice *device) {
+    int place = candidates->count;
+    while (place > 0 && is_better(device, &candidates->list[place - 1].device))
+        place--;
+    if (place == HD_MAX_CANDIDATES)
+        return;
+    if (candidates->count < HD_MAX_CANDIDATES)
+        candidates->count++;
+    memmove(&candidates->list[place + 1], &candidates->list[place],
+            (size_t)(candidates->count - 1 - place) * sizeof *candidates->list);
+    candidates->list[place] = (HdTeamDevice){.device = *device};
+}
+
+static void consider(HdCandidates *candidates, const HdDevice *device) {
+    const char *reason = hd_device_obstacle(device, candidates->wish.options);
+    char what[sizeof device->name + 32];
+    if (candidates->wish.kind == HD_ONLY_CPU && !device->is_cpu)
+        reason = "it is not a CPU";
+    if (reason == NULL) {
+        add_candidate(candidates, device);
+        return;
+    }
+    snprintf(what, sizeof what, "%s:%d (%s)", device->backend->name, device->index, device->name);
+    if (!device->is_cpu)
+        tell_passed(candidates, what, reason,
+                    reason == device->not_strict ? "; --math fast would take it, for other bytes"
+                                                 : "");
+    add_reason(candidates, device->name, reason);
+}
+
+static void search_backend(HdCandidates *candidates, const HdBackend *backend, HdError *error) {
+    HdDevice devices[HD_MAX_DEVICES];
+    int count = 0;
+    bool any = false;
+    HdStatus status = hd_backend_enumerate(backend, devices, HD_MAX_DEVICES, &count, error);
+    if (status == HD_FAILED)
+        tell_passed(candidates, backend->name, error->message, "");
+    if (status != HD_OK) {
+        add_reason(candidates, backend->name, error->message);
+        return;
+    }
+    for (int i = 0; i < count; i++) {
+        if (!is_in_question(&devices[i], &candidates->wish))
+            continue;
+        any = true;
+        consider(candidates, &devices[i]);
+    }
+    if (!any && candidates->wish.device != NULL)
+        add_reason(candidates, backend->name, "no device of that number or name");
+}
+
+static void search(HdCandidates *candidates, HdError *error) {
+    const HdDeviceWish *wish = &candidates->wish;
+    if (wish->backend != NULL)
+        search_backend(candidates, hd_backend_find(wish->backend), error);
+    else if (wish->kind == HD_ONLY_CPU)
+        search_backend(candidates, hd_backend_always_there(), error);
+    else
+        for (int i = 0; i < HD_BACKEND_COUNT; i++)
+            search_backend(candidates, hd_backends[i], error);
+}
+
+/* How many of the candidates are worth a comparison: the GPUs, and plain C where any will do. */
+static int count_compared(const HdCandidates *candidates) {
+    int count = 0;
+    while (count < candidates->count &&
+           (!candidates->list[count].device.is_cpu || candidates->wish.kind == HD_WANT_ANY))
+        count++;
+    return count;
+}
+
+/* How long plain C takes for a frame. A texture takes longer to upload than a small picture to
+   render, and little of its time. */
+static HdStatus estimate(HdCandidates *candidates, double enough, HdError *error) {
+    const HdTrialWish wish = hd_trial_estimates(enough);
+    HdScene plain = *candidates->wish.job->scene;
+    HdJob job = *candidates->wish.job;
+    HdDevice device;
+    HdRenderer *renderer;
+    HdTrial trial;
+    int count;
+    plain.floor.texture = (HdTexture){0};
+    job.scene = &plain;
+    HD_TRY(hd_backend_enumerate(hd_backend_always_there(), &device, 1, &count, error));
+    HD_TRY(hd_trial_open(&renderer, &device, candidates->wish.options, &job, error));
+    HdStatus status = hd_trial(renderer, &job, &wish, &trial, error);
+    candidates->frame_seconds = trial.frame_seconds;
+    hd_renderer_close(renderer);
+    return status;
+}
+
+static double job_seconds(const HdCandidates *candidates) {
+    return candidates->frame_seconds * candidates->wish.job->frame_count;
+}
+
+/* Plain C is asked how long it takes before any driver is: drivers take their time to start. */
+static HdStatus estimate_any(HdCandidates *candidates, HdError *error) {
+    HD_TRY(estimate(candidates, HD_AUTO_SMALL_SECONDS, error));
+    if (job_seconds(candidates) > HD_AUTO_SMALL_SECONDS)
+        return HD_OK;
+    candidates->wish.kind = HD_ONLY_CPU;
+    snprintf(candidates->why, sizeof candidates->why,
+             "it needs about %.2g s, less than other devices take to start",
+             job_seconds(candidates));
+    return HD_OK;
+}
+
+HdStatus hd_candidates_find(HdCandidates *candidates, const HdDeviceWish *wish, HdError *error) {
+    memset(candidates, 0, sizeof *candidates);
+    candidates->wish = *wish;
+    candidates->is_free =
+        wish->backend == NULL && wish->device == NULL && wish->kind != HD_ONLY_CPU;
+    HD_TRY(split_name(&candidates->wish, error));
+    if (candidates->is_free && wish->kind == HD_WANT_ANY)
+        HD_TRY(estimate_any(candidates, error));
+    search(candidates, error);
+    const char *device = candidates->wish.device;
+    if (candidates->count == 0)
+        return hd_fail(error, HD_UNAVAILABLE, "no device can do this%s%s%s: %s%s",
+                       device != NULL ? " (asked for device '" : "", device != NULL ? device : "",
+                       device != NULL ? "')" : "", candidates->reasons,
+                       device != NULL ? "; see 'hedron devices'" : "");
+    if (candidates->is_free)
+        candidates->compared = count_compared(candidates);
+    return candidates->compared > 1 && wish->kind == HD_PREFER_GPU
+               ? estimate(candidates, 0.0, error)
+               : HD_OK;
+}
+
+/* ---- comparing ---- */
+
+enum { MAX_COMPARED = 16 };
+
+static bool is_faster(const HdCandidates *candidates, int index) {
+    const HdTeamDevice *list = candidates->list;
+    return isfinite(list[index].seconds) &&
+           (candidates->best < 0 || list[index].seconds < list[candidates->best].seconds);
+}
+
+/* False where none was measured earlier, or none works. */
+static bool recall(HdCandidates *candidates) {
+    const HdDeviceWish *wish = &candidates->wish;
+    if (!hd_measured_get(candidates->list, candidates->compared, wish->options, wish->job->scene))
+        return false;
+    for (int i = 0; i < candidates->compared; i++)
+        if (is_faster(candidates, i))
+            candidates->best = i;
+    return candidates->best >= 0;
+}
+
+static void explain_speed(HdCandidates *candidates, const char *when) {
+    const HdTeamDevice *list = candidates->list, *best = &list[candidates->best];
+    snprintf(candidates->why, sizeof candidates->why, "the fastest of %d on this kind of scene%s",
+             candidates->compared, when);
+    for (int i = 0; i < candidates->compared; i++)
+        if (&list[i] != best && isfinite(list[i].seconds))
+            hd_add_text(candidates->why, sizeof candidates->why, ", ",
+                        "%.3g ms against %.3g ms (%s %d)", 1e3 * best->seconds,
+                        1e3 * list[i].seconds, list[i].device.backend->name, list[i].device.index);
+}
+
+/* So small a picture that plain C renders it in a tenth of a second. The first of two frames warms
+   up. The fastest so far stays open. */
+static HdStatus measure_one(HdCandidates *candidates, int index, HdError *error) {
+    const double seconds = 0.1;
+    const HdDeviceWish *wish = &candidates->wish;
+    const HdTrialWish how = {.share = fmin(1.0, seconds / candidates->frame_seconds), .times = 2};
+    HdTeamDevice *member = &candidates->list[index];
+    HdTrial trial;
+    HdStatus status = hd_team_device_open(member, wish->options, wish->job, true, error);
+    if (status == HD_OK)
+        status = hd_trial(member->renderer, wish->job, &how, &trial, error);
+    member->seconds = status == HD_OK ? trial.seconds : (double)INFINITY;
+    int slower = index;
+    if (is_faster(candidates, index)) {
+        slower = candidates->best;
+        candidates->best = index;
+    }
+    if (slower >= 0)
+        hd_team_device_close(&candidates->list[slower]);
+    return status;
+}
+
+/* What failed at work may do better another time, so that nothing is remembered then. */
+static HdStatus measure_all(HdCandidates *candidates, HdError *error) {
+    const HdDeviceWish *wish = &candidates->wish;
+    bool is_lasting = true;
+    HdError ignored; /* next time it is measured again */
+    for (int i = 0; i < candidates->compared; i++) {
+        HdStatus status = measure_one(candidates, i, error);
+        if (status == HD_INTERRUPTED || status == HD_BAD_INPUT)
+            return status;
+        if (status != HD_OK)
+            hd_add_text(candidates->note, sizeof candidates->note, "; ", "%.600s", error->message);
+        bool is_passing = status == HD_FAILED || (status != HD_OK && hd_is_loss(error));
+        is_lasting = is_lasting && !is_passing;
+    }
+    if (candidates->best < 0)
+        return HD_OK;
+    if (is_lasting)
+        hd_measured_put(candidates->list, candidates->compared, wish->options, wish->job->scene,
+                        &ignored);
+    explain_speed(candidates, "");
+    return HD_OK;
+}
+
+/* ---- opening ---- */
+
+static HdStatus choose(HdCandidates *candidates, HdError *error) {
+    candidates->best = -1;
+    candidates->compared = hd_min(candidates->compared, MAX_COMPARED);
+    if (candidates->compared < 2)
+        return HD_OK;
+    if (recall(candidates)) {
+        explain_speed(candidates, ", measured earlier");
+        return HD_OK;
+    }
+    if (job_seconds(candidates) >= HD_AUTO_MEASURE_SECONDS)
+        return measure_all(candidates, error);
+    for (int i = 0; candidates->best < 0 && i < candidates->compared; i++)
+        if (candidates->list[i].device.backend->needs_no_driver)
+            candidates->best = i;
+    if (candidates->best >= 0)
+        snprintf(candidates->why, sizeof candidates->why,
+                 "it needs about %.2g s, too little to measure other devices for",
+                 job_seconds(candidates));
+    return HD_OK;
+}
+
+/* The best, else those that follow it, else those before it. Kernels that are compiled for the
+   scene must prove themselves first; those compiled ahead get it when it is rendered. */
+static HdStatus open_next(HdCandidates *candidates, HdError *error) {
+    const HdDeviceWish *wish = &candidates->wish;
+    const int first = hd_max(candidates->best, 0);
+    const int tries = candidates->is_free ? candidates->count : 1;
+    HdStatus status = HD_UNAVAILABLE;
+    for (int i = 0; status == HD_UNAVAILABLE && i < tries; i++) {
+        candidates->best = (first + i) % candidates->count;
+        HdTeamDevice *member = &candidates->list[candidates->best];
+        bool is_proven = candidates->is_free && member->device.backend->functions->kernels != NULL;
+        status = hd_team_device_open(member, wish->options, wish->job, is_proven, error);
+        if (status == HD_UNAVAILABLE)
+            hd_add_text(candidates->note, sizeof candidates->note, "; ", "%.600s", error->message);
+        if (i > 0 && candidates->compared > 0)
+            snprintf(candidates->why, sizeof candidates->why,
+                     "the next after one that cannot be used");
+    }
+    return status;
+}
+
+HdStatus hd_candidates_open(HdCandidates *candidates, HdTeamDevice *opened, HdError *error) {
+    HdStatus status = choose(candidates, error);
+    if (status == HD_OK &&
+        (candidates->best < 0 || candidates->list[candidates->best].renderer == NULL))
+        status = open_next(candidates, error);
+    if (status == HD_OK)
+        *opened = candidates->list[candidates->best];
+    else if (candidates->best >= 0)
+        hd_team_device_close(&candidates->list[candidates->best]);
+    return status;
+}
+
 void hd_close_devices(HdDeviceTeam *team) {
     for (; team->count > 0; team->count--)
         hd_team_device_close(&team->list[team->count - 1]);
 }
 
-/* ---- one ---- */
+/* ---- a team of one ---- */
 
 static const char *choice_reason(const HdDeviceWish *wish, const HdDevice *chosen) {
     if (wish->device != NULL)
@@ -54,17 +407,14 @@ static void explain(HdDeviceTeam *team, const HdCandidates *candidates) {
 static HdStatus open_one(HdDeviceTeam *team, const HdDeviceWish *wish, HdError *error) {
     HdCandidates candidates;
     team->note[0] = team->why[0] = '\0';
-    HdStatus status = hd_candidates_find(&candidates, wish, error);
-    if (status == HD_OK)
-        status = hd_candidates_open(&candidates, &team->list[team->count], error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_candidates_find(&candidates, wish, error));
+    HD_TRY(hd_candidates_open(&candidates, &team->list[team->count], error));
     team->count++;
     explain(team, &candidates);
     return HD_OK;
 }
 
-/* ---- a list ---- */
+/* ---- a team by a list ---- */
 
 static HdStatus check_entry(const HdDeviceTeam *team, const HdDeviceWish *wish, const char *entry,
                             HdError *error) {
@@ -95,10 +445,9 @@ static HdStatus open_entry(HdDeviceTeam *team, const HdDeviceWish *wish, const c
                            HdError *error) {
     HdDeviceWish one = *wish;
     one.device = entry;
-    HdStatus status = check_entry(team, wish, entry, error);
-    if (status == HD_OK)
-        status = open_one(team, &one, error);
-    return status == HD_OK ? check_new(team, wish, error) : status;
+    HD_TRY(check_entry(team, wish, entry, error));
+    HD_TRY(open_one(team, &one, error));
+    return check_new(team, wish, error);
 }
 
 static HdStatus open_list(HdDeviceTeam *team, const HdDeviceWish *wish, HdError *error) {
@@ -117,7 +466,7 @@ static HdStatus open_list(HdDeviceTeam *team, const HdDeviceWish *wish, HdError 
     return status;
 }
 
-/* ---- all ---- */
+/* ---- a team of all ---- */
 
 /* OpenCL has the GPUs that CUDA has. */
 static bool is_there_already(const HdDeviceTeam *team, const HdDevice *device) {
@@ -170,31 +519,29 @@ static HdStatus add_backend(HdDeviceTeam *team, const HdBackend *backend, const 
                             HdError *error) {
     HdDevice devices[HD_MAX_DEVICES];
     int count = 0;
-    HdStatus status = HD_OK;
     /* Nobody need have every backend. */
     if (hd_backend_enumerate(backend, devices, HD_MAX_DEVICES, &count, error) != HD_OK &&
         wish->backend != NULL)
         snprintf(team->note, sizeof team->note, "%s: %.*s", backend->name,
                  (int)sizeof team->note / 2, error->message);
-    for (int i = 0; i < count && status == HD_OK; i++)
+    for (int i = 0; i < count; i++)
         if (is_wanted(team, wish, &devices[i]))
-            status = add_device(team, &devices[i], wish, error);
-    return status;
+            HD_TRY(add_device(team, &devices[i], wish, error));
+    return HD_OK;
 }
 
 static HdStatus open_all(HdDeviceTeam *team, const HdDeviceWish *wish, HdError *error) {
-    HdStatus status = HD_OK;
-    for (int i = 0; i < HD_BACKEND_COUNT && status == HD_OK; i++)
+    for (int i = 0; i < HD_BACKEND_COUNT; i++)
         if (wish->backend == NULL || strcmp(wish->backend, hd_backends[i]->name) == 0)
-            status = add_backend(team, hd_backends[i], wish, error);
+            HD_TRY(add_backend(team, hd_backends[i], wish, error));
     snprintf(team->why, sizeof team->why, "one of all, by --device");
-    if (status == HD_OK && team->count == 0)
+    if (team->count == 0)
         return hd_fail(error, HD_UNAVAILABLE, "no device can do this: %s",
                        team->note[0] != '\0' ? team->note : "none is there");
-    return status;
+    return HD_OK;
 }
 
-/* ---- any of these ---- */
+/* ---- any team ---- */
 
 static HdStatus open_wanted(HdDeviceTeam *team, const HdDeviceWish *wish, HdError *error) {
     bool is_all = wish->device != NULL && strcmp(wish->device, "all") == 0;
@@ -208,7 +555,6 @@ static HdStatus open_wanted(HdDeviceTeam *team, const HdDeviceWish *wish, HdErro
 
 HdStatus hd_open_devices(HdDeviceTeam *team, const HdDeviceWish *wish, HdError *error) {
     memset(team, 0, sizeof *team);
-    team->precision = wish->options->precision;
     HdStatus status = open_wanted(team, wish, error);
     if (status != HD_OK)
         hd_close_devices(team);

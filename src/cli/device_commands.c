@@ -7,8 +7,8 @@
 #include <time.h>
 
 #include "base/text.h"
-#include "choice/candidates.h"
-#include "choice/tune.h"
+#include "choice/devices.h"
+#include "choice/measure.h"
 #include "cli/console.h"
 #include "cli/options.h"
 #include "input/json/json_device_text.h"

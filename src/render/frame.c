@@ -1,18 +1,414 @@
 /* SPDX-License-Identifier: MIT */
 #include "render/frame.h"
 
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/growth.h"
+#include "base/minmax.h"
+#include "kernels/host/shared.h"
+#include "render/survey.h"
+#include "system/machine.h"
+#include "system/thread_pool.h"
 #include "tables/tables.h"
+
+/* Steps of 255 by which pictures must differ, for each step of the error that is aimed at: of
+   neighbours that have one sample; of the parts of a pixel's samples; of neighbours that have
+   more. Measured on the scenes that ship (docs/performance.md). */
+#define FIRST_CONTRAST     0.5
+#define PART_CONTRAST      2.0
+#define NEIGHBOUR_CONTRAST 8.0
+
+/* The error that is aimed at where nobody said another. */
+#define USUAL_ERROR 2.0
+
+/* What is usual of a picture: pixels that are refined, dear as they are, and, of a pass, the
+   samples that it brings to neighbours. Progress is guessed by them, and nothing else. */
+#define USUAL_SHARE  0.75
+#define USUAL_SPREAD 0.05
+
+/* How often samples spread to neighbours, and to which share of the picture at least: a pass of
+   fewer pixels keeps a GPU waiting as long as one of many. */
+enum { MOST_SPREADS = 4, LEAST_SPREAD = 1000 };
+
+/* More would wait for one another longer than they have work. */
+enum { MOST_THREADS = 16 };
+
+typedef struct Codes {
+    uint8_t rgb[3];
+} Codes;
+
+typedef struct Pixel {
+    float mean[3];
+    float bound;
+    int samples;
+    Codes codes;    /* of the mean */
+    bool is_uneven; /* the means of its samples' parts differ much */
+} Pixel;
+
+typedef struct HdRefinement {
+    HdThreadPool *threads;
+    HdSurveyor surveyor; /* of the scene; its sums are the frame */
+    HdSampleSet samples;
+    int width, height;
+    int *order; /* of the pixels: blocks of neighbours together, as bundles like it */
+    Pixel *pixels;
+    int *chosen;   /* pixels of the pass */
+    double *steps; /* of 255, that a pixel may miss */
+    HdSurveyRequest *requests;
+    HdSurvey *surveys;
+    int request_room, survey_room;
+    HdWatched left; /* of the frame, that no pass was given */
+} HdRefinement;
+
+static void free_refinement(HdRefinement *r) {
+    if (r == NULL)
+        return;
+    hd_thread_pool_destroy(r->threads);
+    hd_surveyor_free(&r->surveyor);
+    hd_sample_set_free(&r->samples);
+    free(r->order);
+    free(r->pixels);
+    free(r->chosen);
+    free(r->steps);
+    free(r->requests);
+    free(r->surveys);
+    free(r);
+}
+
+static void order_pixels(HdRefinement *r) {
+    enum { SIDE = HD_BLOCK_SIDE };
+    int count = 0;
+    for (int top = 0; top < r->height; top += SIDE)
+        for (int left = 0; left < r->width; left += SIDE)
+            for (int z = 0; z < SIDE * SIDE; z++) {
+                int x = left + HD_Z_COLUMN(z), y = top + HD_Z_ROW(z);
+                if (x < r->width && y < r->height)
+                    r->order[count++] = y * r->width + x;
+            }
+}
+
+/* The scene was uploaded to the renderer; both live on. */
+static HdStatus fill_refinement(HdRefinement *r, const HdFrameMaker *maker, HdError *error) {
+    const HdScene *scene = maker->scene;
+    const int side = scene->samples_per_side;
+    const size_t pixels = (size_t)scene->width * (size_t)scene->height;
+    r->width = scene->width;
+    r->height = scene->height;
+    HD_TRY(scene->sampling == HD_SAMPLING_REFERENCE ? hd_sample_set_dense(&r->samples, side, error)
+                                                    : hd_sample_set_grid(&r->samples, side, error));
+    HD_TRY(hd_thread_pool_create(&r->threads, hd_min(hd_processor_count(), MOST_THREADS), error));
+    r->surveyor = (HdSurveyor){.scene = scene,
+                               .renderer = maker->renderer,
+                               .samples = &r->samples,
+                               .curve = maker->wish.curve,
+                               .most_left_out = hd_most_left_out(scene),
+                               .threads = r->threads};
+    r->order = calloc(pixels, sizeof *r->order);
+    r->pixels = calloc(pixels, sizeof *r->pixels);
+    r->chosen = calloc(pixels, sizeof *r->chosen);
+    r->steps = calloc(pixels, sizeof *r->steps);
+    if (!(r->order && r->pixels && r->chosen && r->steps))
+        return hd_fail(error, HD_FAILED, "out of memory: no room for %zu pixels", pixels);
+    order_pixels(r);
+    return HD_OK;
+}
+
+/* ---- what is known of a pixel ---- */
+
+static double error_aimed_at(const HdRefinement *r) {
+    double limit = r->surveyor.scene->max_error;
+    return limit > 0.0 ? limit : USUAL_ERROR;
+}
+
+static int greatest_difference(Codes a, Codes b) {
+    int greatest = 0;
+    for (int channel = 0; channel < 3; channel++)
+        greatest = hd_max(greatest, abs(a.rgb[channel] - b.rgb[channel]));
+    return greatest;
+}
+
+static Codes encode(const HdRefinement *r, const float rgb[3]) {
+    Codes codes;
+    hd_curve_encode8(r->surveyor.curve, rgb, 3, codes.rgb);
+    return codes;
+}
+
+static void widen(Codes *least, Codes *most, Codes codes) {
+    for (int channel = 0; channel < 3; channel++) {
+        uint8_t code = codes.rgb[channel];
+        least->rgb[channel] = code < least->rgb[channel] ? code : least->rgb[channel];
+        most->rgb[channel] = code > most->rgb[channel] ? code : most->rgb[channel];
+    }
+}
+
+/* Whether surveys of `samples` samples each differ much. The pixel's own until now are a part as
+   well, unless they are fewer. */
+static bool are_uneven(const HdRefinement *r, const Pixel *pixel, const HdSurvey *surveys,
+                       int count, int samples) {
+    Codes first = encode(r, surveys[0].rgb), least = first, most = first;
+    for (int i = 1; i < count; i++)
+        widen(&least, &most, encode(r, surveys[i].rgb));
+    if (pixel->samples >= samples)
+        widen(&least, &most, pixel->codes);
+    return greatest_difference(least, most) > PART_CONTRAST * error_aimed_at(r);
+}
+
+static void add_surveys(const HdRefinement *r, Pixel *pixel, const HdSurvey *surveys, int count,
+                        int samples) {
+    double total = pixel->samples + (double)count * samples;
+    pixel->is_uneven = count > 1 && are_uneven(r, pixel, surveys, count, samples);
+    for (int channel = 0; channel < 3; channel++) {
+        double sum = (double)pixel->mean[channel] * pixel->samples;
+        for (int i = 0; i < count; i++)
+            sum += (double)surveys[i].rgb[channel] * samples;
+        pixel->mean[channel] = (float)(sum / total);
+    }
+    double bound = (double)pixel->bound * pixel->samples;
+    for (int i = 0; i < count; i++)
+        bound += (double)surveys[i].bound * samples;
+    pixel->bound = (float)(bound / total);
+    pixel->samples = (int)total;
+    pixel->codes = encode(r, pixel->mean);
+}
+
+/* ---- passes ---- */
+
+/* The chosen pixels' samples from number `from` on, in parts of `each`. */
+typedef struct Pass {
+    HdRefinement *refinement;
+    int from, parts, each;
+} Pass;
+
+static void request_samples(void *context, int first, int end) {
+    const Pass *pass = context;
+    const HdRefinement *r = pass->refinement;
+    HdSurveyRequest *request = &r->requests[(size_t)first * (size_t)pass->parts];
+    for (int i = first; i < end; i++) {
+        int x = r->chosen[i] % r->width, y = r->chosen[i] / r->width;
+        const int packed = (int)((uint32_t)y << 16 | (uint32_t)x); /* the sign is the row's, too */
+        for (int p = 0; p < pass->parts; p++)
+            *request++ = (HdSurveyRequest){packed, pass->from + p * pass->each};
+    }
+}
+
+static void add_samples(void *context, int first, int end) {
+    const Pass *pass = context;
+    const HdRefinement *r = pass->refinement;
+    for (int i = first; i < end; i++) {
+        Pixel *pixel = &r->pixels[r->chosen[i]];
+        if (pass->from == 0)
+            *pixel = (Pixel){0};
+        add_surveys(r, pixel, &r->surveys[(size_t)i * (size_t)pass->parts], pass->parts,
+                    pass->each);
+    }
+}
+
+/* The chosen pixels, in order, get the samples up to `samples` in `parts` equal parts. About
+   `later` samples follow in other passes. */
+static HdStatus sample_chosen(HdRefinement *r, int count, int from, int samples, int parts,
+                              double later, HdError *error) {
+    Pass pass = {r, from, parts, (samples - from) / parts};
+    if (count == 0)
+        return HD_OK;
+    if (count > INT_MAX / parts)
+        return hd_fail(error, HD_FAILED, "%d pixels are too many for adaptive sampling", count);
+    const int all = count * parts;
+    r->requests = hd_reserved(r->requests, sizeof *r->requests, all, &r->request_room);
+    r->surveys = hd_reserved(r->surveys, sizeof *r->surveys, all, &r->survey_room);
+    if (r->requests == NULL || r->surveys == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for surveys of %d pixels", all);
+    hd_chunks_run(r->threads, count, request_samples, &pass);
+    const double own = (double)count * (samples - from);
+    const HdSurveyPass asked = {.requests = r->requests,
+                                .count = all,
+                                .samples = pass.each,
+                                .surveys = r->surveys,
+                                .watched = hd_watched_take(&r->left, own / (own + later))};
+    HD_TRY(hd_survey_pass(&r->surveyor, &asked, error));
+    hd_chunks_run(r->threads, count, add_samples, &pass);
+    return HD_OK;
+}
+
+/* What pixels are chosen by. */
+typedef struct Choice {
+    const HdRefinement *refinement;
+    int samples;    /* that pixels have */
+    bool is_spread; /* by neighbours that have just got more, alone */
+    int likeness;   /* steps of 255 by which neighbours may differ */
+} Choice;
+
+/* A pixel is uneven in itself, or not like a neighbour; likewise a neighbour that has just got more
+   samples. */
+static bool is_reason(const Choice *choice, const Pixel *pixel, const Pixel *neighbour) {
+    bool differs = greatest_difference(pixel->codes, neighbour->codes) > choice->likeness;
+    return choice->is_spread
+               ? neighbour->samples > choice->samples && (neighbour->is_uneven || differs)
+               : pixel->is_uneven || differs;
+}
+
+static bool any_neighbour(const Choice *choice, int number) {
+    const HdRefinement *r = choice->refinement;
+    const Pixel *pixel = &r->pixels[number];
+    int x = number % r->width, y = number / r->width;
+    int left = x > 0 ? -1 : 0, right = x + 1 < r->width ? 1 : 0;
+    int above = y > 0 ? -1 : 0, below = y + 1 < r->height ? 1 : 0;
+    for (int dy = above; dy <= below; dy++)
+        for (int dx = left; dx <= right; dx++)
+            if (is_reason(choice, pixel, pixel + dy * r->width + dx))
+                return true;
+    return false;
+}
+
+static int choose_pixels(void *context, int first, int end, int *chosen) {
+    const Choice *choice = context;
+    const HdRefinement *r = choice->refinement;
+    int count = 0;
+    for (int i = first; i < end; i++) {
+        int number = r->order[i];
+        if (r->pixels[number].samples == choice->samples && any_neighbour(choice, number))
+            chosen[count++] = number;
+    }
+    return count;
+}
+
+/* Chooses the pixels of so many samples that there is a reason for; returns their number. */
+static int choose(HdRefinement *r, int samples, bool is_spread, double contrast) {
+    double likeness = contrast * error_aimed_at(r);
+    Choice choice = {r, samples, is_spread, likeness < 255.0 ? (int)likeness : 255};
+    return hd_chunks_choose(r->threads, r->width * r->height, choose_pixels, &choice, r->chosen);
+}
+
+static HdStatus sample_all(HdRefinement *r, int samples, HdError *error) {
+    int pixels = r->width * r->height;
+    double later = USUAL_SHARE * pixels * (r->samples.count - samples);
+    memcpy(r->chosen, r->order, sizeof *r->order * (size_t)pixels);
+    return sample_chosen(r, pixels, 0, samples, 1, later, error);
+}
+
+/* Into how many parts so many samples are cut: three, or else the least number that divides them.
+ */
+static int part_count(int samples) {
+    int parts = 3;
+    while (parts < samples && samples % parts != 0)
+        parts++;
+    return parts < samples ? parts : samples;
+}
+
+/* The chosen pixels get as many samples as `level` says, and after them the neighbours of those
+   that turn out to be uneven, as far as that spreads. Parts take longer to be sent, and tell
+   nothing more where one sample becomes all of them. */
+static HdStatus refine_chosen(HdRefinement *r, int count, int samples, int level, HdError *error) {
+    bool is_only_level = samples == 1 && level == r->samples.count;
+    int parts = is_only_level ? 1 : part_count(level - samples);
+    double later = (double)count * (r->samples.count - level);
+    double spread_later = USUAL_SPREAD * count * (level - samples);
+    HD_TRY(sample_chosen(r, count, samples, level, parts, later + spread_later, error));
+    for (int spread = 0; count > 0 && spread < MOST_SPREADS; spread++) {
+        count = choose(r, samples, true, NEIGHBOUR_CONTRAST);
+        if ((double)count * LEAST_SPREAD < (double)r->width * r->height)
+            break;
+        HD_TRY(sample_chosen(r, count, samples, level, parts, later, error));
+    }
+    return HD_OK;
+}
+
+/* Nine in ten pixels that need more than one sample need more than four. */
+static HdStatus refine(HdRefinement *r, HdError *error) {
+    HD_TRY(sample_all(r, 1, error));
+    for (int samples = 1; samples < r->samples.count;) {
+        int level = hd_min(samples == 1 ? 16 : 4 * samples, r->samples.count);
+        int count = choose(r, samples, false, samples == 1 ? FIRST_CONTRAST : NEIGHBOUR_CONTRAST);
+        HD_TRY(refine_chosen(r, count, samples, level, error));
+        samples = level;
+    }
+    return HD_OK;
+}
+
+/* ---- frames of surveyed scenes ---- */
+
+static void fill_pixels(void *context, int first, int end) {
+    const HdRefinement *r = context;
+    const HdFrame *frame = r->surveyor.sums;
+    for (int i = first; i < end; i++) {
+        const Pixel *pixel = &r->pixels[i];
+        r->steps[i] = hd_missing_steps(r->surveyor.curve, (double)pixel->bound,
+                                       (double)hd_darkest(pixel->mean));
+        memcpy(frame->rgb + 3 * (size_t)i, pixel->mean, sizeof pixel->mean);
+        if (frame->effort != NULL) {
+            float *effort = frame->effort + HD_EFFORT_FLOATS * (size_t)i;
+            effort[HD_EFFORT_SAMPLES] = (float)pixel->samples;
+            effort[HD_EFFORT_BOUND] = (float)r->steps[i];
+        }
+    }
+}
+
+/* The mean is added up in the pixels' order, so that it does not depend on the threads. */
+static void fill_frame(HdRefinement *r, HdFrame *frame) {
+    int pixels = r->width * r->height;
+    double largest = 0.0, sum = 0.0;
+    hd_chunks_run(r->threads, pixels, fill_pixels, r);
+    for (int i = 0; i < pixels; i++) {
+        largest = r->steps[i] > largest ? r->steps[i] : largest;
+        sum += r->steps[i];
+    }
+    frame->has_bound = true;
+    frame->largest_bound = largest;
+    frame->mean_bound = sum / (double)pixels;
+}
+
+/* The grid's samples tell what is covered, however many of them a pixel took. */
+static HdStatus find_first_hits(const HdFrameMaker *maker, const HdCamera *camera, HdFrame *frame,
+                                HdError *error) {
+    HdFrameTables tables;
+    HdStatus status = hd_compile_frame(&tables, maker->scene, camera,
+                                       hd_renderer_options(maker->renderer)->precision, error);
+    tables.watched = (HdWatched){.watch = maker->watch}; /* worth nothing more to it */
+    if (status == HD_OK)
+        status = hd_renderer_first_hits(maker->renderer, &tables, frame, error);
+    hd_frame_tables_free(&tables);
+    return status;
+}
+
+/* What passes are worth to the watch is a guess, since each hangs on what comes of those before. */
+static HdStatus render_surveyed(const HdFrameMaker *maker, const HdCamera *camera, HdFrame *frame,
+                                HdError *error) {
+    HdRefinement *r = maker->refinement;
+    double start = hd_monotonic_seconds();
+    frame->primary_rays = frame->mirrored_rays = frame->transmitted_rays = 0;
+    frame->shadow_tests = frame->clamps = 0;
+    r->surveyor.camera = camera;
+    r->surveyor.sums = frame;
+    r->left = (HdWatched){maker->watch, HD_WATCH_FRAME};
+    HD_TRY(maker->scene->sampling == HD_SAMPLING_ADAPTIVE ? refine(r, error)
+                                                          : sample_all(r, r->samples.count, error));
+    if (frame->first != NULL)
+        HD_TRY(find_first_hits(maker, camera, frame, error));
+    hd_watched_add(&r->left, 0, 1, 1);
+    frame->is_encoded = false;
+    fill_frame(r, frame);
+    frame->trace_seconds = hd_monotonic_seconds() - start;
+    return HD_OK;
+}
+
+/* ---- frames ---- */
 
 HdStatus hd_frame_maker_open(HdFrameMaker *maker, HdError *error) {
     maker->refinement = NULL;
-    return hd_scene_is_surveyed(maker->scene)
-               ? hd_refinement_create(&maker->refinement, maker->scene, maker->renderer,
-                                      maker->wish.curve, error)
-               : HD_OK;
+    if (!hd_scene_is_surveyed(maker->scene))
+        return HD_OK;
+    maker->refinement = calloc(1, sizeof *maker->refinement);
+    if (maker->refinement == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a refinement");
+    HdStatus status = fill_refinement(maker->refinement, maker, error);
+    if (status != HD_OK)
+        hd_frame_maker_close(maker);
+    return status;
 }
 
 void hd_frame_maker_close(HdFrameMaker *maker) {
-    hd_refinement_free(maker->refinement);
+    free_refinement(maker->refinement);
     maker->refinement = NULL;
 }
 
@@ -36,23 +432,19 @@ HdStatus hd_frame_begin(const HdFrameMaker *maker, HdFlight *flight, HdError *er
         return HD_OK;
     HdStatus status = hd_renderer_submit(maker->renderer, &flight->tables, &maker->wish, error);
     if (status != HD_OK)
-        hd_flight_drop(flight);
+        hd_frame_tables_free(&flight->tables);
     return status;
 }
 
 HdStatus hd_frame_end(const HdFrameMaker *maker, HdFlight *flight, HdFrame *frame, HdError *error) {
     if (maker->refinement != NULL)
-        return hd_refinement_render(maker->refinement, &flight->camera, maker->watch, frame, error);
+        return render_surveyed(maker, &flight->camera, frame, error);
     HdStatus status = hd_renderer_collect(maker->renderer, frame, error);
     if (status == HD_OK && frame->first != NULL)
         status = hd_renderer_first_hits(maker->renderer, &flight->tables, frame, error);
     hd_frame_fill_samples(frame, flight->tables.samples);
-    hd_flight_drop(flight);
-    return status;
-}
-
-void hd_flight_drop(HdFlight *flight) {
     hd_frame_tables_free(&flight->tables);
+    return status;
 }
 
 HdStatus hd_frame_render(const HdFrameMaker *maker, const HdCamera *camera, HdFrame *frame,

@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* One frame of one scene, on a renderer that has the scene (verify/trust.h): each sample of the
-   grid, or as many as the pixels of a surveyed scene need. */
+   grid, or as many as the pixels of a surveyed scene need (hd_scene_is_surveyed).
+
+   Adaptive sampling (after Whitted 1980, section 6) begins with one sample a pixel. A pixel gets 16
+   where a neighbour's picture differs, or where a neighbour has turned out to be uneven; then 64,
+   256, ... up to all of the grid's, as long as the means of parts of its samples differ, or those
+   of its neighbours do. The same bytes come of it everywhere, whatever was rendered before. */
 #ifndef HD_RENDER_FRAME_H
 #define HD_RENDER_FRAME_H
 
 #include "device/renderer.h"
-#include "render/adaptive.h"
 
 /* What frames are made of, and how they are wanted. */
 typedef struct HdFrameMaker {
@@ -13,10 +17,11 @@ typedef struct HdFrameMaker {
     const HdScene *scene; /* what the renderer has; size, crop, samples and less depth may differ */
     HdFrameWish wish; /* surveyed frames come as radiance, whose errors are judged on its curve */
     HdWatch *watch;   /* NULL: nobody looks */
-    HdRefinement *refinement; /* the maker's own: of a surveyed scene */
+    struct HdRefinement *refinement; /* the maker's own: of a surveyed scene */
 } HdFrameMaker;
 
-/* A frame under way. The struct stays where it is until the frame has ended or was dropped. */
+/* A frame under way. The struct stays where it is until the frame has ended, or its tables are
+   freed since the renderer was told to forget it (hd_renderer_drop). */
 typedef struct HdFlight {
     HdCamera camera;
     HdFrameTables tables;
@@ -41,9 +46,6 @@ HdStatus hd_frame_begin(const HdFrameMaker *maker, HdFlight *flight, HdError *er
 /* Waits for the oldest frame under way, which is so no longer; `frame` has room for what is wished
    for (hd_renderer_collect), and gets the layers that it has room for. */
 HdStatus hd_frame_end(const HdFrameMaker *maker, HdFlight *flight, HdFrame *frame, HdError *error);
-
-/* Of a frame that the renderer was told to forget (hd_renderer_drop). */
-void hd_flight_drop(HdFlight *flight);
 
 /* A frame's radiance, none being under way, with a maker that need not be open. */
 HdStatus hd_frame_render(const HdFrameMaker *maker, const HdCamera *camera, HdFrame *frame,

@@ -1,13 +1,143 @@
 /* SPDX-License-Identifier: MIT */
 #include "render/survey.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/growth.h"
+#include "base/limits.h"
+#include "base/minmax.h"
+#include "kernels/host/shared.h"
 #include "scene/light_bound.h"
-#include "system/machine.h"
 #include "system/thread_pool.h"
+
+/* ---- samples ---- */
+
+enum { BITS = 24, TURN_OVER = (1 << (BITS - 1)) - 1 };
+
+typedef struct Point {
+    uint32_t x, y; /* in parts of 2^BITS */
+} Point;
+
+/* Sobol's first two dimensions: the bits of i turned round, and the same after multiplication by
+   Pascal's triangle modulo 2. */
+static Point sequence_point(uint32_t i) {
+    Point point = {0, 0};
+    uint32_t second = UINT32_C(1) << (BITS - 1);
+    for (int bit = 0; bit < BITS; bit++) {
+        if (i >> bit & 1) {
+            point.x ^= UINT32_C(1) << (BITS - 1 - bit);
+            point.y ^= second;
+        }
+        second ^= second >> 1;
+    }
+    point.x ^= TURN_OVER;
+    point.y ^= TURN_OVER;
+    return point;
+}
+
+static int cell_of(uint32_t coordinate, int side) {
+    return (int)((uint64_t)coordinate * (uint64_t)side >> BITS);
+}
+
+static HdStatus create(HdSampleSet *set, int count, int grid_side, HdError *error) {
+    set->places = calloc((size_t)count, sizeof *set->places);
+    set->count = count;
+    set->grid_side = grid_side;
+    return set->places != NULL
+               ? HD_OK
+               : hd_fail(error, HD_FAILED, "out of memory: no room for %d samples", count);
+}
+
+HdStatus hd_sample_set_grid(HdSampleSet *set, int side, HdError *error) {
+    const int count = side * side;
+    HD_TRY(create(set, count, side, error));
+    unsigned char *taken = calloc((size_t)count, 1);
+    if (taken == NULL) {
+        hd_sample_set_free(set);
+        return hd_fail(error, HD_FAILED, "out of memory: no room for %d samples", count);
+    }
+    int found = 0;
+    for (uint32_t i = 0; found < count; i++) {
+        Point point = sequence_point(i);
+        int column = cell_of(point.x, side), row = cell_of(point.y, side);
+        if (taken[row * side + column])
+            continue;
+        taken[row * side + column] = 1;
+        set->places[found++] = column | row << 16;
+    }
+    free(taken);
+    return HD_OK;
+}
+
+/* Marsaglia 2003, "Xorshift RNGs". */
+static uint32_t next_random(uint32_t *state) {
+    *state ^= *state << 13;
+    *state ^= *state >> 17;
+    *state ^= *state << 5;
+    return *state;
+}
+
+static void shuffle(int *numbers, int count, uint32_t *state) {
+    for (int i = 0; i < count; i++)
+        numbers[i] = i;
+    for (int i = count - 1; i > 0; i--) {
+        int other = (int)(next_random(state) % (uint32_t)(i + 1)), kept = numbers[i];
+        numbers[i] = numbers[other];
+        numbers[other] = kept;
+    }
+}
+
+/* Where the random place `within` in part `part` of the cell number `cell` is, on the dense grid.
+ */
+static int dense_place(int side, int cell, int part, uint32_t within) {
+    double place = cell + (part + (double)within / 4294967296.0) / side;
+    return (int)(place * HD_DENSE_GRID / side);
+}
+
+HdStatus hd_sample_set_dense(HdSampleSet *set, int side, HdError *error) {
+    int column_of[HD_MAX_SAMPLES_PER_SIDE] = {0}, row_of[HD_MAX_SAMPLES_PER_SIDE] = {0};
+    uint32_t state = 1 + (uint32_t)side * UINT32_C(2654435761);
+    HD_TRY(create(set, side * side, HD_DENSE_GRID, error));
+    shuffle(column_of, side, &state);
+    shuffle(row_of, side, &state);
+    for (int i = 0; i < set->count; i++) {
+        int column = i % side, row = i / side;
+        int x = dense_place(side, column, column_of[row], next_random(&state));
+        int y = dense_place(side, row, row_of[column], next_random(&state));
+        set->places[i] = x | y << 16;
+    }
+    return HD_OK;
+}
+
+void hd_sample_set_free(HdSampleSet *set) {
+    free(set->places);
+    memset(set, 0, sizeof *set);
+}
+
+/* ---- errors ---- */
+
+/* sRGB: 1 / f' is 1 / 12.92 = 0.0774 up to 0.0031308, and then 2.2749 v^0.5833, which is concave:
+   the line 0.0705 + 2.2 v is below both at their ends, 0.0774 at 0.0031308 and 2.2749 at 1. */
+double hd_missing_allowed(HdCurve curve, double steps, double radiance) {
+    if (curve != HD_CURVE_SRGB)
+        return steps * (1.0 / 255.0);
+    return steps * (0.0705 / 255.0 + 2.2 / 255.0 * (radiance > 0.0 ? radiance : 0.0));
+}
+
+/* Curves grow slower the brighter it is. */
+double hd_missing_steps(HdCurve curve, double missing, double radiance) {
+    return 255.0 *
+           (hd_curve_to_display(curve, radiance + missing) - hd_curve_to_display(curve, radiance));
+}
+
+float hd_darkest(const float rgb[3]) {
+    float least = rgb[0] < rgb[1] ? rgb[0] : rgb[1];
+    return least < rgb[2] ? least : rgb[2];
+}
+
+/* ---- surveys ---- */
 
 /* Entries of one submission, at most, in whole items; lists are worked off in parts, as few as can
    be, for a GPU waits for the longest tree of each. */
@@ -30,34 +160,15 @@ enum { MOST_ENTRIES = HD_MAX_IMAGE_SIDE / HD_LISTED_WIDTH * HD_LISTED_WIDTH * HD
    weight ended the rays. */
 #define PROGRESS 0.99F
 
-/* sRGB: 1 / f' is 1 / 12.92 = 0.0774 up to 0.0031308, and then 2.2749 v^0.5833, which is concave:
-   the line 0.0705 + 2.2 v is below both at their ends, 0.0774 at 0.0031308 and 2.2749 at 1. */
-HdErrorBudget hd_error_budget(HdCurve curve) {
-    return curve == HD_CURVE_SRGB ? (HdErrorBudget){0.0705 / 255.0, 2.2 / 255.0}
-                                  : (HdErrorBudget){1.0 / 255.0, 0.0};
-}
-
-double hd_error_budget_radiance(const HdErrorBudget *budget, double steps, double radiance) {
-    return steps * (budget->floor + budget->slope * (radiance > 0.0 ? radiance : 0.0));
-}
-
-/* Curves grow slower the brighter it is. */
-double hd_missing_steps(HdCurve curve, double missing, double radiance) {
-    return 255.0 *
-           (hd_curve_to_display(curve, radiance + missing) - hd_curve_to_display(curve, radiance));
-}
-
 void hd_surveyor_free(HdSurveyor *surveyor) {
     free(surveyor->entries);
     free(surveyor->open);
     hd_frame_free(&surveyor->frame);
-    surveyor->entries = surveyor->open = NULL;
-    surveyor->entry_room = surveyor->open_room = surveyor->frame_rows = 0;
 }
 
 void hd_survey_end_rays(HdScene *scene) {
-    const HdErrorBudget budget = hd_error_budget(HD_CURVE_SRGB); /* the stricter one */
-    const double limit = hd_error_budget_radiance(&budget, scene->max_error, 0.0);
+    /* sRGB is the stricter curve. */
+    const double limit = hd_missing_allowed(HD_CURVE_SRGB, scene->max_error, 0.0);
     if (!(scene->max_error > 0.0))
         return;
     scene->depth = hd_depth_for_bound(scene, limit * LAST_CUTOFF);
@@ -75,7 +186,7 @@ static HdStatus reserve_frame(HdSurveyor *surveyor, int rows, HdError *error) {
 }
 
 static HdStatus reserve(HdSurveyor *surveyor, int count, HdError *error) {
-    int at_once = count < MOST_ENTRIES ? count : MOST_ENTRIES;
+    int at_once = hd_min(count, MOST_ENTRIES);
     surveyor->entries = hd_reserved(surveyor->entries, 2 * sizeof *surveyor->entries, at_once,
                                     &surveyor->entry_room);
     surveyor->open =
@@ -85,26 +196,19 @@ static HdStatus reserve(HdSurveyor *surveyor, int count, HdError *error) {
     return reserve_frame(surveyor, (at_once + HD_LISTED_WIDTH - 1) / HD_LISTED_WIDTH, error);
 }
 
-static void add_counts(HdSurveyor *surveyor, int count, int samples, double seconds) {
-    const HdFrame *frame = &surveyor->frame;
-    surveyor->sums.primary_rays += (uint64_t)count * (uint64_t)samples;
-    surveyor->sums.mirrored_rays += frame->mirrored_rays;
-    surveyor->sums.transmitted_rays += frame->transmitted_rays;
-    surveyor->sums.shadow_tests += frame->shadow_tests;
-    surveyor->sums.clamps += frame->clamps;
-    surveyor->sums.trace_seconds += seconds;
-}
-
-static float darkest(const float rgb[3]) {
-    float least = rgb[0] < rgb[1] ? rgb[0] : rgb[1];
-    return least < rgb[2] ? least : rgb[2];
+static void add_counts(HdFrame *sums, const HdFrame *frame, int count, int samples) {
+    sums->primary_rays += (uint64_t)count * (uint64_t)samples;
+    sums->mirrored_rays += frame->mirrored_rays;
+    sums->transmitted_rays += frame->transmitted_rays;
+    sums->shadow_tests += frame->shadow_tests;
+    sums->clamps += frame->clamps;
 }
 
 static bool is_within(const HdSurveyor *surveyor, const HdSurvey *survey) {
     double limit = surveyor->scene->max_error;
     return !(limit > 0.0) ||
            (double)survey->bound <=
-               hd_error_budget_radiance(&surveyor->budget, limit, (double)darkest(survey->rgb));
+               hd_missing_allowed(surveyor->curve, limit, (double)hd_darkest(survey->rgb));
 }
 
 /* Requests of one submission. */
@@ -127,7 +231,7 @@ static int request_number(const Part *part, int i) {
 static int place_of(int i, int count) {
     enum { ITEM = HD_LISTED_WIDTH * HD_LISTED_WIDTH };
     int z = i % ITEM, first = i - z;
-    return first + ITEM <= count ? first + hd_z_order_y(z) * HD_LISTED_WIDTH + hd_z_order_x(z) : i;
+    return first + ITEM <= count ? first + HD_Z_ROW(z) * HD_LISTED_WIDTH + HD_Z_COLUMN(z) : i;
 }
 
 static void list_entries(void *context, int first, int end) {
@@ -171,14 +275,12 @@ static HdStatus submit(const Part *part, HdWatched watched, HdError *error) {
         .bound_cutoff = part->cutoff,
         .most_left_out = surveyor->most_left_out,
     };
-    HdStatus status =
-        hd_compile_listed_frame(&tables, surveyor->scene, part->pass->camera,
-                                hd_renderer_options(surveyor->renderer)->precision, &list, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_compile_listed_frame(&tables, surveyor->scene, surveyor->camera,
+                                   hd_renderer_options(surveyor->renderer)->precision, &list,
+                                   error));
     tables.watched = watched;
     surveyor->frame.height = tables.height;
-    status = hd_renderer_render(surveyor->renderer, &tables, &surveyor->frame, error);
+    HdStatus status = hd_renderer_render(surveyor->renderer, &tables, &surveyor->frame, error);
     hd_frame_tables_free(&tables);
     return status;
 }
@@ -186,12 +288,9 @@ static HdStatus submit(const Part *part, HdWatched watched, HdError *error) {
 /* Surveys the requests of a part, of which those that are not within the limit stay, in place. */
 static HdStatus survey_part(Part *part, HdWatched watched, HdError *error) {
     HdSurveyor *surveyor = part->surveyor;
-    double start = hd_monotonic_seconds();
     hd_chunks_run(surveyor->threads, part->count, list_entries, part);
-    HdStatus status = submit(part, watched, error);
-    if (status != HD_OK)
-        return status;
-    add_counts(surveyor, part->count, part->pass->samples, hd_monotonic_seconds() - start);
+    HD_TRY(submit(part, watched, error));
+    add_counts(surveyor->sums, &surveyor->frame, part->count, part->pass->samples);
     part->count = hd_chunks_choose(surveyor->threads, part->count, take_surveys, part, part->open);
     return HD_OK;
 }
@@ -201,13 +300,10 @@ static HdStatus survey_open(HdSurveyor *surveyor, const HdSurveyPass *pass, doub
                             bool is_first, HdWatched watched, int *open_count, HdError *error) {
     int left = 0;
     for (int from = 0; from < *open_count; from += MOST_ENTRIES) {
-        int rest = *open_count - from, count = rest < MOST_ENTRIES ? rest : MOST_ENTRIES;
+        int rest = *open_count - from, count = hd_min(rest, MOST_ENTRIES);
         int *open = surveyor->open + from;
         Part part = {surveyor, pass, cutoff, is_first, open, from, count};
-        HdStatus status =
-            survey_part(&part, hd_watched_take(&watched, (double)count / rest), error);
-        if (status != HD_OK)
-            return status;
+        HD_TRY(survey_part(&part, hd_watched_take(&watched, (double)count / rest), error));
         memmove(surveyor->open + left, open, sizeof *open * (size_t)part.count);
         left += part.count;
     }
@@ -215,32 +311,28 @@ static HdStatus survey_open(HdSurveyor *surveyor, const HdSurveyPass *pass, doub
     return HD_OK;
 }
 
-static double rays_so_far(const HdSurveyor *surveyor) {
-    const HdFrame *sums = &surveyor->sums;
-    return (double)(sums->primary_rays + sums->mirrored_rays + sums->transmitted_rays);
-}
-
 /* Smaller and smaller cut-offs, until no request is open. The first one is worth most of what is
    left, for few samples need another one; without a limit there is one. */
 HdStatus hd_survey_pass(HdSurveyor *surveyor, const HdSurveyPass *pass, HdError *error) {
     double limit = surveyor->scene->max_error;
     double easy = limit > 0.0 && limit < EASY_LIMIT ? EASY_LIMIT : limit;
-    double cutoff = FIRST_CUTOFF * hd_error_budget_radiance(&surveyor->budget, easy, 0.0);
-    double last = LAST_CUTOFF * hd_error_budget_radiance(&surveyor->budget, limit, 0.0);
+    double cutoff = FIRST_CUTOFF * hd_missing_allowed(surveyor->curve, easy, 0.0);
+    double last = LAST_CUTOFF * hd_missing_allowed(surveyor->curve, limit, 0.0);
     bool is_first = true;
     int open = pass->count;
     HdWatched watched = pass->watched;
-    HdStatus status = reserve(surveyor, open, error);
-    while (status == HD_OK && open > 0) {
-        double before = rays_so_far(surveyor), tried = (double)open * pass->samples;
+    HD_TRY(reserve(surveyor, open, error));
+    while (open > 0) {
+        const double before = (double)hd_frame_rays(surveyor->sums),
+                     tried = (double)open * pass->samples;
         const HdWatched own = hd_watched_take(&watched, limit > 0.0 ? 0.875 : 1.0);
-        status = survey_open(surveyor, pass, cutoff, is_first, own, &open, error);
-        if (cutoff <= last || rays_so_far(surveyor) - before > tried * MOST_RAYS * NEXT_CUTOFF)
+        HD_TRY(survey_open(surveyor, pass, cutoff, is_first, own, &open, error));
+        if (cutoff <= last ||
+            (double)hd_frame_rays(surveyor->sums) - before > tried * MOST_RAYS * NEXT_CUTOFF)
             break;
         cutoff = cutoff * NEXT_CUTOFF > last ? cutoff * NEXT_CUTOFF : last;
         is_first = false;
     }
-    if (status == HD_OK)
-        hd_watched_add(&watched, 0, 1, 1);
-    return status;
+    hd_watched_add(&watched, 0, 1, 1);
+    return HD_OK;
 }

@@ -1,33 +1,54 @@
 /* SPDX-License-Identifier: MIT */
-/* Renders listed samples of a surveyed scene, so often with a smaller cut-off that what was left
-   out of each of them stays within bounds. */
+/* Where the samples of a pixel are, and the surveys that render some of them, so often with a
+   smaller cut-off that what was left out of each stays within bounds. */
 #ifndef HD_RENDER_SURVEY_H
 #define HD_RENDER_SURVEY_H
 
 #include "device/renderer.h"
 #include "image/curve.h"
-#include "render/samples.h"
 #include "system/thread_pool.h"
 
-/* How much may be missing from a pixel's radiance before its picture is off by so many steps of
-   255: on the linear curve the same everywhere, on sRGB's less where it is dark. That is
-   floor + slope * radiance for a step, times the number of steps. It never exceeds what is allowed:
-   the curve f grows by at most e where radiance grows by no more than e / f', for f is concave; and
-   1 / f' is above the straight line (docs/numerics.md). Being linear, it holds for the mean of
-   samples if it holds for each of them. */
-typedef struct HdErrorBudget {
-    double floor, slope;
-} HdErrorBudget;
+/* ---- samples ---- */
 
-HdErrorBudget hd_error_budget(HdCurve curve);
+/* Samples in places of a grid, each place once: column | row << 16. The first 1, 4, 16, ... samples
+   are spread over the pixel as evenly as a grid of theirs. */
+typedef struct HdSampleSet {
+    int *places; /* owned */
+    int count;
+    int grid_side;
+} HdSampleSet;
 
-/* The radiance that may be missing for `steps` of 255, of a pixel or sample whose darkest channel
-   has `radiance`, after exposure. */
-double hd_error_budget_radiance(const HdErrorBudget *budget, double steps, double radiance);
+/* All places of a grid of side x side, 1 to 64, in the order in which a low-discrepancy sequence
+   comes upon them: the first two dimensions of Sobol's, a (0, 2)-sequence in base 2 (Sobol 1967;
+   Niederreiter 1992, section 4), turned over so that the first sample is next to the middle. */
+HdStatus hd_sample_set_grid(HdSampleSet *set, int side, HdError *error);
+
+/* side * side places, 1 to 64, on a grid of HD_DENSE_GRID: correlated multi-jittered samples
+   (Kensler 2013), one in each cell of a grid of side x side and one in each of side * side columns
+   and rows. An edge between black and white is seen with an error of at most 2.2 steps of 255 by
+   32 x 32 of them, and by a grid with up to 4. */
+enum { HD_DENSE_GRID = 4096 };
+HdStatus hd_sample_set_dense(HdSampleSet *set, int side, HdError *error);
+
+void hd_sample_set_free(HdSampleSet *set);
+
+/* ---- errors ---- */
+
+/* The radiance, after exposure, that may be missing from a pixel or sample whose darkest channel
+   has `radiance` before its picture is off by `steps` of 255: on the linear curve the same
+   everywhere, on sRGB's less where it is dark. It never exceeds what is allowed: the curve f grows
+   by at most e where radiance grows by no more than e / f', for f is concave; and 1 / f' is above a
+   straight line (docs/numerics.md). Being linear, it holds for the mean of samples if it holds for
+   each. */
+double hd_missing_allowed(HdCurve curve, double steps, double radiance);
 
 /* By how many steps of 255 at most the picture is off where no more than `missing` is missing from
    any channel of such a pixel. */
 double hd_missing_steps(HdCurve curve, double missing, double radiance);
+
+float hd_darkest(const float rgb[3]);
+
+/* ---- surveys ---- */
 
 /* Samples of a pixel that follow each other in the set: their means. */
 typedef struct HdSurvey {
@@ -40,25 +61,16 @@ typedef struct HdSurveyRequest {
     int first; /* sample in the set */
 } HdSurveyRequest;
 
-/* Column and row of number z of 64 pixels in Z order, in which items render theirs
-   (kernels/common/render.h). */
-static inline int hd_z_order_x(int z) {
-    return (z & 1) | (z >> 1 & 2) | (z >> 2 & 4);
-}
-
-static inline int hd_z_order_y(int z) {
-    return hd_z_order_x(z >> 1);
-}
-
 typedef struct HdSurveyor {
     const HdScene *scene; /* uploaded; surveyed */
     HdRenderer *renderer; /* no frame is under way */
     const HdSampleSet *samples;
-    HdErrorBudget budget;
-    double most_left_out;  /* hd_most_left_out of the scene */
-    HdThreadPool *threads; /* for the host's work */
-    HdFrame sums;          /* counts and time of all passes so far; without pixels */
-    int *entries, *open;   /* the surveyor's own from here on */
+    HdCurve curve;          /* of the picture whose errors are limited */
+    double most_left_out;   /* hd_most_left_out of the scene */
+    HdThreadPool *threads;  /* for the host's work */
+    const HdCamera *camera; /* of the passes */
+    HdFrame *sums;          /* gets the counts of all passes added */
+    int *entries, *open;    /* the surveyor's own from here on */
     int entry_room, open_room;
     HdFrame frame;
     int frame_rows; /* that it has room for */
@@ -73,7 +85,6 @@ void hd_survey_end_rays(HdScene *scene);
 
 /* Samples that are asked for at a time. */
 typedef struct HdSurveyPass {
-    const HdCamera *camera;
     const HdSurveyRequest *requests;
     int count;         /* of them, 1 or more */
     int samples;       /* of each */

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 
 #include "base/limits.h"
-#include "choice/candidates.h"
+#include "choice/devices.h"
 #include "input/scene_file.h"
 
 enum { HD_MAX_CHANGES = 64 };

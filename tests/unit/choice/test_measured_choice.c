@@ -3,8 +3,7 @@
    up: each look at it takes `clock_step`, and each frame of the fake device with a number
    `frame_seconds` of that number. */
 #define _XOPEN_SOURCE 700
-#include "choice/candidates.h"
-#include "choice/tune.h"
+#include "choice/devices.h"
 #include "fake_backend.h"
 #include "render/backends.h"
 #include "small_scene.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "run/tracer.h"
+#include "run/turns.h"
 #include "unit_test.h"
 
 /* A tracer that takes so many seconds a frame; 0: nobody knows yet. */
@@ -48,7 +48,7 @@ TEST(a_new_one_takes_one_frame_unless_it_is_alone) {
     assert_int_equal(wanting(&turns, 1, 0.0), 3);
     hd_turns_begun(&turns, 1, 0.0);
     assert_int_equal(wanting(&turns, 100, 0.0), 1);
-    hd_turns_finished(&turns, 1, 2.0, 2.0);
+    hd_turns_ended(&turns, 1, 2.0, 2.0);
     assert_int_equal(wanting(&turns, 100, 2.0), 3);
     turns = turns_of(1, GPU(0.0), GPU(0.0), GPU(0.0));
     hd_turns_begun(&turns, 0, 0.0);
@@ -80,11 +80,11 @@ TEST(frames_under_way_count) {
     hd_turns_begun(&turns, 0, 10.0);
     hd_turns_begun(&turns, 0, 11.0);
     expect_near(turn->busy_until, 18.0, 1e-12);
-    hd_turns_finished(&turns, 0, 2.0, 12.0);
+    hd_turns_ended(&turns, 0, 2.0, 12.0);
     expect_near(turn->seconds, 3.0, 1e-12);
     expect_near(turn->busy_until, 15.0, 1e-12);
     assert_int_equal(turn->in_flight, 1);
-    hd_turns_given_back(&turns, 0, 13.0);
+    hd_turns_ended(&turns, 0, 0.0, 13.0);
     expect_near(turn->busy_until, 13.0, 1e-12);
     assert_int_equal(turn->in_flight, 0);
 }
