@@ -10,7 +10,7 @@
 #include "cpu/builds.h"
 #include "device/kernel_source.h"
 #include "device/renderer.h"
-#include "device/wave_plan.h"
+#include "device/launch_plan.h"
 #include "kernels/host/shared.h"
 #include "system/interrupt.h"
 #include "system/machine.h"

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "device/arithmetic.h"
-#include "device/launch_size.h"
+#include "device/kernel_cache.h"
+#include "device/launch_plan.h"
 
 static void recall(HdDevice *device) {
     HdArithmetic known = {.difference = ""};
@@ -25,13 +25,6 @@ HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int c
         recall(&devices[i]);
     }
     return status;
-}
-
-HdStatus hd_backend_render(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
-                           HdFrame *frame, HdError *error) {
-    static const HdFrameWish radiance = {.radiance = true};
-    HdStatus status = backend->functions->submit(renderer, tables, &radiance, error);
-    return status == HD_OK ? backend->functions->collect(renderer, tables, frame, error) : status;
 }
 
 /* ---- what suits a device ---- */

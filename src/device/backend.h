@@ -4,11 +4,12 @@
 #define HD_DEVICE_BACKEND_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "base/error.h"
 #include "device/options.h"
-#include "device/probe_batch.h"
 #include "image/frame.h"
+#include "kernels/common/kernel_arguments.h"
 #include "tables/tables.h"
 
 /* Frames that were submitted and not collected yet. */
@@ -38,9 +39,34 @@ typedef struct HdDevice {
     bool has_timeout;     /* its driver may end long kernels, as where it draws a display; or does
                              not tell, and a display may be there */
     char unusable[1024];  /* why nothing can run there, say no compiler for it; empty: it can */
-    bool is_measured; /* its arithmetic is known, being plain C's or remembered (arithmetic.h) */
+    bool is_measured; /* its arithmetic is known, being plain C's or remembered (kernel_cache.h) */
     char not_strict[640]; /* then why it cannot do strict arithmetic; empty: it can */
 } HdDevice;
+
+/* ---- the arithmetic probe: operands of its primitives and their results, as a device takes and
+   gives them (HD_PROBE_ARGUMENTS in kernels/common/kernel_arguments.h) ---- */
+
+#define HD_PROBE_NUMBER_NAME(name, words)  HD_PROBE_NUMBER_##name,
+#define HD_PROBE_INTEGER_NAME(name, words) HD_PROBE_INTEGER_##name,
+enum { HD_PROBE_NUMBERS(HD_PROBE_NUMBER_NAME) HD_PROBE_NUMBER_COUNT };
+enum { HD_PROBE_INTEGERS(HD_PROBE_INTEGER_NAME) HD_PROBE_INTEGER_COUNT };
+enum { HD_PROBE_BATCH = 1 << 13 /* most tuples at a time */ };
+
+typedef struct HdProbeBatch {
+    HdPrecision precision;
+    int count;         /* a multiple of HD_PROBE_GRAIN */
+    void *operands[3]; /* numbers of that precision, `count` each */
+    int64_t *bits;
+} HdProbeBatch;
+
+typedef struct HdProbeResults {
+    void *numbers;     /* HD_PROBE_NUMBER_COUNT * count */
+    int64_t *integers; /* HD_PROBE_INTEGER_COUNT * count */
+    int64_t sums[HD_PROBE_SUMS];
+    uint32_t counters[HD_PROBE_COUNTERS];
+} HdProbeResults;
+
+/* ---- backends ---- */
 
 /* What a backend's renderers do. Arguments are checked before a function is called (renderer.c);
    "must" marks what the callers rely on. Renderers are opaque to everybody else. Messages do not
@@ -82,15 +108,13 @@ typedef struct HdRendererFunctions {
     void (*drop)(void *renderer);
 
     /* The kernels that uploads compile, and what the last one did to have them (kernel_cache.h).
-       NULL instead of this function and the next two where they are compiled ahead. */
+       NULL instead of this function and the next one where they are compiled ahead. */
     HdKernelCache *(*kernels)(void *renderer);
 
-    /* Computes a batch of the arithmetic probe with kernels of the same shape, and tells all that
-       the results may depend on, apart from the number of tuples. The scene, if there is one, must
-       be uploaded again. */
+    /* Computes a batch of the arithmetic probe with kernels of the same shape. The scene, if there
+       is one, must be uploaded again. */
     HdStatus (*probe)(void *renderer, const HdProbeBatch *batch, HdProbeResults *results,
                       HdError *error);
-    void (*probe_key)(void *renderer, char *text, size_t capacity);
 
     /* The lanes of the kernels' bundles. */
     int (*lanes)(const void *renderer);
@@ -121,11 +145,6 @@ enum { HD_MAX_DEVICES = 64 }; /* of a backend */
 /* The backend's devices, with the backend and what is remembered of them filled in. */
 HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int capacity, int *count,
                               HdError *error);
-
-/* Submits a frame to a backend's own renderer and collects its radiance. The arguments were
-   checked, and no other frame is under way. */
-HdStatus hd_backend_render(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
-                           HdFrame *frame, HdError *error);
 
 /* ---- what suits a device ---- */
 

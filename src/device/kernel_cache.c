@@ -63,13 +63,11 @@ static HdStatus store_binary(const HdKernelCache *cache, const unsigned char *bi
 static HdStatus store(const HdKernelCache *cache, HdError *error) {
     char folder[HD_MAX_PATH];
     size_t size = 0;
-    HdStatus status = hd_cache_folder(folder, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_cache_folder(folder, error));
     unsigned char *binary = cache->key[0] != '\0' ? cache->read(cache->context, &size) : NULL;
-    status = binary != NULL && size > 0
-                 ? store_binary(cache, binary, size, error)
-                 : hd_fail(error, HD_UNAVAILABLE, "the driver does not hand them out");
+    HdStatus status = binary != NULL && size > 0
+                          ? store_binary(cache, binary, size, error)
+                          : hd_fail(error, HD_UNAVAILABLE, "the driver does not hand them out");
     free(binary);
     return status;
 }
@@ -92,17 +90,18 @@ static void note_found(HdKernelCache *cache) {
 
 /* ---- finding and keeping ---- */
 
-bool hd_kernel_cache_key(const HdKernelCache *cache, const void *source, size_t source_size,
-                         const char *options, const char *driver, char *key, size_t capacity) {
+/* False, and no key, where there is no room for all of it. */
+static bool write_key(HdKernelCache *cache, const void *source, size_t source_size,
+                      const char *options, const char *driver) {
     int length =
-        snprintf(key, capacity,
+        snprintf(cache->key, sizeof cache->key,
                  "hedron %s\nkernels %016" PRIx64 ", %zu bytes\noptions %s\ndevice %s\ndriver %s\n",
                  HD_VERSION, hd_hash_bytes(HD_HASH_START, source, source_size), source_size,
                  options, cache->device, driver);
-    if (length >= 0 && (size_t)length < capacity)
-        return true;
-    key[0] = '\0';
-    return false;
+    const bool has_room = length >= 0 && (size_t)length < sizeof cache->key;
+    if (!has_room)
+        cache->key[0] = '\0';
+    return has_room;
 }
 
 bool hd_kernel_cache_find(HdKernelCache *cache, const void *source, size_t source_size,
@@ -111,11 +110,9 @@ bool hd_kernel_cache_find(HdKernelCache *cache, const void *source, size_t sourc
     HdError error;
     cache->is_untested = false;
     cache->note[0] = cache->maker[0] = '\0';
-    if (!hd_kernel_cache_key(cache, source, source_size, options, driver, cache->key,
-                             sizeof cache->key)) {
-        *binary = NULL;
+    *binary = NULL;
+    if (!write_key(cache, source, source_size, options, driver))
         return false;
-    }
     HdStatus status = hd_cache_get(cache->backend, cache->key, binary, size, &error);
     if (status == HD_OK && open_entry(cache, *binary, size)) {
         note_found(cache);
@@ -158,4 +155,55 @@ void hd_kernel_cache_accept(HdKernelCache *cache) {
     add_note(cache, stored ? "cached" : "not cached");
     if (!stored)
         add_note(cache, error.message);
+}
+
+/* ---- the arithmetic of devices ---- */
+
+enum { KEY_LENGTH = 1024, LINE_LENGTH = 600 };
+
+/* A line for each precision: "float: " and one of these, or a word of what is wrong. */
+static const char kind[] = "arithmetic", right[] = "right", by_fma[] = "right with division by fma",
+                  wrong[] = "wrong: ";
+static const char *const precisions[] = {"\nfloat: ", "\ndouble: "};
+
+/* Both lines. */
+static void read_entry(const char *device, const char *driver, char key[KEY_LENGTH],
+                       char lines[2][LINE_LENGTH]) {
+    char text[2 * LINE_LENGTH + 32];
+    HdError ignored;
+    uint64_t hash = hd_hash_bytes(HD_HASH_START, hd_opencl_source, hd_opencl_source_size);
+    hash = hd_hash_bytes(hash, hd_cuda_source, hd_cuda_source_size);
+    snprintf(key, KEY_LENGTH, "hedron %s, kernels %016" PRIx64 "\ndevice %s\ndriver %s\n",
+             HD_VERSION, hash, device, driver);
+    if (hd_cache_get_text(kind, key, text, sizeof text, &ignored) != HD_OK)
+        text[0] = '\0';
+    for (int p = 0; p < 2; p++) {
+        const char *line = strstr(text, precisions[p]);
+        const char *start = line != NULL ? line + strlen(precisions[p]) : "";
+        snprintf(lines[p], LINE_LENGTH, "%.*s", (int)strcspn(start, "\n"), start);
+    }
+}
+
+void hd_arithmetic_remember(const char *device, const char *driver, HdPrecision precision,
+                            const HdArithmetic *found) {
+    char key[KEY_LENGTH], lines[2][LINE_LENGTH], text[2 * LINE_LENGTH + 32];
+    HdError ignored;
+    read_entry(device, driver, key, lines);
+    snprintf(lines[precision], LINE_LENGTH, "%s", found->rounds_by_fma ? by_fma : right);
+    if (found->difference[0] != '\0')
+        snprintf(lines[precision], LINE_LENGTH, "%s%s", wrong, found->difference);
+    snprintf(text, sizeof text, "%s%s%s%s\n", precisions[0], lines[0], precisions[1], lines[1]);
+    hd_cache_put_text(kind, key, text, &ignored);
+}
+
+bool hd_arithmetic_recall(const char *device, const char *driver, HdPrecision precision,
+                          HdArithmetic *known) {
+    char key[KEY_LENGTH], lines[2][LINE_LENGTH];
+    read_entry(device, driver, key, lines);
+    const char *line = lines[precision];
+    const bool is_wrong = strncmp(line, wrong, strlen(wrong)) == 0;
+    *known = (HdArithmetic){.rounds_by_fma = strcmp(line, by_fma) == 0};
+    if (is_wrong)
+        snprintf(known->difference, sizeof known->difference, "%.500s", line + strlen(wrong));
+    return is_wrong || known->rounds_by_fma || strcmp(line, right) == 0;
 }

@@ -34,12 +34,6 @@ struct HdKernelCache {
 /* For one device. There is nothing to free. */
 void hd_kernel_cache_begin(HdKernelCache *cache, const HdDevice *device);
 
-/* Writes the key of what depends on kernels; false where there is no room for all of it. `source`
-   and `options` are all that they are compiled from, `driver` what else they depend on, apart from
-   the device. */
-bool hd_kernel_cache_key(const HdKernelCache *cache, const void *source, size_t source_size,
-                         const char *options, const char *driver, char *key, size_t capacity);
-
 /* Looks for kernels: `source` and `options` are all that they are compiled from, `driver` what else
    they depend on, apart from the device. True where they are there; `*binary` is the caller's to
    free. Otherwise the caller compiles. */
@@ -57,5 +51,20 @@ void hd_kernel_cache_compiled(HdKernelCache *cache, HdKernelReader *read, const 
 
 /* The compiled kernels are in order: stores them, if that can be. */
 void hd_kernel_cache_accept(HdKernelCache *cache);
+
+/* ---- what the probe found of a device's arithmetic (verify/probe.h), kept by the device's name,
+   its driver, the kernels and the version of this program ---- */
+
+typedef struct HdArithmetic {
+    bool rounds_by_fma;   /* division and roots are right only if they are made of fma */
+    char difference[512]; /* what was wrong first; "": nothing was */
+} HdArithmetic;
+
+void hd_arithmetic_remember(const char *device, const char *driver, HdPrecision precision,
+                            const HdArithmetic *found);
+
+/* False where nothing is remembered. */
+bool hd_arithmetic_recall(const char *device, const char *driver, HdPrecision precision,
+                          HdArithmetic *known);
 
 #endif

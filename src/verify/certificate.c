@@ -34,32 +34,27 @@ typedef struct Part {
 
 static HdCertificateTest *begin_test(const Part *part, const char *what, const char *by) {
     HdCertificateTest *test = &part->certificate->tests[part->certificate->test_count++];
-    *test = (HdCertificateTest){.verdict = HD_VERDICT_RIGHT, .seconds = -hd_monotonic_seconds()};
+    *test = (HdCertificateTest){.seconds = -hd_monotonic_seconds()};
     snprintf(test->name, sizeof test->name, "%s %s%s%s", what,
              precision_names[part->options.precision], by,
              by[0] != '\0' ? hd_pipeline_names[part->options.pipeline] : "");
     return test;
 }
 
-static void end_test(const Part *part, HdCertificateTest *test, HdVerdict verdict,
-                     const char *reason) {
+/* `wrong` is what differs first; "": nothing does. Returns `status`. */
+static HdStatus end_test(const Part *part, HdCertificateTest *test, const char *wrong,
+                         HdStatus status, const HdError *error) {
     HdCertificate *certificate = part->certificate;
-    test->verdict = verdict;
+    const char *reason = status != HD_OK ? error->message : "";
+    test->verdict = status != HD_OK ? HD_VERDICT_UNTESTED : HD_VERDICT_RIGHT;
+    if (wrong[0] != '\0') {
+        test->verdict = HD_VERDICT_WRONG;
+        reason = wrong;
+    }
     snprintf(test->reason, sizeof test->reason, "%.2000s", reason);
     test->seconds += hd_monotonic_seconds();
-    if (certificate->verdict == HD_VERDICT_RIGHT || verdict == HD_VERDICT_WRONG)
-        certificate->verdict = verdict;
-}
-
-/* Where `reason` is what is wrong, "": nothing. */
-static HdStatus end_by(const Part *part, HdCertificateTest *test, const char *reason,
-                       HdStatus status, const HdError *error) {
-    if (reason[0] != '\0')
-        end_test(part, test, HD_VERDICT_WRONG, reason);
-    else if (status != HD_OK)
-        end_test(part, test, HD_VERDICT_UNTESTED, error->message);
-    else
-        end_test(part, test, HD_VERDICT_RIGHT, "");
+    if (certificate->verdict == HD_VERDICT_RIGHT || test->verdict == HD_VERDICT_WRONG)
+        certificate->verdict = test->verdict;
     return status;
 }
 
@@ -73,7 +68,7 @@ static HdStatus test_arithmetic(const Part *part, HdError *error) {
         test->by_fma = report.rounds_by_fma;
         test->hash = report.hash;
     }
-    return end_by(part, test, report.difference, status, error);
+    return end_test(part, test, report.difference, status, error);
 }
 
 /* ---- golden frames ---- */
@@ -98,13 +93,11 @@ typedef struct GoldenTest {
 } GoldenTest;
 
 static void judge_golden(GoldenTest *golden, const HdGoldenFrame *frame, uint64_t hash) {
-    HdGoldenHashes expected = {0};
+    HdGoldenHashes expected;
     golden->test->frames++;
     golden->test->hash = hd_hash_bytes(golden->test->hash, &hash, sizeof hash);
-    if (hd_golden_find_hashes(frame->name, golden->part->options.precision, &expected) &&
-        hash == expected.frame)
-        return;
-    if (golden->wrong++ > 0)
+    hd_golden_find_hashes(frame->name, golden->part->options.precision, &expected);
+    if (hash == expected.frame || golden->wrong++ > 0)
         return;
     golden->first_wrong = frame;
     golden->found = hash;
@@ -117,9 +110,8 @@ static HdStatus render_golden(GoldenTest *golden, const HdGoldenFrame *frame, bo
     HdScene scene;
     HdCamera camera;
     HdFrame image;
-    HdStatus status = hd_golden_build(frame, &scene, &camera, error);
-    if (status != HD_OK)
-        return status;
+    HdStatus status = HD_OK;
+    HD_TRY(hd_golden_build(frame, &scene, &camera, error));
     if (hd_scene_is_surveyed(&scene) == is_surveyed &&
         (golden->part->effort != HD_TEST_QUICK || is_quick(&scene))) {
         status = hd_put_and_render(golden->part->renderer, &scene, &camera, golden->like, 0, &image,
@@ -170,7 +162,7 @@ static HdStatus test_golden(const Part *part, HdError *error) {
         status = render_all(&golden, true, error);
     if (golden.wrong > 0)
         tell_golden(&golden, reason, sizeof reason);
-    return end_by(part, golden.test, reason, status, error);
+    return end_test(part, golden.test, reason, status, error);
 }
 
 /* ---- random scenes ---- */
@@ -186,7 +178,7 @@ static HdStatus test_random_scenes(const Part *part, HdError *error) {
     HdCertificateTest *test = begin_test(part, "random scenes in", " by ");
     HdStatus status = hd_random_test(&random, &result, error);
     test->frames = result.scenes;
-    return end_by(part, test, result.text, status, error);
+    return end_test(part, test, result.text, status, error);
 }
 
 /* ---- the certificate ---- */
@@ -207,7 +199,7 @@ static HdStatus test_pipeline(HdCertificate *certificate, const HdRenderOptions 
     Part part = {.certificate = certificate, .options = *options, .effort = effort};
     HdStatus status = hd_renderer_open(&part.renderer, &certificate->device, &part.options, error);
     if (status != HD_OK)
-        return end_by(&part, begin_test(&part, "opening for", " by "), "", status, error);
+        return end_test(&part, begin_test(&part, "opening for", " by "), "", status, error);
     status = test_renderer(&part, error);
     const HdKernelCache *kernels = hd_renderer_kernels(part.renderer);
     if (kernels != NULL)

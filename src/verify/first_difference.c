@@ -37,12 +37,9 @@ static HdStatus open_sides(Search *search, HdError *error) {
     int count;
     const HdDispute *dispute = search->dispute;
     const HdRenderOptions options = {.precision = dispute->options->precision};
-    HdStatus status = hd_backend_enumerate(hd_backend_always_there(), &plain, 1, &count, error);
-    if (status == HD_OK)
-        status = open_side(search, DEVICE, dispute->device, dispute->options, error);
-    if (status == HD_OK)
-        status = open_side(search, PLAIN_C, &plain, &options, error);
-    return status;
+    HD_TRY(hd_backend_enumerate(hd_backend_always_there(), &plain, 1, &count, error));
+    HD_TRY(open_side(search, DEVICE, dispute->device, dispute->options, error));
+    return open_side(search, PLAIN_C, &plain, &options, error);
 }
 
 static void forget_frames(Search *search) {

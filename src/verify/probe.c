@@ -8,9 +8,7 @@
 #include <string.h>
 
 #include "base/hash.h"
-#include "device/arithmetic.h"
 #include "device/kernel_cache.h"
-#include "verify/probe_operands.h"
 
 #define WORDS(name, words) words,
 static const char *const number_words[] = {HD_PROBE_NUMBERS(WORDS)};
@@ -211,10 +209,8 @@ static HdStatus probe_once(HdRenderer *renderer, int tuples, HdProbeReport *repo
                            bool *only_rounding_differs, HdError *error) {
     Probe probe;
     const HdKernelShape *shape = &hd_renderer_kernels(renderer)->shape;
-    HdStatus status = begin(&probe, shape->precision, tuples, report, error);
-    if (status != HD_OK)
-        return status;
-    status = run(renderer, &probe, tuples, error);
+    HD_TRY(begin(&probe, shape->precision, tuples, report, error));
+    HdStatus status = run(renderer, &probe, tuples, error);
     if (status == HD_OK && shape->group_size > 0)
         compare_sums(&probe);
     *only_rounding_differs = probe.only_rounding_differs;

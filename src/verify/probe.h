@@ -24,11 +24,24 @@ typedef struct HdProbeReport {
 /* Probes a renderer that compiles its kernels, with strict arithmetic, in its precision and with
    its lanes. Where division or roots alone are wrong, they are made of fused operations, for the
    renderer's kernels too, and all is probed anew. What differs is told by the report, not by the
-   status, and remembered (device/arithmetic.h). The renderer has no scene afterwards. */
+   status, and remembered (kernel_cache.h). The renderer has no scene afterwards. */
 HdStatus hd_probe(HdRenderer *renderer, int tuples, HdProbeReport *report, HdError *error);
 
 /* Has the renderer probed quickly, unless it was or need not be, or what came of it is remembered.
    HD_UNAVAILABLE, with the first difference, where the device computes wrongly. */
 HdStatus hd_probe_settle(HdRenderer *renderer, HdError *error);
+
+/* ---- its operands, and what plain C makes of them: the hard cases of each primitive by
+   construction
+   ---- */
+
+/* Fills a batch of that precision with tuples number `start` and so on of an endless list. */
+void hd_probe_operands_float(HdProbeBatch *batch, uint64_t start);
+void hd_probe_operands_double(HdProbeBatch *batch, uint64_t start);
+
+/* What the primitives make of a batch, in the C language's own words. Sums and counters, which
+   must be 0 before the first batch, go on. */
+void hd_probe_expect_float(const HdProbeBatch *batch, HdProbeResults *results);
+void hd_probe_expect_double(const HdProbeBatch *batch, HdProbeResults *results);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-#include "verify/probe_operands.h"
+/* Built for float and for double. */
+#include "verify/probe.h"
 
 #include <math.h>
 #include <stddef.h>

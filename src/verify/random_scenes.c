@@ -339,10 +339,7 @@ static const HdSceneTables *needs_of(const HdRandomTest *test, int kind) {
 static HdStatus render(const Run *run, HdRenderer *renderer, const HdScene *scene,
                        const HdCamera *camera, int kind, uint64_t *hash, HdError *error) {
     HdFrame frame;
-    HdStatus status =
-        hd_put_and_render(renderer, scene, camera, needs_of(run->test, kind), 0, &frame, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_put_and_render(renderer, scene, camera, needs_of(run->test, kind), 0, &frame, error));
     *hash = hd_frame_hash(&frame);
     hd_frame_free(&frame);
     return HD_OK;
@@ -366,10 +363,8 @@ static HdStatus compare(Run *run, Worker *worker, uint64_t seed, bool *differs, 
     HdCamera camera;
     uint64_t found = 0, expected = 0;
     int kind = kind_of(seed);
-    HdStatus status = build_random(seed, &scene, &camera, error);
-    if (status != HD_OK)
-        return status;
-    status = render_on_device(run, worker, &scene, &camera, kind, &found, error);
+    HD_TRY(build_random(seed, &scene, &camera, error));
+    HdStatus status = render_on_device(run, worker, &scene, &camera, kind, &found, error);
     if (status == HD_OK)
         status = render(run, worker->renderers[PLAIN_C], &scene, &camera, kind, &expected, error);
     hd_scene_free(&scene);
@@ -478,14 +473,12 @@ HdStatus hd_random_test(const HdRandomTest *test, HdRandomResult *result, HdErro
     Run run = {.test = test, .result = result, .error = error};
     int count;
     *result = (HdRandomResult){0};
-    HdStatus status = hd_backend_enumerate(hd_backend_always_there(), &run.plain, 1, &count, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_backend_enumerate(hd_backend_always_there(), &run.plain, 1, &count, error));
     run.worker_count = test->threads > 0 ? test->threads : hd_processor_count();
     if (run.worker_count > MOST_WORKERS)
         run.worker_count = MOST_WORKERS;
     pthread_mutex_init(&run.mutex, NULL);
-    status = run_workers(&run, error);
+    HdStatus status = run_workers(&run, error);
     pthread_mutex_destroy(&run.mutex);
     if (status == HD_INTERRUPTED || result->different == 0)
         return status;

@@ -275,9 +275,7 @@ HdStatus hd_nvrtc_check(const char *device, int arch, int driver_major, HdError 
     char library[HD_MAX_PATH];
     if (is_remembered(arch, driver_major))
         return HD_OK;
-    HdStatus status = hd_nvrtc_open(&nvrtc, device, arch, driver_major, NULL, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_nvrtc_open(&nvrtc, device, arch, driver_major, NULL, error));
     if (hd_library_path(nvrtc.library, "nvrtcVersion", library, sizeof library))
         hd_nvrtc_remember(library, arch, driver_major);
     hd_nvrtc_close(&nvrtc);

@@ -62,11 +62,10 @@ static HdStatus reserve(HdGpuFlight *flight, const HdGpu *gpu, HdError *error) {
         {&flight->image, HD_GPU_DEVICE, 4 * pixels, "encoded pixels"},
     };
     int count = flight->encodes ? 5 : 4;
-    HdStatus status = HD_OK;
-    for (int i = 0; status == HD_OK && i < count; i++)
-        status =
-            hd_gpu_reserve(gpu, list[i].memory, list[i].place, list[i].bytes, list[i].what, error);
-    return status;
+    for (int i = 0; i < count; i++)
+        HD_TRY(
+            hd_gpu_reserve(gpu, list[i].memory, list[i].place, list[i].bytes, list[i].what, error));
+    return HD_OK;
 }
 
 HdStatus hd_gpu_flight_begin(HdGpuRenderer *renderer, const HdFrameTables *tables, int items,
@@ -153,14 +152,10 @@ static HdStatus fill(HdGpuRenderer *renderer, HdGpuFlight *flight, HdFrame *fram
     const HdGpu *gpu = &renderer->gpu;
     double seconds, waited = hd_monotonic_seconds();
     flight->is_alone = true;
-    HdStatus status = gpu->driver->wait_for_copies(gpu->handle, &flight->copied, error);
-    if (status == HD_OK)
-        status =
-            gpu->driver->seconds(gpu->handle, &flight->first, &flight->summed, &seconds, error);
-    if (status == HD_OK && flight->untimed != NULL)
-        status = hd_gpu_flight_time_launch(renderer, flight, waited, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(gpu->driver->wait_for_copies(gpu->handle, &flight->copied, error));
+    HD_TRY(gpu->driver->seconds(gpu->handle, &flight->first, &flight->summed, &seconds, error));
+    if (flight->untimed != NULL)
+        HD_TRY(hd_gpu_flight_time_launch(renderer, flight, waited, error));
     hd_gpu_flight_tell(flight, flight->items);
     frame->longest_launch = flight->longest_launch;
     frame->trace_seconds = seconds < 0.0 ? host_seconds(&renderer->flights, flight) : seconds;

@@ -5,8 +5,7 @@
 
 #include "device/gpu/driver.h"
 #include "device/kernel_cache.h"
-#include "device/launch_size.h"
-#include "device/wave_plan.h"
+#include "device/launch_plan.h"
 
 /* ---- an open GPU and its memory ---- */
 
@@ -80,9 +79,6 @@ HdStatus hd_gpu_build(HdGpuProgram *program, const HdGpu *gpu, const HdKernelNee
 
 /* Has the kernel of the arithmetic probe, for the same shape, in place of those for a scene. */
 HdStatus hd_gpu_build_probe(HdGpuProgram *program, const HdGpu *gpu, HdError *error);
-
-/* All that this kernel depends on; "" where that is too much. */
-void hd_gpu_probe_key(const HdGpuProgram *program, const HdGpu *gpu, char *text, size_t capacity);
 
 /* Computes a batch with the kernel of hd_gpu_build_probe, and waits for it. */
 HdStatus hd_gpu_run_probe(const HdGpuProgram *program, const HdGpu *gpu, const HdProbeBatch *batch,

@@ -107,10 +107,8 @@ HdStatus hd_gpu_wave_queue_reserve(HdGpuWaveQueue *queue, const HdGpu *gpu, HdWa
 HdStatus hd_gpu_wave_queue_empty(HdGpuWaveQueue *queue, const HdGpu *gpu, HdError *error) {
     static const unsigned none[4] = {0};
     static const char what[] = "counter of the queue";
-    HdStatus status = hd_gpu_reserve(gpu, &queue->told, HD_GPU_HOST, sizeof none, what, error);
-    if (status == HD_OK)
-        status = hd_gpu_write_table(gpu, &queue->taken, none, sizeof none, what, error);
-    return status;
+    HD_TRY(hd_gpu_reserve(gpu, &queue->told, HD_GPU_HOST, sizeof none, what, error));
+    return hd_gpu_write_table(gpu, &queue->taken, none, sizeof none, what, error);
 }
 
 HdStatus hd_gpu_wave_queue_read(const HdGpuWaveQueue *queue, const HdGpu *gpu, unsigned *taken,

@@ -129,15 +129,14 @@ static void place_tables(HdGpuRenderer *renderer) {
 }
 
 static HdStatus write_scene(HdGpuRenderer *renderer, const HdSceneTables *tables, HdError *error) {
-    HdStatus status = HD_OK;
-    for (int i = 0; status == HD_OK && i < HD_SCENE_TABLE_COUNT; i++) {
+    for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++) {
         const HdTable *table = &tables->table[i];
         char what[64];
         snprintf(what, sizeof what, "scene's %s", hd_scene_table_content(i));
-        status = hd_gpu_write_table(&renderer->gpu, &renderer->scene[i], table->data, table->bytes,
-                                    what, error);
+        HD_TRY(hd_gpu_write_table(&renderer->gpu, &renderer->scene[i], table->data, table->bytes,
+                                  what, error));
     }
-    return status;
+    return HD_OK;
 }
 
 static HdStatus upload(HdGpuRenderer *renderer, const HdSceneTables *tables, HdError *error) {
@@ -169,8 +168,8 @@ static HdStatus gpu_upload(void *state, const HdSceneTables *tables, HdError *er
     renderer->depth = tables->depth;
     renderer->flights.size = work > 0 ? hd_launch_size_fixed(work)
                                       : hd_launch_size_start(device->compute_units, longest);
-    HdStatus status = enter(renderer, error);
-    return status == HD_OK ? upload(renderer, tables, error) : status;
+    HD_TRY(enter(renderer, error));
+    return upload(renderer, tables, error);
 }
 
 /* ---- frames ---- */
@@ -183,10 +182,8 @@ static HdStatus gpu_submit(void *state, const HdFrameTables *tables, const HdFra
     bool encodes = renderer->has_groups && !wish->radiance;
     int items = hd_kernel_item_count(tables->width, tables->height,
                                      renderer->program.cache.shape.pixels_per_item);
-    HdStatus status = enter(renderer, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_gpu_flight_begin(renderer, tables, items, encodes, &flight, error);
+    HD_TRY(enter(renderer, error));
+    HdStatus status = hd_gpu_flight_begin(renderer, tables, items, encodes, &flight, error);
     if (status == HD_OK)
         status = hd_gpu_launch_frame(renderer, flight, wish->curve, error);
     if (status == HD_OK)
@@ -214,10 +211,8 @@ static HdStatus gpu_first_hits(void *state, const HdFrameTables *tables, HdFrame
                                HdError *error) {
     HdGpuRenderer *renderer = state;
     HdError later;
-    HdStatus status = enter(renderer, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_gpu_find_first_hits(renderer, tables, frame, error);
+    HD_TRY(enter(renderer, error));
+    HdStatus status = hd_gpu_find_first_hits(renderer, tables, frame, error);
     if (status != HD_OK) /* copies that are under way read the tables, which are the caller's */
         renderer->gpu.driver->finish(renderer->gpu.handle, &later);
     return status;
@@ -238,16 +233,9 @@ static HdStatus gpu_probe(void *state, const HdProbeBatch *batch, HdProbeResults
                           HdError *error) {
     HdGpuRenderer *renderer = state;
     HdGpuProgram *program = &renderer->program;
-    HdStatus status = enter(renderer, error);
-    if (status == HD_OK)
-        status = hd_gpu_build_probe(program, &renderer->gpu, error);
-    return status == HD_OK ? hd_gpu_run_probe(program, &renderer->gpu, batch, results, error)
-                           : status;
-}
-
-static void gpu_probe_key(void *state, char *text, size_t capacity) {
-    const HdGpuRenderer *renderer = state;
-    hd_gpu_probe_key(&renderer->program, &renderer->gpu, text, capacity);
+    HD_TRY(enter(renderer, error));
+    HD_TRY(hd_gpu_build_probe(program, &renderer->gpu, error));
+    return hd_gpu_run_probe(program, &renderer->gpu, batch, results, error);
 }
 
 /* ---- what was chosen ---- */
@@ -284,7 +272,6 @@ const HdRendererFunctions hd_gpu_functions = {
     .drop = gpu_drop,
     .kernels = gpu_kernels,
     .probe = gpu_probe,
-    .probe_key = gpu_probe_key,
     .lanes = gpu_lanes,
     .describe = gpu_describe,
     .close = gpu_close,

@@ -65,25 +65,14 @@ static HdStatus open_device(void *state, const HdDevice *is, HdGpuFacts *facts, 
 
 /* ---- memory ---- */
 
-static bool is_lack_of_memory(cl_int code) {
-    return code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_RESOURCES ||
-           code == CL_OUT_OF_HOST_MEMORY;
-}
-
 static HdStatus check_room(cl_int code, const char *function, HdGpuRefusal *refusal,
                            HdError *error) {
-    if (!is_lack_of_memory(code))
+    if (code != CL_MEM_OBJECT_ALLOCATION_FAILURE && code != CL_OUT_OF_RESOURCES &&
+        code != CL_OUT_OF_HOST_MEMORY)
         return check(code, function, error);
     *refusal = (HdGpuRefusal){
         .lacks_memory = true, .function = function, .reason = hd_opencl_error_name(code)};
     return HD_FAILED;
-}
-
-/* Drivers may take memory only when it is touched first. */
-static cl_int touch(Device *device, cl_mem buffer) {
-    static const char nothing[1];
-    return clEnqueueWriteBuffer(device->queue, buffer, CL_TRUE, 0, sizeof nothing, nothing, 0, NULL,
-                                NULL);
 }
 
 static void release(void *state, HdGpuMemory *memory) {
@@ -111,16 +100,14 @@ static HdStatus allocate(void *state, HdGpuMemory *memory, HdGpuPlace place, siz
     Device *device = state;
     cl_int code = CL_MEM_OBJECT_ALLOCATION_FAILURE;
     cl_mem_flags flags = CL_MEM_READ_WRITE | (place == HD_GPU_HOST ? CL_MEM_ALLOC_HOST_PTR : 0);
-    HdStatus status = HD_OK;
     if (place == HD_GPU_DEVICE_AT_ONCE)
-        status = check(clFinish(device->queue), "clFinish", error);
-    if (status != HD_OK)
-        return status;
+        HD_TRY(check(clFinish(device->queue), "clFinish", error));
     if (device->at_once == 0 || bytes <= device->at_once)
         memory->handle = clCreateBuffer(device->context, flags, bytes, NULL, &code);
     memory->bytes = bytes;
     if (code == CL_SUCCESS && place == HD_GPU_DEVICE_AT_ONCE)
-        code = touch(device, memory->handle);
+        code = clEnqueueWriteBuffer(device->queue, memory->handle, CL_TRUE, 0, 1, "", 0, NULL,
+                                    NULL); /* drivers may take it only when it is touched first */
     if (code == CL_SUCCESS && place == HD_GPU_HOST)
         return map(device, memory, error);
     return check_room(code, "clCreateBuffer", refusal, error);

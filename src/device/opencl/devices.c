@@ -250,9 +250,7 @@ static HdStatus list_devices(Entry *entries, int capacity, int *count, HdError *
     cl_platform_id platforms[MAX_PLATFORMS];
     cl_uint platform_count = 0;
     *count = 0;
-    HdStatus status = list_platforms(platforms, &platform_count, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(list_platforms(platforms, &platform_count, error));
     const cl_device_type types =
         CL_DEVICE_TYPE_CPU | CL_DEVICE_TYPE_GPU | CL_DEVICE_TYPE_ACCELERATOR;
     cl_int last_code = CL_DEVICE_NOT_FOUND;
@@ -290,9 +288,7 @@ HdStatus hd_opencl_enumerate(HdDevice *devices, int capacity, int *count, HdErro
 HdStatus hd_opencl_find(cl_device_id *device, int index, HdGpuFacts *facts, HdError *error) {
     Entry entries[HD_MAX_DEVICES];
     int count;
-    HdStatus status = list_devices(entries, HD_MAX_DEVICES, &count, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(list_devices(entries, HD_MAX_DEVICES, &count, error));
     if (index < 0 || index >= count)
         return hd_fail(error, HD_UNAVAILABLE, "there is no device %d, only 0 to %d", index,
                        count - 1);

@@ -4,7 +4,7 @@
 #include <signal.h>
 #include <stdlib.h>
 
-#include "device/wave_plan.h"
+#include "device/launch_plan.h"
 #include "kernels/host/shared.h"
 #include "system/interrupt.h"
 #include "unit_test.h"

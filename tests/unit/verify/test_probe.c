@@ -9,7 +9,6 @@
 
 #include "device/kernel_cache.h"
 #include "unit_test.h"
-#include "verify/probe_operands.h"
 
 typedef enum Fault {
     NONE,
