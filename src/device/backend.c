@@ -27,6 +27,30 @@ HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int c
     return status;
 }
 
+/* ---- options ---- */
+
+const char *const hd_pipeline_names[HD_PIPELINE_COUNT + 1] = {"auto", "mega", "wavefront",
+                                                              "wavefront-uncompacted", NULL};
+
+bool hd_pipeline_is_wavefront(HdPipeline pipeline) {
+    return pipeline == HD_PIPELINE_WAVEFRONT || pipeline == HD_PIPELINE_WAVEFRONT_UNCOMPACTED;
+}
+
+static bool is_within(double number, double least, double most) {
+    return number == 0.0 || (number >= least && number <= most);
+}
+
+bool hd_render_options_are_possible(const HdRenderOptions *options) {
+#define IS(number) || options->lanes == (number)
+    return (options->lanes == 0 HD_LANE_COUNTS(IS)) &&
+           is_within(options->threads, 1, HD_MAX_THREADS) &&
+           is_within(options->block, HD_BLOCK_STEP, HD_MAX_BLOCK) &&
+           options->block % HD_BLOCK_STEP == 0 && is_within(options->grid, 1, HD_MAX_GRID) &&
+           is_within(options->registers, HD_MIN_REGISTERS, HD_MAX_REGISTERS) &&
+           is_within(options->launch_ms, HD_MIN_LAUNCH_MS, HD_MAX_LAUNCH_MS) &&
+           options->pipeline < HD_PIPELINE_COUNT;
+}
+
 /* ---- what suits a device ---- */
 
 static const char *lanes_there_are(int most) {

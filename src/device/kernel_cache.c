@@ -14,7 +14,12 @@ void hd_kernel_cache_begin(HdKernelCache *cache, const HdDevice *device) {
     snprintf(cache->device, sizeof cache->device, "%s (%s)", device->name, device->driver);
 }
 
-/* ---- entries: the stamp, the maker, a line each, then the binary ---- */
+/* ---- entries: a head, then the binary ---- */
+
+typedef struct Head {
+    char stamp[48]; /* stamp_of */
+    char maker[sizeof((HdKernelCache *)0)->maker];
+} Head;
 
 /* What an entry, or a note, says of the kernels' test. */
 static const char *stamp_of(const HdKernelCache *cache) {
@@ -22,39 +27,31 @@ static const char *stamp_of(const HdKernelCache *cache) {
                                                : "not tested, for the arithmetic is fast";
 }
 
-/* Takes the line off the front of what is left; false where there is none that fits. */
-static bool take_line(unsigned char **bytes, size_t *size, char *line, size_t capacity) {
-    const unsigned char *end = *size > 0 ? memchr(*bytes, '\n', *size) : NULL;
-    size_t length = end != NULL ? (size_t)(end - *bytes) : 0;
-    if (end == NULL || length >= capacity)
-        return false;
-    memcpy(line, *bytes, length);
-    line[length] = '\0';
-    *bytes += length + 1;
-    *size -= length + 1;
-    return true;
-}
-
 /* Turns an entry into its binary, at the front of the same memory. */
 static bool open_entry(HdKernelCache *cache, unsigned char *entry, size_t *size) {
-    char stamp[64];
-    unsigned char *rest = entry;
-    if (!take_line(&rest, size, stamp, sizeof stamp) || strcmp(stamp, stamp_of(cache)) != 0 ||
-        !take_line(&rest, size, cache->maker, sizeof cache->maker) || *size == 0)
+    Head head;
+    if (*size <= sizeof head)
         return false;
-    memmove(entry, rest, *size);
+    memcpy(&head, entry, sizeof head);
+    if (strncmp(head.stamp, stamp_of(cache), sizeof head.stamp) != 0)
+        return false;
+    snprintf(cache->maker, sizeof cache->maker, "%.*s", (int)sizeof head.maker - 1, head.maker);
+    *size -= sizeof head;
+    memmove(entry, entry + sizeof head, *size);
     return true;
 }
 
 static HdStatus store_binary(const HdKernelCache *cache, const unsigned char *binary, size_t size,
                              HdError *error) {
-    size_t capacity = strlen(stamp_of(cache)) + sizeof cache->maker + 2 + size;
-    char *entry = malloc(capacity);
+    Head head = {.stamp = ""};
+    unsigned char *entry = malloc(sizeof head + size);
     if (entry == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for compiled kernels");
-    int length = snprintf(entry, capacity, "%s\n%s\n", stamp_of(cache), cache->maker);
-    memcpy(entry + length, binary, size);
-    HdStatus status = hd_cache_put(cache->backend, cache->key, entry, (size_t)length + size, error);
+    snprintf(head.stamp, sizeof head.stamp, "%s", stamp_of(cache));
+    memcpy(head.maker, cache->maker, sizeof head.maker);
+    memcpy(entry, &head, sizeof head);
+    memcpy(entry + sizeof head, binary, size);
+    HdStatus status = hd_cache_put(cache->backend, cache->key, entry, sizeof head + size, error);
     free(entry);
     return status;
 }
@@ -157,53 +154,43 @@ void hd_kernel_cache_accept(HdKernelCache *cache) {
         add_note(cache, error.message);
 }
 
-/* ---- the arithmetic of devices ---- */
+/* ---- the arithmetic of devices: one of these, or a word and what is wrong ---- */
 
-enum { KEY_LENGTH = 1024, LINE_LENGTH = 600 };
+enum { KEY_LENGTH = 1024 };
 
-/* A line for each precision: "float: " and one of these, or a word of what is wrong. */
 static const char kind[] = "arithmetic", right[] = "right", by_fma[] = "right with division by fma",
                   wrong[] = "wrong: ";
-static const char *const precisions[] = {"\nfloat: ", "\ndouble: "};
 
-/* Both lines. */
-static void read_entry(const char *device, const char *driver, char key[KEY_LENGTH],
-                       char lines[2][LINE_LENGTH]) {
-    char text[2 * LINE_LENGTH + 32];
-    HdError ignored;
+static void write_device_key(char key[KEY_LENGTH], const char *device, const char *driver,
+                             HdPrecision precision) {
     uint64_t hash = hd_hash_bytes(HD_HASH_START, hd_opencl_source, hd_opencl_source_size);
     hash = hd_hash_bytes(hash, hd_cuda_source, hd_cuda_source_size);
-    snprintf(key, KEY_LENGTH, "hedron %s, kernels %016" PRIx64 "\ndevice %s\ndriver %s\n",
-             HD_VERSION, hash, device, driver);
-    if (hd_cache_get_text(kind, key, text, sizeof text, &ignored) != HD_OK)
-        text[0] = '\0';
-    for (int p = 0; p < 2; p++) {
-        const char *line = strstr(text, precisions[p]);
-        const char *start = line != NULL ? line + strlen(precisions[p]) : "";
-        snprintf(lines[p], LINE_LENGTH, "%.*s", (int)strcspn(start, "\n"), start);
-    }
+    snprintf(key, KEY_LENGTH, "hedron %s, kernels %016" PRIx64 "\ndevice %s\ndriver %s\n%s\n",
+             HD_VERSION, hash, device, driver,
+             precision == HD_PRECISION_DOUBLE ? "double" : "float");
 }
 
 void hd_arithmetic_remember(const char *device, const char *driver, HdPrecision precision,
                             const HdArithmetic *found) {
-    char key[KEY_LENGTH], lines[2][LINE_LENGTH], text[2 * LINE_LENGTH + 32];
+    char key[KEY_LENGTH], text[sizeof wrong + sizeof found->difference];
     HdError ignored;
-    read_entry(device, driver, key, lines);
-    snprintf(lines[precision], LINE_LENGTH, "%s", found->rounds_by_fma ? by_fma : right);
+    write_device_key(key, device, driver, precision);
+    snprintf(text, sizeof text, "%s", found->rounds_by_fma ? by_fma : right);
     if (found->difference[0] != '\0')
-        snprintf(lines[precision], LINE_LENGTH, "%s%s", wrong, found->difference);
-    snprintf(text, sizeof text, "%s%s%s%s\n", precisions[0], lines[0], precisions[1], lines[1]);
+        snprintf(text, sizeof text, "%s%s", wrong, found->difference);
     hd_cache_put_text(kind, key, text, &ignored);
 }
 
 bool hd_arithmetic_recall(const char *device, const char *driver, HdPrecision precision,
                           HdArithmetic *known) {
-    char key[KEY_LENGTH], lines[2][LINE_LENGTH];
-    read_entry(device, driver, key, lines);
-    const char *line = lines[precision];
-    const bool is_wrong = strncmp(line, wrong, strlen(wrong)) == 0;
-    *known = (HdArithmetic){.rounds_by_fma = strcmp(line, by_fma) == 0};
-    if (is_wrong)
-        snprintf(known->difference, sizeof known->difference, "%.500s", line + strlen(wrong));
-    return is_wrong || known->rounds_by_fma || strcmp(line, right) == 0;
+    char key[KEY_LENGTH], text[sizeof wrong + sizeof known->difference];
+    HdError ignored;
+    write_device_key(key, device, driver, precision);
+    *known = (HdArithmetic){.difference = ""};
+    if (hd_cache_get_text(kind, key, text, sizeof text, &ignored) != HD_OK)
+        return false;
+    known->rounds_by_fma = strcmp(text, by_fma) == 0;
+    if (strncmp(text, wrong, strlen(wrong)) == 0)
+        snprintf(known->difference, sizeof known->difference, "%.511s", text + strlen(wrong));
+    return known->difference[0] != '\0' || known->rounds_by_fma || strcmp(text, right) == 0;
 }

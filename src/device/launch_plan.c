@@ -146,11 +146,6 @@ static int spread_stride(int places) {
     return (bundles | 1) * WAVE_SPARE;
 }
 
-size_t hd_wave_budget(uint64_t device_memory) {
-    const size_t most = 1 << 30;
-    return hd_min_size((size_t)(device_memory / 8), most);
-}
-
 HdWavePlan hd_wave_plan(const HdWaveNeeds *needs) {
     size_t real_size = needs->precision == HD_PRECISION_DOUBLE ? sizeof(double) : sizeof(float);
     size_t ray_bytes = WAVE_REALS * real_size + WAVE_INTS * sizeof(int32_t);
@@ -168,12 +163,6 @@ bool hd_wave_halve(HdWaveNeeds *needs) {
         return false;
     needs->bytes = needs->bytes / 2 > HD_WAVE_LEAST_BYTES ? needs->bytes / 2 : HD_WAVE_LEAST_BYTES;
     return true;
-}
-
-void hd_wave_tell_cut(size_t bytes, char *text, int capacity) {
-    char room[HD_BYTE_TEXT_SIZE];
-    hd_byte_text((double)bytes, room);
-    snprintf(text, (size_t)capacity, ", the queue cut to %s, for more memory was refused", room);
 }
 
 int hd_wave_samples(int items, int samples_per_item) {

@@ -40,28 +40,26 @@ typedef struct HdLaunchSize {
 
 enum { HD_MOST_LAUNCH_WORK = 1 << 28 };
 
-/* For kernels that nothing is known of, on a device with so many compute units: a first launch that
-   gives each of the device's threads about one piece of work. `longest` is in seconds, one
-   of the two times above unless somebody asks for another. */
+/* Of kernels that nothing is known of: gives each thread of a device with so many compute units
+   about one piece of work at first. `longest` is in seconds. */
 HdLaunchSize hd_launch_size_start(int compute_units, double longest);
 
 /* Launches of so much work, whatever they take. */
 HdLaunchSize hd_launch_size_fixed(int work);
 
-/* Call before the launches of a frame. Lets the limit grow again, by a quarter a frame, where a
-   launch took too long once: the costly part of a picture comes back in each frame, after parts
-   that cost nothing. */
+/* Call before the launches of a frame. Lets the limit grow again, by a quarter a frame, after a
+   launch that took too long: a picture's costly part comes back in each frame. */
 void hd_launch_size_begin_frame(HdLaunchSize *size);
 
-/* How many of the `left` items (at least 1) the next launch gets, each of `work` pieces: all of
-   them, or one of equal parts, in whole multiples of `grain`, which run together in a group of
-   threads. Not fewer than all compute units have room for. */
+/* Returns how many of the `left` items (at least 1), each of `work` pieces, the next launch gets:
+   all or one of equal parts, whole multiples of the `grain` of a group of threads, and not fewer
+   than all compute units have room for. */
 int hd_launch_size_items(const HdLaunchSize *size, int left, int work, int grain);
 
-/* A launch of so much work took so long: the next ones take at most double that work, or less where
-   it took too long. Where a much smaller one of the frame takes about as long, it is the slowest
-   threads that last, and cutting is no help: launches may then be half as long again as those. Much
-   smaller ones than the limit only tell the latter, and the smallest nothing. */
+/* Learns from a launch: the next ones take at most double its work, or less if it took too long. If
+   a much smaller one of the frame takes about as long, the slowest threads last, and cutting is no
+   help: launches may then be half as long again as those. Launches much smaller than the limit only
+   tell the latter, and the smallest nothing. */
 void hd_launch_size_note(HdLaunchSize *size, double work, double seconds);
 
 /* ---- the queue of a wavefront, and in which order a device with groups of threads traces its
@@ -87,18 +85,12 @@ typedef struct HdWavePlan {
     size_t bytes[HD_WAVE_BUFFERS];
 } HdWavePlan;
 
-/* What a device with that much memory should give to its queue: an eighth, at most a GiB. */
-size_t hd_wave_budget(uint64_t device_memory);
-
 HdWavePlan hd_wave_plan(const HdWaveNeeds *needs);
 
 /* Halves the bytes that a queue may use, for a device that refused it; false where these are
    HD_WAVE_LEAST_BYTES already. */
 enum { HD_WAVE_LEAST_BYTES = 1 << 20 };
 bool hd_wave_halve(HdWaveNeeds *needs);
-
-/* For the line about a renderer: that the queue was cut to so many bytes. */
-void hd_wave_tell_cut(size_t bytes, char *text, int capacity);
 
 /* The samples of so many items, or as many of them as can be counted. */
 int hd_wave_samples(int items, int samples_per_item);

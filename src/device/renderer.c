@@ -31,7 +31,6 @@ HdStatus hd_renderer_fail(HdRenderer *renderer, HdStatus status, HdError *error)
 HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
                           const HdRenderOptions *options, HdError *error) {
     *renderer = NULL;
-    HD_TRY(hd_render_options_check(options, error));
     const char *obstacle = hd_device_obstacle(device, options);
     if (obstacle != NULL)
         return hd_fail(error, HD_UNAVAILABLE, "%s: %s cannot do this: %s", device->backend->name,

@@ -59,16 +59,16 @@ static HdStatus end_test(const Part *part, HdCertificateTest *test, const char *
 }
 
 static HdStatus test_arithmetic(const Part *part, HdError *error) {
-    HdProbeReport report = {.difference = ""};
+    HdProbeReport report = {0};
     const int tuples = part->effort == HD_TEST_QUICK ? HD_PROBE_QUICK : HD_PROBE_WHOLE;
     HdCertificateTest *test = begin_test(part, "arithmetic in", "");
     HdStatus status = hd_probe(part->renderer, tuples, &report, error);
     if (status == HD_OK) {
         test->tuples = report.tuples;
-        test->by_fma = report.rounds_by_fma;
+        test->by_fma = report.found.rounds_by_fma;
         test->hash = report.hash;
     }
-    return end_test(part, test, report.difference, status, error);
+    return end_test(part, test, report.found.difference, status, error);
 }
 
 /* ---- golden frames ---- */

@@ -368,12 +368,16 @@ static void crop_of_reference(HdScene *scene) {
 
 /* ---- all of them ---- */
 
-#define SOLID(kind)   .base = one_solid, .variant = HD_##kind
-#define APART         .base = three_solids, .variant = 2.4
-#define OVERLAPPING   .base = three_solids, .variant = 0.7
-#define TEXTURED      .base = three_textured, .variant = 2.0
-#define IN_FRONT      .eye = {0.4, -4.5, 1.2}
-#define SIZE(w, h, s) .width = (w), .height = (h), .samples_per_side = (s)
+#define SOLID(kind) .base = one_solid, .variant = HD_##kind
+#define APART       .base = three_solids, .variant = 2.4
+#define OVERLAPPING .base = three_solids, .variant = 0.7
+#define TEXTURED    .base = three_textured, .variant = 2.0
+#define SIZE(w, h, samples, levels)                                                                \
+    .width = (w), .height = (h), .samples_per_side = (samples), .depth = (levels)
+#define FACES(r, t)                  .reflection = (r), .transmission = (t)
+#define VIEW(x, y, z, tx, ty, tz, d) .eye = {x, y, z}, .target = {tx, ty, tz}, .degrees = (d)
+#define IN_FRONT(d)                  VIEW(0.4, -4.5, 1.2, 0.0, 0.0, 0.0, d)
+#define FEW_INSTANCES                .base = many_instances, SIZE(40, 30, 1, 0), .proves = true
 
 const HdGoldenFrame hd_golden_frames[] = {
     {.name = "tetrahedron", SOLID(TETRAHEDRON)},
@@ -383,82 +387,53 @@ const HdGoldenFrame hd_golden_frames[] = {
     {.name = "icosahedron", SOLID(ICOSAHEDRON)},
     {.name = "three-apart", APART},
     {.name = "three-overlapping", OVERLAPPING},
-    {.name = "eye-inside",
-     APART,
-     .eye = {2.5, 0.1, 0.2},
-     .target = {0.0, 0.3, 0.0},
-     .degrees = 80.0},
+    {.name = "eye-inside", APART, VIEW(2.5, 0.1, 0.2, 0.0, 0.3, 0.0, 80.0)},
     {.name = "eye-on-face", .base = eye_on_face},
-    {.name = "eye-on-floor-plane",
-     APART,
-     .eye = {0.5, -4.0, -1.5},
-     .target = {0.0, 0.0, -1.5},
-     .degrees = 70.0},
+    {.name = "eye-on-floor-plane", APART, VIEW(0.5, -4.0, -1.5, 0.0, 0.0, -1.5, 70.0)},
     {.name = "edges-and-corners", .base = edges_and_corners},
     {.name = "fifty-edge-lights", .base = fifty_edge_lights},
     {.name = "tilted-floor", SOLID(ICOSAHEDRON), .change = tilted_floor},
     {.name = "trapezoid-floor", SOLID(TETRAHEDRON), .change = trapezoid_floor},
     {.name = "all-of-the-light",
      APART,
-     SIZE(40, 24, 2),
-     .depth = 12,
-     .reflection = 0.7,
-     .transmission = 0.3,
+     SIZE(40, 24, 2, 12),
+     FACES(0.7, 0.3),
      .change = white_faces},
     {.name = "mirror-only", APART, .depth = 20, .reflection = 0.95},
     {.name = "glass-only", OVERLAPPING, .depth = 10, .transmission = 0.9},
-    {.name = "one-pixel", APART, SIZE(1, 1, 7)},
-    {.name = "wide-strip", APART, SIZE(1023, 7, 1), IN_FRONT, .degrees = 150.0},
-    {.name = "right-angle-view", APART, SIZE(80, 48, 3), IN_FRONT, .degrees = 90.0},
-    {.name = "widest-view", APART, IN_FRONT, .degrees = 178.0},
+    {.name = "one-pixel", APART, SIZE(1, 1, 7, 0)},
+    {.name = "wide-strip", APART, SIZE(1023, 7, 1, 0), IN_FRONT(150.0)},
+    {.name = "right-angle-view", APART, SIZE(80, 48, 3, 0), IN_FRONT(90.0)},
+    {.name = "widest-view", APART, IN_FRONT(178.0)},
     {.name = "cut-off", APART, .depth = 12, .change = cut_off},
     {.name = "far-from-origin", APART, .is_far = true},
     {.name = "clamped", SOLID(OCTAHEDRON), .change = clamped},
     {.name = "empty-scene", .base = empty_scene},
-    {.name = "inner-sides",
-     OVERLAPPING,
-     .reflection = 0.7,
-     .transmission = 0.25,
-     .change = inner_sides},
+    {.name = "inner-sides", OVERLAPPING, FACES(0.7, 0.25), .change = inner_sides},
     {.name = "coloured-edges", APART, .change = coloured_edges},
     {.name = "ending-lights", SOLID(DODECAHEDRON), .change = ending_lights},
-    {.name = "runs-of-lights", APART, SIZE(80, 48, 1), .depth = 4, .change = runs_of_lights},
+    {.name = "runs-of-lights", APART, SIZE(80, 48, 1, 4), .change = runs_of_lights},
     {.name = "glass-cube", SOLID(HEXAHEDRON), .depth = 8, .change = glass_cube},
     {.name = "eye-inside-glass",
      SOLID(HEXAHEDRON),
-     SIZE(64, 48, 1),
-     .depth = 8,
-     .eye = {0.2, 0.1, 0.15},
-     .target = {-0.3, 0.9, -0.4},
-     .degrees = 100.0,
+     SIZE(64, 48, 1, 8),
+     VIEW(0.2, 0.1, 0.15, -0.3, 0.9, -0.4, 100.0),
      .change = dense_glass,
      .proves = true},
     {.name = "bubble", SOLID(OCTAHEDRON), .change = bubble},
     {.name = "glass-dodecahedron", SOLID(DODECAHEDRON), .change = glass_dodecahedron},
     {.name = "lanterns", SOLID(ICOSAHEDRON), .change = lanterns},
-    {.name = "everything", TEXTURED, SIZE(80, 48, 1), .depth = 10, .change = everything},
+    {.name = "everything", TEXTURED, SIZE(80, 48, 1, 10), .change = everything},
     {.name = "bumpy-sphere", .base = bumpy_sphere},
     {.name = "many-instances", .base = many_instances},
     {.name = "triangulated-solids", .base = triangulated_solids},
     {.name = "mesh-edges-and-corners", .base = mesh_edges_and_corners, .proves = true},
     {.name = "mesh-far-from-origin", .base = bumpy_sphere, .is_far = true},
-    {.name = "adaptive-and-bounded",
-     TEXTURED,
-     SIZE(80, 48, 4),
-     .depth = 24,
-     .change = adaptive_and_bounded},
+    {.name = "adaptive-and-bounded", TEXTURED, SIZE(80, 48, 4, 24), .change = adaptive_and_bounded},
     {.name = "crop-of-reference", .base = many_instances, .change = crop_of_reference},
     {.name = "paper-cube", SOLID(HEXAHEDRON), .change = lanterns, .proves = true},
-    {.name = "plain-instances",
-     .base = many_instances,
-     SIZE(40, 30, 1),
-     .change = without_refraction,
-     .proves = true},
-    {.name = "paper-instances",
-     .base = many_instances,
-     SIZE(40, 30, 1),
-     .change = paper_instances,
-     .proves = true},
+    {.name = "plain-instances", FEW_INSTANCES, .change = without_refraction},
+    {.name = "paper-instances", FEW_INSTANCES, .change = paper_instances},
 };
 const int hd_golden_frame_count = (int)(sizeof hd_golden_frames / sizeof hd_golden_frames[0]);
 

@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 
+#include "device/kernel_cache.h"
 #include "device/renderer.h"
 
 enum {
@@ -15,10 +16,9 @@ enum {
 };
 
 typedef struct HdProbeReport {
-    int tuples;           /* that were compared */
-    uint64_t hash;        /* of all results */
-    bool rounds_by_fma;   /* division and roots are right only if they are made of fma */
-    char difference[512]; /* the first one, in words; empty: there is none */
+    int tuples;    /* that were compared */
+    uint64_t hash; /* of all results */
+    HdArithmetic found;
 } HdProbeReport;
 
 /* Probes a renderer that compiles its kernels, with strict arithmetic, in its precision and with

@@ -108,68 +108,50 @@ static void consider(Search *search, const char *path) {
     hd_nvrtc_close(&nvrtc);
 }
 
-static void consider_pattern(Search *search, const char *pattern) {
+/* `folder` may be NULL or empty: nothing is below it. */
+static void consider_below(Search *search, const char *folder, const char *pattern) {
+    char path[HD_MAX_PATH];
     glob_t paths;
-    if (glob(pattern, 0, NULL, &paths) == 0)
+    if (!folder || !folder[0])
+        return;
+    int length = snprintf(path, sizeof path, "%s/%s", folder, pattern);
+    if (length < 0 || length >= HD_MAX_PATH)
+        return;
+    if (glob(path, 0, NULL, &paths) == 0)
         for (size_t i = 0; i < paths.gl_pathc; i++)
             consider(search, paths.gl_pathv[i]);
     globfree(&paths);
 }
 
-static void consider_below(Search *search, const char *folder, const char *pattern) {
-    char path[HD_MAX_PATH];
-    if (!folder || !folder[0])
-        return;
-    int length = snprintf(path, sizeof path, "%s/%s", folder, pattern);
-    if (length > 0 && length < HD_MAX_PATH)
-        consider_pattern(search, path);
-}
-
 #define PYTHON_PACKAGES "lib/python3*/*-packages/nvidia/*/lib/libnvrtc.so*"
 
-static void search_system(Search *search) {
+static void search_everywhere(Search *search) {
     static const char *const names[] = {"libnvrtc.so.13", "libnvrtc.so.12", "libnvrtc.so.11.2",
                                         "libnvrtc.so"};
-    static const char *const patterns[] = {
-        "/usr/local/cuda*/lib64/libnvrtc.so*",
-        "/usr/local/" PYTHON_PACKAGES,
-        "/usr/" PYTHON_PACKAGES,
+    char build[HD_MAX_PATH]; /* where the program lies */
+    const char *home = getenv("HOME"), *conda = getenv("CONDA_PREFIX");
+    const char *program = hd_path_of_program(build) ? build : NULL;
+    const struct {
+        const char *folder, *pattern;
+    } below[] = {
+        {"/usr/local", "cuda*/lib64/libnvrtc.so*"},
+        {"/usr/local", PYTHON_PACKAGES},
+        {"/usr", PYTHON_PACKAGES},
+        {getenv("CUDA_HOME"), "lib64/libnvrtc.so*"},
+        {getenv("CUDA_PATH"), "lib64/libnvrtc.so*"},
+        {home, HD_NVRTC_VENV "/" PYTHON_PACKAGES},
+        {home, ".local/" PYTHON_PACKAGES},
+        {getenv("VIRTUAL_ENV"), PYTHON_PACKAGES},
+        {conda, "lib/libnvrtc.so*"},
+        {conda, PYTHON_PACKAGES},
+        /* Where ./dev puts one, seen from the build's folder or one below it. */
+        {program, "../nvrtc12/nvidia/*/lib/libnvrtc.so*"},
+        {program, "../../nvrtc12/nvidia/*/lib/libnvrtc.so*"},
     };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         consider(search, names[i]);
-    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++)
-        consider_pattern(search, patterns[i]);
-}
-
-static void search_user(Search *search) {
-    static const char *const below[][2] = {
-        {"CUDA_HOME", "lib64/libnvrtc.so*"},
-        {"CUDA_PATH", "lib64/libnvrtc.so*"},
-        {"HOME", HD_NVRTC_VENV "/" PYTHON_PACKAGES},
-        {"HOME", ".local/" PYTHON_PACKAGES},
-        {"VIRTUAL_ENV", PYTHON_PACKAGES},
-        {"CONDA_PREFIX", "lib/libnvrtc.so*"},
-        {"CONDA_PREFIX", PYTHON_PACKAGES},
-    };
     for (size_t i = 0; i < sizeof below / sizeof *below; i++)
-        consider_below(search, getenv(below[i][0]), below[i][1]);
-}
-
-/* Where ./dev puts one, seen from a program in the build's folder or in one below it. */
-static void search_build(Search *search) {
-    static const char *const patterns[] = {"../nvrtc12/nvidia/*/lib/libnvrtc.so*",
-                                           "../../nvrtc12/nvidia/*/lib/libnvrtc.so*"};
-    char folder[HD_MAX_PATH];
-    if (!hd_path_of_program(folder))
-        return;
-    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++)
-        consider_below(search, folder, patterns[i]);
-}
-
-static void search_everywhere(Search *search) {
-    search_system(search);
-    search_user(search);
-    search_build(search);
+        consider_below(search, below[i].folder, below[i].pattern);
 }
 
 /* NVRTC 11 is the last for cards before sm_50, NVRTC 12 for those before sm_75. */

@@ -4,14 +4,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/minmax.h"
 #include "device/gpu/gpu.h"
 #include "kernels/host/shared.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "tables/table.h"
 
-/* Of a wavefront's queue on CPUs, one for each of its workers. */
-enum { CPU_QUEUE_BYTES = 512 << 10 };
+/* Of a wavefront's queue: on CPUs for each of its workers, elsewhere at most. */
+enum { CPU_QUEUE_BYTES = 512 << 10, GROUPS_QUEUE_BYTES = 1 << 30 };
 
 static HdStatus enter(const HdGpuRenderer *renderer, HdError *error) {
     const HdGpu *gpu = &renderer->gpu;
@@ -50,13 +51,6 @@ static void choose_shape(HdGpuRenderer *renderer) {
     renderer->program.group_size = has_groups ? group_size : 1;
 }
 
-/* For each worker. */
-static size_t queue_bytes(const HdGpuRenderer *renderer) {
-    if (renderer->options.test.queue_bytes > 0)
-        return renderer->options.test.queue_bytes;
-    return renderer->has_groups ? hd_wave_budget(renderer->gpu.facts.memory) : CPU_QUEUE_BYTES;
-}
-
 static HdStatus gpu_open(const HdDevice *device, const HdRenderOptions *options, void **state,
                          HdError *error) {
     const HdGpuDriver *driver = device->backend->driver;
@@ -75,7 +69,10 @@ static HdStatus gpu_open(const HdDevice *device, const HdRenderOptions *options,
     hd_kernel_cache_begin(&renderer->program.cache, device);
     renderer->has_groups = !device->is_cpu || options->test.groups;
     choose_shape(renderer);
-    renderer->queue.bytes = queue_bytes(renderer);
+    renderer->queue.bytes = options->test.queue_bytes > 0 ? options->test.queue_bytes
+                            : renderer->has_groups
+                                ? hd_min_size(gpu->facts.memory / 8, GROUPS_QUEUE_BYTES)
+                                : CPU_QUEUE_BYTES;
     *state = renderer;
     return HD_OK;
 }
@@ -259,8 +256,12 @@ static void gpu_describe(const void *state, char *text, int capacity) {
                                        program->cache.maker, text, capacity);
     if (program->cache.shape.rounds_by_fma && length > 0 && length < capacity)
         length += snprintf(text + length, (size_t)(capacity - length), ", division by fma");
-    if (renderer->queue.is_cut && length > 0 && length < capacity)
-        hd_wave_tell_cut(renderer->queue.bytes, text + length, capacity - length);
+    if (renderer->queue.is_cut && length > 0 && length < capacity) {
+        char room[HD_BYTE_TEXT_SIZE];
+        hd_byte_text((double)renderer->queue.bytes, room);
+        snprintf(text + length, (size_t)(capacity - length),
+                 ", the queue cut to %s, for more memory was refused", room);
+    }
 }
 
 const HdRendererFunctions hd_gpu_functions = {

@@ -188,9 +188,6 @@ TEST(a_refused_queue_is_halved) {
     needs.bytes = 1;
     assert_false(hd_wave_halve(&needs));
     assert_int_equal(needs.bytes, 1);
-    char text[128];
-    hd_wave_tell_cut(33554432, text, sizeof text);
-    assert_string_equal(text, ", the queue cut to 33.6 MB, for more memory was refused");
 }
 
 TEST(launches_have_the_groups_that_they_need) {
