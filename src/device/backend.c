@@ -7,22 +7,18 @@
 #include "device/kernel_cache.h"
 #include "device/launch_plan.h"
 
-static void recall(HdDevice *device) {
-    HdArithmetic known = {.difference = ""};
-    device->is_measured =
-        device->backend->needs_no_driver ||
-        hd_arithmetic_recall(device->name, device->driver, HD_PRECISION_FLOAT, &known);
-    if (known.difference[0] != '\0')
-        snprintf(device->not_strict, sizeof device->not_strict, "it computes wrongly: %s",
-                 known.difference);
-}
-
 HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int capacity, int *count,
                               HdError *error) {
     HdStatus status = backend->enumerate(devices, capacity, count, error);
-    for (int i = 0; i < *count; i++) {
-        devices[i].backend = backend;
-        recall(&devices[i]);
+    for (HdDevice *device = devices; device < devices + *count; device++) {
+        HdArithmetic known = {.difference = ""};
+        device->backend = backend;
+        device->is_measured =
+            backend->needs_no_driver ||
+            hd_arithmetic_recall(device->name, device->driver, HD_PRECISION_FLOAT, &known);
+        if (known.difference[0] != '\0')
+            snprintf(device->not_strict, sizeof device->not_strict, "it computes wrongly: %s",
+                     known.difference);
     }
     return status;
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/hash.h"
+#include "base/text.h"
 #include "system/cache_folder.h"
 
 void hd_kernel_cache_begin(HdKernelCache *cache, const HdDevice *device) {
@@ -69,20 +70,8 @@ static HdStatus store(const HdKernelCache *cache, HdError *error) {
     return status;
 }
 
-/* ---- notes ---- */
-
 static void add_note(HdKernelCache *cache, const char *text) {
-    size_t length = strlen(cache->note);
-    snprintf(cache->note + length, sizeof cache->note - length, "%s%s", length > 0 ? "; " : "",
-             text);
-}
-
-static void note_found(HdKernelCache *cache) {
-    char folder[HD_MAX_PATH];
-    HdError ignored;
-    hd_cache_folder(folder, &ignored);
-    snprintf(cache->note, sizeof cache->note, "taken from %.900s%s%s", folder,
-             cache->maker[0] != '\0' ? ", made by " : "", cache->maker);
+    hd_add_text(cache->note, sizeof cache->note, "; ", "%s", text);
 }
 
 /* ---- finding and keeping ---- */
@@ -104,6 +93,7 @@ static bool write_key(HdKernelCache *cache, const void *source, size_t source_si
 bool hd_kernel_cache_find(HdKernelCache *cache, const void *source, size_t source_size,
                           const char *options, const char *driver, unsigned char **binary,
                           size_t *size) {
+    char folder[HD_MAX_PATH];
     HdError error;
     cache->is_untested = false;
     cache->note[0] = cache->maker[0] = '\0';
@@ -112,7 +102,9 @@ bool hd_kernel_cache_find(HdKernelCache *cache, const void *source, size_t sourc
         return false;
     HdStatus status = hd_cache_get(cache->backend, cache->key, binary, size, &error);
     if (status == HD_OK && open_entry(cache, *binary, size)) {
-        note_found(cache);
+        hd_cache_folder(folder, &error);
+        snprintf(cache->note, sizeof cache->note, "taken from %.900s%s%s", folder,
+                 cache->maker[0] != '\0' ? ", made by " : "", cache->maker);
         return true;
     }
     if (status == HD_OK)
@@ -132,11 +124,9 @@ void hd_kernel_cache_refuse(HdKernelCache *cache, const char *reason) {
 
 void hd_kernel_cache_compiled(HdKernelCache *cache, HdKernelReader *read, const void *context,
                               const char *maker, double seconds) {
-    char text[160];
     snprintf(cache->maker, sizeof cache->maker, "%s", maker);
-    snprintf(text, sizeof text, "compiled in %.0f ms%s%s", 1e3 * seconds,
-             maker[0] != '\0' ? " by " : "", cache->maker);
-    add_note(cache, text);
+    hd_add_text(cache->note, sizeof cache->note, "; ", "compiled in %.0f ms%s%s", 1e3 * seconds,
+                maker[0] != '\0' ? " by " : "", cache->maker);
     cache->is_untested = true;
     cache->read = read;
     cache->context = context;

@@ -78,17 +78,13 @@ int hd_kernel_bound(int count) {
     return bound;
 }
 
-/* Deep enough for nearly all meshes, so that few builds differ in it. */
-static int stack_bound(int count) {
-    enum { USUAL = 32 };
-    return hd_kernel_bound(hd_max(count, USUAL));
-}
-
 HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables) {
+    enum { USUAL_STACK = 32 }; /* deep enough for nearly all meshes: few builds differ in it */
+    const int stack = hd_kernel_bound(hd_max(tables->node_stack, USUAL_STACK));
     return (HdKernelNeeds){
         .plane_bound = hd_kernel_bound(tables->plane_count),
         .depth_bound = hd_kernel_bound(tables->depth),
-        .node_stack_bound = tables->node_stack > 0 ? stack_bound(tables->node_stack) : 0,
+        .node_stack_bound = tables->node_stack > 0 ? stack : 0,
         .refracts = tables->refracts,
         .lit_from_behind = tables->lit_from_behind,
         /* With meshes too, branches would nest too deeply (docs/lost-light.md). */

@@ -89,35 +89,24 @@ static void look_for_tail(HdLaunchSize *size, double work, double seconds) {
     }
 }
 
-static double longest_allowed(const HdLaunchSize *size) {
-    return fmax(TAILS * size->tail, size->longest);
-}
-
-static void note_too_long(HdLaunchSize *size, int fitting) {
-    size->too_long = true;
-    size->ceiling = size->limit = hd_min(fitting, size->limit);
-}
-
 void hd_launch_size_note(HdLaunchSize *size, double work, double seconds) {
     if (2.0 * work < (double)size->least)
         return;
     look_for_tail(size, work, seconds);
-    const double longest = longest_allowed(size), aim = HD_LAUNCH_AIM * longest;
+    const double longest = fmax(TAILS * size->tail, size->longest), aim = HD_LAUNCH_AIM * longest;
     const double growth = seconds > aim / MOST_GROWTH ? aim / seconds : MOST_GROWTH;
     int fitting = within(fmax(growth, LEAST_SHRINKING) * work, size->least, size->ceiling);
-    if (seconds > longest)
-        note_too_long(size, fitting);
-    else if (fitting > size->limit)
-        size->limit = fitting;
+    if (seconds > longest) {
+        size->too_long = true;
+        size->ceiling = size->limit = hd_min(fitting, size->limit);
+    } else {
+        size->limit = hd_max(fitting, size->limit);
+    }
 }
 
 /* ---- the queue of a wavefront ---- */
 
 enum { MAX_STRIDE = INT_MAX / 4 };
-
-static int round_up(int count, int grain) {
-    return (count + grain - 1) / grain * grain;
-}
 
 /* Samples whose rays and sums fit, if each had two rays on as many levels as are likely. */
 static int batch_samples(const HdWaveNeeds *needs, size_t ray_bytes) {
@@ -134,16 +123,10 @@ static int queue_places(const HdWaveNeeds *needs, int batch, size_t ray_bytes) {
     int least = wave_least_capacity(needs->depth, needs->grain);
     size_t sums = WAVE_SUMS * sizeof(int64_t) * (size_t)batch;
     size_t fitting = needs->bytes > sums ? (needs->bytes - sums) / ray_bytes : 0;
-    size_t useful =
-        (size_t)wave_least_capacity(needs->depth, 1) * (size_t)round_up(batch, needs->grain);
+    size_t even = (size_t)((batch + needs->grain - 1) / needs->grain * needs->grain);
+    size_t useful = (size_t)wave_least_capacity(needs->depth, 1) * even;
     fitting = hd_min_size(fitting, hd_min_size(useful, MAX_STRIDE));
     return hd_max((int)fitting, least);
-}
-
-/* An odd number of bundles: a ray's numbers must not all fall into one set of a cache. */
-static int spread_stride(int places) {
-    int bundles = (places + WAVE_SPARE - 1) / WAVE_SPARE;
-    return (bundles | 1) * WAVE_SPARE;
 }
 
 HdWavePlan hd_wave_plan(const HdWaveNeeds *needs) {
@@ -151,7 +134,9 @@ HdWavePlan hd_wave_plan(const HdWaveNeeds *needs) {
     size_t ray_bytes = WAVE_REALS * real_size + WAVE_INTS * sizeof(int32_t);
     HdWavePlan plan;
     plan.sum_stride = batch_samples(needs, ray_bytes);
-    plan.queue_stride = spread_stride(queue_places(needs, plan.sum_stride, ray_bytes));
+    /* An odd number of bundles: a ray's numbers must not all fall into one set of a cache. */
+    int bundles = (queue_places(needs, plan.sum_stride, ray_bytes) + WAVE_SPARE - 1) / WAVE_SPARE;
+    plan.queue_stride = (bundles | 1) * WAVE_SPARE;
     plan.bytes[0] = real_size * (WAVE_REALS * (size_t)plan.queue_stride + WAVE_SPARE);
     plan.bytes[1] = sizeof(int32_t) * (WAVE_INTS * (size_t)plan.queue_stride + WAVE_SPARE);
     plan.bytes[2] = sizeof(int64_t) * (WAVE_SUMS * (size_t)plan.sum_stride + WAVE_SPARE);
@@ -185,24 +170,13 @@ static void begin_batch(HdWaveRun *run) {
     wave_put(run->stack, &run->top, 0, 0, step->item_count * run->samples_per_item);
 }
 
-/* As many rays as there is room for, at most what one launch may have. */
-static void take_rays(HdWaveRun *run, const HdLaunchSize *size) {
-    int limit = hd_launch_size_items(size, run->stack[run->top].waiting, 1, run->grain);
-    WaveTake take =
-        wave_take(run->stack, &run->top, run->depth, run->plan->queue_stride, run->grain, limit);
-    run->step.level = take.level;
-    run->step.first = take.first;
-    run->step.count = take.count;
-    run->step.to = take.to;
-}
-
 HdStatus hd_wave_next(HdWaveRun *run, unsigned taken, const HdLaunchSize *size, HdError *error) {
     HdWaveStep *step = &run->step;
     step->is_first = step->item_count == 0;
     if (step->is_first || step->action == HD_WAVE_STORES)
         begin_batch(run);
     else
-        wave_put(run->stack, &run->top, step->level + 1, step->to,
+        wave_put(run->stack, &run->top, step->take.level + 1, step->take.to,
                  (int)(taken - step->taken_before));
     step->taken_before = taken;
     step->action = step->item_count == 0 ? HD_WAVE_IS_DONE
@@ -212,6 +186,8 @@ HdStatus hd_wave_next(HdWaveRun *run, unsigned taken, const HdLaunchSize *size, 
         return HD_OK;
     if (hd_interrupt_signal() != 0)
         return hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
-    take_rays(run, size);
+    int limit = hd_launch_size_items(size, run->stack[run->top].waiting, 1, run->grain);
+    step->take =
+        wave_take(run->stack, &run->top, run->depth, run->plan->queue_stride, run->grain, limit);
     return HD_OK;
 }

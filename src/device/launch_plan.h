@@ -109,9 +109,9 @@ typedef enum HdWaveAction {
 typedef struct HdWaveStep {
     HdWaveAction action;
     int first_item, item_count; /* of the batch */
-    int level, first, count, to;
-    unsigned taken_before; /* what the counter of taken places is as yet */
-    bool is_first;         /* of the frame */
+    WaveTake take;              /* that a launch traces: as many rays as there is room for */
+    unsigned taken_before;      /* what the counter of taken places is as yet */
+    bool is_first;              /* of the frame */
 } HdWaveStep;
 
 /* The way through a frame, a batch at a time; the rest is 0 at first. */

@@ -77,12 +77,6 @@ static HdStatus build_golden(const void *what, HdScene *scene, HdCamera *camera,
     return hd_golden_build(what, scene, camera, error);
 }
 
-static bool is_quick(const HdScene *scene) {
-    int64_t side = scene->samples_per_side;
-    return !hd_scene_is_surveyed(scene) &&
-           scene->width * scene->height * side * side <= MOST_QUICK_SAMPLES;
-}
-
 typedef struct GoldenTest {
     const Part *part;
     const HdSceneTables *like; /* what all frames need, where kernels are compiled for them */
@@ -91,6 +85,14 @@ typedef struct GoldenTest {
     const HdGoldenFrame *first_wrong;
     uint64_t found, expected; /* hashes of the first wrong one */
 } GoldenTest;
+
+/* If it is surveyed or not, and small enough. */
+static bool is_wanted(const GoldenTest *golden, const HdScene *scene, bool is_surveyed) {
+    const int64_t side = scene->samples_per_side;
+    return hd_scene_is_surveyed(scene) == is_surveyed &&
+           (golden->part->effort != HD_TEST_QUICK ||
+            scene->width * scene->height * side * side <= MOST_QUICK_SAMPLES);
+}
 
 static void judge_golden(GoldenTest *golden, const HdGoldenFrame *frame, uint64_t hash) {
     HdGoldenHashes expected;
@@ -104,22 +106,19 @@ static void judge_golden(GoldenTest *golden, const HdGoldenFrame *frame, uint64_
     golden->expected = expected.frame;
 }
 
-/* If it is surveyed or not. */
 static HdStatus render_golden(GoldenTest *golden, const HdGoldenFrame *frame, bool is_surveyed,
                               HdError *error) {
     HdScene scene;
     HdCamera camera;
     HdFrame image;
-    HdStatus status = HD_OK;
     HD_TRY(hd_golden_build(frame, &scene, &camera, error));
-    if (hd_scene_is_surveyed(&scene) == is_surveyed &&
-        (golden->part->effort != HD_TEST_QUICK || is_quick(&scene))) {
-        status = hd_put_and_render(golden->part->renderer, &scene, &camera, golden->like, 0, &image,
-                                   error);
-        if (status == HD_OK) {
-            judge_golden(golden, frame, hd_frame_hash(&image));
-            hd_frame_free(&image);
-        }
+    const bool renders = is_wanted(golden, &scene, is_surveyed);
+    HdStatus status = renders ? hd_put_and_render(golden->part->renderer, &scene, &camera,
+                                                  golden->like, 0, &image, error)
+                              : HD_OK;
+    if (renders && status == HD_OK) {
+        judge_golden(golden, frame, hd_frame_hash(&image));
+        hd_frame_free(&image);
     }
     hd_scene_free(&scene);
     return status;
@@ -128,12 +127,11 @@ static HdStatus render_golden(GoldenTest *golden, const HdGoldenFrame *frame, bo
 /* By the same kernels, which are kept if all frames are right. */
 static HdStatus render_all(GoldenTest *golden, bool are_surveyed, HdError *error) {
     HdKernelCache *kernels = hd_renderer_kernels(golden->part->renderer);
-    HdStatus status = HD_OK;
-    for (int i = 0; status == HD_OK && i < hd_golden_frame_count; i++)
-        status = render_golden(golden, &hd_golden_frames[i], are_surveyed, error);
-    if (status == HD_OK && kernels != NULL && golden->wrong == 0)
+    for (int i = 0; i < hd_golden_frame_count; i++)
+        HD_TRY(render_golden(golden, &hd_golden_frames[i], are_surveyed, error));
+    if (kernels != NULL && golden->wrong == 0)
         hd_kernel_cache_accept(kernels);
-    return status;
+    return HD_OK;
 }
 
 /* What there is to say where a frame is wrong. */
@@ -183,24 +181,17 @@ static HdStatus test_random_scenes(const Part *part, HdError *error) {
 
 /* ---- the certificate ---- */
 
-/* The arithmetic is the same in all pipelines. */
-static HdStatus test_renderer(const Part *part, HdError *error) {
-    const HdCertificate *certificate = part->certificate;
-    HdStatus status = HD_OK;
-    if (part->options.pipeline == HD_PIPELINE_MEGA && !certificate->device.backend->needs_no_driver)
-        status = test_arithmetic(part, error);
-    if (status == HD_OK && certificate->verdict == HD_VERDICT_RIGHT)
-        status = test_golden(part, error);
-    return status;
-}
-
 static HdStatus test_pipeline(HdCertificate *certificate, const HdRenderOptions *options,
                               HdTestEffort effort, HdError *error) {
     Part part = {.certificate = certificate, .options = *options, .effort = effort};
     HdStatus status = hd_renderer_open(&part.renderer, &certificate->device, &part.options, error);
     if (status != HD_OK)
         return end_test(&part, begin_test(&part, "opening for", " by "), "", status, error);
-    status = test_renderer(&part, error);
+    /* The arithmetic is the same in all pipelines. */
+    if (part.options.pipeline == HD_PIPELINE_MEGA && !certificate->device.backend->needs_no_driver)
+        status = test_arithmetic(&part, error);
+    if (status == HD_OK && certificate->verdict == HD_VERDICT_RIGHT)
+        status = test_golden(&part, error);
     const HdKernelCache *kernels = hd_renderer_kernels(part.renderer);
     if (kernels != NULL)
         snprintf(certificate->compiler, sizeof certificate->compiler, "%s", kernels->maker);
@@ -215,12 +206,11 @@ static HdStatus test_precision(HdCertificate *certificate, HdPrecision precision
                                HdTestEffort effort, HdError *error) {
     HdRenderOptions options = {
         .precision = precision, .pipeline = HD_PIPELINE_MEGA, .test.keeps_pipeline = true};
-    HdStatus status = test_pipeline(certificate, &options, effort, error);
+    HD_TRY(test_pipeline(certificate, &options, effort, error));
     options.pipeline = HD_PIPELINE_WAVEFRONT;
-    if (status == HD_OK && effort != HD_TEST_QUICK && certificate->verdict == HD_VERDICT_RIGHT &&
-        hd_device_obstacle(&certificate->device, &options) == NULL)
-        status = test_pipeline(certificate, &options, effort, error);
-    return status;
+    const bool goes_on = effort != HD_TEST_QUICK && certificate->verdict == HD_VERDICT_RIGHT &&
+                         hd_device_obstacle(&certificate->device, &options) == NULL;
+    return goes_on ? test_pipeline(certificate, &options, effort, error) : HD_OK;
 }
 
 HdStatus hd_certify(HdCertificate *certificate, const HdDevice *device, HdTestEffort effort,

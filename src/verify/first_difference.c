@@ -85,19 +85,12 @@ static HdStatus compare(Search *search, int depth, bool splits, bool *differs, H
     return status;
 }
 
-/* Bit by bit: a NaN is the same as itself. */
-static bool is_same_value(float a, float b) {
-    uint32_t bits[2];
-    memcpy(&bits[0], &a, sizeof a);
-    memcpy(&bits[1], &b, sizeof b);
-    return bits[0] == bits[1];
-}
-
-/* The number of the first value that differs in the last comparison, row by row. */
+/* The number of the first value that differs in the last comparison, row by row, bit by bit: a NaN
+   is the same as itself. */
 static int first_value(const Search *search) {
     const HdFrame *found = &search->frames[DEVICE], *expected = &search->frames[PLAIN_C];
     for (int i = 0; i < found->width * found->height * found->floats; i++)
-        if (!is_same_value(found->rgb[i], expected->rgb[i]))
+        if (memcmp(&found->rgb[i], &expected->rgb[i], sizeof *found->rgb) != 0)
             return i;
     return NOWHERE;
 }

@@ -59,18 +59,10 @@ static const char *precision_name(const Probe *probe) {
     return probe->precision == HD_PRECISION_DOUBLE ? "double" : "float";
 }
 
-static double least_normal(const Probe *probe) {
-    return probe->precision == HD_PRECISION_DOUBLE ? 0x1p-1022 : 0x1p-126;
-}
-
+/* Denormal. */
 static bool is_small(const Probe *probe, double a) {
-    return a != 0.0 && fabs(a) < least_normal(probe);
-}
-
-/* One kind of NaN, so that hashes agree. */
-static uint64_t hash_number(uint64_t hash, double number) {
-    double told = isnan(number) ? (double)NAN : number;
-    return hd_hash_words(hash, &told, sizeof told);
+    double least_normal = probe->precision == HD_PRECISION_DOUBLE ? 0x1p-1022 : 0x1p-126;
+    return a != 0.0 && fabs(a) < least_normal;
 }
 
 /* ---- what differs ---- */
@@ -102,32 +94,31 @@ static const char *guess_cause(const Probe *probe, int primitive, double a, doub
     return is_rounded ? " (it is not correctly rounded)" : "";
 }
 
-static void note_difference(Probe *probe, const char *text) {
-    char *first = probe->report->found.difference;
-    if (first[0] == '\0')
-        snprintf(first, sizeof probe->report->found.difference, "%s", text);
+/* Whether nothing differs so far: then the difference is to be told. */
+static bool is_first(const Probe *probe) {
+    return probe->report->found.difference[0] == '\0';
 }
 
 static void compare_number(Probe *probe, int primitive, size_t i) {
     size_t place = (size_t)primitive * (size_t)probe->batch.count + i;
     double found = number_at(probe, probe->found.numbers, place);
     double expected = number_at(probe, probe->expected.numbers, place);
-    probe->report->hash = hash_number(probe->report->hash, found);
+    double told = isnan(found) ? (double)NAN : found; /* one kind of NaN, so that hashes agree */
+    probe->report->hash = hd_hash_words(probe->report->hash, &told, sizeof told);
     if (is_same(found, expected))
         return;
     double a = number_at(probe, probe->batch.operands[0], i);
     double b = number_at(probe, probe->batch.operands[1], i);
     double c = number_at(probe, probe->batch.operands[2], i);
-    char text[sizeof probe->report->found.difference];
     probe->only_rounding_differs =
         probe->only_rounding_differs &&
         (primitive == HD_PROBE_NUMBER_quotient || primitive == HD_PROBE_NUMBER_root);
-    snprintf(text, sizeof text,
-             "%s of a = %a, b = %a, c = %a, x = 0x%016" PRIx64 " in %s is %a, expected %a%s",
-             number_words[primitive], a, b, c, (uint64_t)probe->batch.bits[i],
-             precision_name(probe), found, expected,
-             guess_cause(probe, primitive, a, b, c, found, expected));
-    note_difference(probe, text);
+    if (is_first(probe))
+        snprintf(probe->report->found.difference, sizeof probe->report->found.difference,
+                 "%s of a = %a, b = %a, c = %a, x = 0x%016" PRIx64 " in %s is %a, expected %a%s",
+                 number_words[primitive], a, b, c, (uint64_t)probe->batch.bits[i],
+                 precision_name(probe), found, expected,
+                 guess_cause(probe, primitive, a, b, c, found, expected));
 }
 
 static void compare_integer(Probe *probe, int primitive, size_t i) {
@@ -136,17 +127,17 @@ static void compare_integer(Probe *probe, int primitive, size_t i) {
     probe->report->hash = hd_hash_words(probe->report->hash, &found, sizeof found);
     if (found == expected)
         return;
-    char text[sizeof probe->report->found.difference];
     double a = number_at(probe, probe->batch.operands[0], i);
     double b = number_at(probe, probe->batch.operands[1], i);
     probe->only_rounding_differs = false;
-    snprintf(
-        text, sizeof text,
-        "%s of a = %a, b = %a, x = 0x%016" PRIx64 " in %s is %" PRId64 ", expected %" PRId64 "%s",
-        integer_words[primitive], a, b, (uint64_t)probe->batch.bits[i], precision_name(probe),
-        found, expected,
-        is_small(probe, a) || is_small(probe, b) ? " (denormal operands are taken for 0)" : "");
-    note_difference(probe, text);
+    if (is_first(probe))
+        snprintf(probe->report->found.difference, sizeof probe->report->found.difference,
+                 "%s of a = %a, b = %a, x = 0x%016" PRIx64 " in %s is %" PRId64
+                 ", expected %" PRId64 "%s",
+                 integer_words[primitive], a, b, (uint64_t)probe->batch.bits[i],
+                 precision_name(probe), found, expected,
+                 is_small(probe, a) || is_small(probe, b) ? " (denormal operands are taken for 0)"
+                                                          : "");
 }
 
 static void compare_batch(Probe *probe) {
@@ -160,17 +151,17 @@ static void compare_batch(Probe *probe) {
 
 /* Devices whose threads do not work in groups add nothing. */
 static void compare_sums(Probe *probe) {
-    char text[sizeof probe->report->found.difference];
     const HdProbeResults *found = &probe->found, *expected = &probe->expected;
     for (int i = 0; i < HD_PROBE_SUMS; i++)
         if (found->sums[i] != expected->sums[i] || found->counters[i] != expected->counters[i]) {
             probe->only_rounding_differs = false;
-            snprintf(text, sizeof text,
-                     "the sum %d that all threads add to atomically is 0x%016" PRIx64
-                     " in 64 bits and %" PRIu32 " in 32, expected 0x%016" PRIx64 " and %" PRIu32,
-                     i, (uint64_t)found->sums[i], found->counters[i], (uint64_t)expected->sums[i],
-                     expected->counters[i]);
-            note_difference(probe, text);
+            if (is_first(probe))
+                snprintf(probe->report->found.difference, sizeof probe->report->found.difference,
+                         "the sum %d that all threads add to atomically is 0x%016" PRIx64
+                         " in 64 bits and %" PRIu32 " in 32, expected 0x%016" PRIx64
+                         " and %" PRIu32,
+                         i, (uint64_t)found->sums[i], found->counters[i],
+                         (uint64_t)expected->sums[i], expected->counters[i]);
         }
 }
 

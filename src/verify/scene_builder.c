@@ -25,15 +25,6 @@ HdMaterial build_material(HdVec3 colour, double reflection, double transmission)
                         .index_of_refraction = 1.0};
 }
 
-static HdMaterial rim_material(void) {
-    return (HdMaterial){.colour = same(0.05),
-                        .mirror_tint = same(1.0),
-                        .diffuse = 0.5,
-                        .specular = 0.25,
-                        .shininess = 7,
-                        .index_of_refraction = 1.0};
-}
-
 bool build_scene(HdScene *scene, int width, int height, int samples, int depth, int solids,
                  int lights) {
     memset(scene, 0, sizeof *scene);
@@ -63,7 +54,12 @@ void build_solid(HdScene *scene, int index, HdSolidKind kind, HdVec3 centre, dou
                                      .circumradius = radius,
                                      .face = build_material(colour, 0.6, 0.35),
                                      .rim_width = 0.05 * radius,
-                                     .rim = rim_material(),
+                                     .rim = {.colour = same(0.05),
+                                             .mirror_tint = same(1.0),
+                                             .diffuse = 0.5,
+                                             .specular = 0.25,
+                                             .shininess = 7,
+                                             .index_of_refraction = 1.0},
                                      .lights = {.per_edge = lights_per_edge,
                                                 .colour_count = 1,
                                                 .colours = {{1.0, 1.0, 1.0}},

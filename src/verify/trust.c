@@ -23,15 +23,6 @@ static HdStatus compile_like(HdSceneTables *tables, const HdScene *scene, HdRend
     return status;
 }
 
-/* Without what else surveyed pixels come with. */
-static void keep_radiance(HdFrame *image) {
-    size_t pixels = (size_t)image->width * (size_t)image->height;
-    for (size_t pixel = 0; pixel < pixels; pixel++)
-        memmove(image->rgb + 3 * pixel, image->rgb + (size_t)image->floats * pixel,
-                3 * sizeof *image->rgb);
-    image->floats = 3;
-}
-
 /* Kernels for surveys render grids as well. */
 static HdStatus render_hash(HdRenderer *renderer, const HdSceneTables *tables, const HdScene *scene,
                             const HdCamera *camera, uint64_t *hash, HdError *error) {
@@ -44,7 +35,11 @@ static HdStatus render_hash(HdRenderer *renderer, const HdSceneTables *tables, c
         status = hd_renderer_upload(renderer, tables, error);
         if (status == HD_OK)
             status = hd_renderer_render(renderer, &view, &image, error);
-        keep_radiance(&image);
+        /* Without what else surveyed pixels come with. */
+        size_t pixels = (size_t)image.width * (size_t)image.height;
+        for (size_t i = 0; i < pixels; i++)
+            memmove(image.rgb + 3 * i, image.rgb + (size_t)image.floats * i, 3 * sizeof *image.rgb);
+        image.floats = 3;
         *hash = hd_frame_hash(&image);
         hd_frame_free(&image);
     }

@@ -28,31 +28,17 @@ typedef struct Search {
     char found[512]; /* what was found and does not fit, for people */
 } Search;
 
-/* NVRTC opens its helper by name and relies on the loader to look in NVRTC's own folder, which it
-   does not do when a sanitizer stands between. A library that is loaded already is found by its
-   name. */
-static void load_builtins(const HdNvrtc *nvrtc) {
-    char name[64];
-    snprintf(name, sizeof name, "libnvrtc-builtins.so.%d.%d", nvrtc->major, nvrtc->minor);
-    hd_library_close(hd_library_open_beside(nvrtc->library, "nvrtcVersion", name));
-}
-
-static bool load_functions(HdNvrtcFunctions *functions, void *library) {
+static bool load(HdNvrtc *nvrtc, const char *path) {
     static const HdLibrarySymbol symbols[] = {
 #define SYMBOL(type, member, symbol, parameters) {#symbol, offsetof(HdNvrtcFunctions, member)},
         HD_NVRTC_FUNCTIONS(SYMBOL)
 #undef SYMBOL
     };
-    return hd_library_load(library, symbols, sizeof symbols / sizeof *symbols, functions) == NULL;
-}
-
-static bool load(HdNvrtc *nvrtc, const char *path) {
     *nvrtc = (HdNvrtc){.library = hd_library_open(path)};
-    if (!nvrtc->library)
-        return false;
-    const HdNvrtcFunctions *functions = &nvrtc->functions;
-    if (load_functions(&nvrtc->functions, nvrtc->library) &&
-        functions->version(&nvrtc->major, &nvrtc->minor) == 0)
+    if (nvrtc->library &&
+        hd_library_load(nvrtc->library, symbols, sizeof symbols / sizeof *symbols,
+                        &nvrtc->functions) == NULL &&
+        nvrtc->functions.version(&nvrtc->major, &nvrtc->minor) == 0)
         return true;
     hd_nvrtc_close(nvrtc);
     return false;
@@ -64,21 +50,6 @@ static int list_archs(const HdNvrtc *nvrtc, int archs[MAX_ARCHS]) {
     if (nvrtc->functions.arch_count(&count) != 0 || count < 1 || count > MAX_ARCHS)
         return 0;
     return nvrtc->functions.list_archs(archs) == 0 ? count : 0;
-}
-
-static bool contains(const int *archs, int count, int arch) {
-    for (int i = 0; i < count; i++)
-        if (archs[i] == arch)
-            return true;
-    return false;
-}
-
-static void note(Search *search, const HdNvrtc *nvrtc, const int *archs, int count) {
-    char text[64];
-    snprintf(text, sizeof text, "NVRTC %d.%d for sm_%d to sm_%d", nvrtc->major, nvrtc->minor,
-             count ? archs[0] : 0, count ? archs[count - 1] : 0);
-    if (!strstr(search->found, text))
-        hd_add_text(search->found, sizeof search->found, ", ", "%s", text);
 }
 
 static bool is_better(const Search *search, const HdNvrtc *nvrtc) {
@@ -96,9 +67,15 @@ static void consider(Search *search, const char *path) {
     if (!load(&nvrtc, path))
         return;
     int archs[MAX_ARCHS];
-    int count = list_archs(&nvrtc, archs);
-    if (!contains(archs, count, search->arch)) {
-        note(search, &nvrtc, archs, count);
+    int count = list_archs(&nvrtc, archs), place = 0;
+    while (place < count && archs[place] != search->arch)
+        place++;
+    if (place == count) {
+        char text[64];
+        snprintf(text, sizeof text, "NVRTC %d.%d for sm_%d to sm_%d", nvrtc.major, nvrtc.minor,
+                 count ? archs[0] : 0, count ? archs[count - 1] : 0);
+        if (!strstr(search->found, text))
+            hd_add_text(search->found, sizeof search->found, ", ", "%s", text);
     } else if (is_better(search, &nvrtc)) {
         HdNvrtc worse = search->best;
         search->best = nvrtc;
@@ -194,6 +171,7 @@ bool hd_nvrtc_is_named(void) {
 
 HdStatus hd_nvrtc_open(HdNvrtc *nvrtc, const char *device, int arch, int driver_major,
                        const char *path, HdError *error) {
+    char builtins[64];
     Search search = {.arch = arch, .driver_major = driver_major};
     const char *named = path ? path : hd_nvrtc_is_named() ? getenv("HEDRON_NVRTC") : NULL;
     if (named)
@@ -203,7 +181,10 @@ HdStatus hd_nvrtc_open(HdNvrtc *nvrtc, const char *device, int arch, int driver_
     if (!search.has_best)
         return fail_to_find(&search, device, named, error);
     *nvrtc = search.best;
-    load_builtins(nvrtc);
+    /* NVRTC opens its helper by name and relies on the loader to look in NVRTC's own folder, which
+       it does not do when a sanitizer stands between. A library that is loaded already is found. */
+    snprintf(builtins, sizeof builtins, "libnvrtc-builtins.so.%d.%d", nvrtc->major, nvrtc->minor);
+    hd_library_close(hd_library_open_beside(nvrtc->library, "nvrtcVersion", builtins));
     return HD_OK;
 }
 

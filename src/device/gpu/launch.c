@@ -151,10 +151,10 @@ static HdStatus trace_step(HdGpuRenderer *renderer, HdGpuFlight *flight, const H
     const Queue queue = queue_of(renderer);
     const TraceTake own = {
         .first_item = step->first_item,
-        .level = step->level,
-        .first = step->first,
-        .count = step->count,
-        .to = step->to,
+        .level = step->take.level,
+        .first = step->take.first,
+        .count = step->take.count,
+        .to = step->take.to,
         .taken_before = step->taken_before,
         .is_first_launch = step->is_first,
         .taken = &renderer->queue.taken,
@@ -163,9 +163,9 @@ static HdStatus trace_step(HdGpuRenderer *renderer, HdGpuFlight *flight, const H
     HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_TRACE);
     add_queue(&launch, &queue);
     add_trace_take(&launch, &own);
-    launch.groups = (step->count + group_size - 1) / group_size;
+    launch.groups = (step->take.count + group_size - 1) / group_size;
     launch.groups = step->is_first ? most_groups : hd_min(launch.groups, most_groups);
-    HD_TRY(hd_gpu_flight_launch(renderer, flight, &launch, step->count, error));
+    HD_TRY(hd_gpu_flight_launch(renderer, flight, &launch, step->take.count, error));
     double waited = hd_monotonic_seconds();
     HD_TRY(hd_gpu_wave_queue_read(&renderer->queue, &renderer->gpu, taken, error));
     return hd_gpu_flight_time_launch(renderer, flight, waited, error);
@@ -192,8 +192,9 @@ static HdStatus store_batch(const HdGpuRenderer *renderer, const HdGpuFlight *fl
    traced. */
 static void tell_step(HdGpuFlight *flight, const HdWaveStep *step) {
     const int samples = flight->of->samples;
-    const int last = step->action == HD_WAVE_TRACES ? (step->first + step->count) / samples : 0;
-    if (step->action == HD_WAVE_STORES || step->level == 0)
+    const int last =
+        step->action == HD_WAVE_TRACES ? (step->take.first + step->take.count) / samples : 0;
+    if (step->action == HD_WAVE_STORES || step->take.level == 0)
         hd_gpu_flight_tell(flight, step->first_item + step->item_count - last);
 }
 

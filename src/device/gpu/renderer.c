@@ -21,19 +21,14 @@ static HdStatus enter(const HdGpuRenderer *renderer, HdError *error) {
 
 /* ---- open and close ---- */
 
-/* As many lanes as a register has, within what the kernels are written for. */
-static int natural_lanes(int native_width) {
-    if (native_width >= 16)
-        return 16;
-    return native_width >= 8 ? 8 : 4;
-}
-
 static void choose_shape(HdGpuRenderer *renderer) {
     const HdGpu *gpu = &renderer->gpu;
     const HdRenderOptions *options = &renderer->options;
     HdKernelShape *shape = &renderer->program.cache.shape;
     bool has_groups = renderer->has_groups;
-    int lanes = has_groups ? 1 : natural_lanes(gpu->facts.native_lanes[options->precision]);
+    /* As many lanes as a register has, within what the kernels are written for. */
+    int width = gpu->facts.native_lanes[options->precision];
+    int lanes = has_groups ? 1 : width >= 16 ? 16 : width >= 8 ? 8 : 4;
     int group_size = options->block > 0 ? options->block : gpu->driver->group_size;
     *shape = (HdKernelShape){
         .lanes = options->lanes > 0 ? options->lanes : lanes,

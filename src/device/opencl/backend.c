@@ -178,8 +178,7 @@ static HdStatus create_kernels(Device *device, const HdKernelShape *shape, HdErr
     return check(code, "clCreateKernel", error);
 }
 
-/* The caller's to free; NULL: there is none. */
-static char *read_log(const Device *device) {
+static HdStatus fail_with_log(const Device *device, cl_int code, HdError *error) {
     size_t size = 0;
     char *log = NULL;
     if (clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &size) ==
@@ -188,31 +187,22 @@ static char *read_log(const Device *device) {
         log = calloc(size + 1, 1);
     if (log)
         clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);
-    return log;
-}
-
-static HdStatus fail_with_log(const Device *device, cl_int code, HdError *error) {
-    char *log = read_log(device);
     hd_fail(error, HD_FAILED, "the compiler of %s refused the kernels (clBuildProgram: %s):\n%s",
             device->is.name, hd_opencl_error_name(code), log && log[0] ? log : "(it left no log)");
     free(log);
     return HD_FAILED;
 }
 
-static cl_int build_with(const Device *device, const char *options) {
-    return clBuildProgram(device->program, 1, &device->id, options, NULL, NULL);
-}
-
 /* Once more without the option that a driver may refuse. */
 static cl_int build(const Device *device, const char *options) {
     char other[OPTIONS_LENGTH];
     const char *refused = strstr(options, rounding);
-    cl_int code = build_with(device, options);
+    cl_int code = clBuildProgram(device->program, 1, &device->id, options, NULL, NULL);
     if (code != CL_INVALID_BUILD_OPTIONS || refused == NULL)
         return code;
     snprintf(other, sizeof other, "%.*s%s", (int)(refused - options), options,
              refused + strlen(rounding));
-    return build_with(device, other);
+    return clBuildProgram(device->program, 1, &device->id, other, NULL, NULL);
 }
 
 static HdStatus compile(void *state, const HdKernelShape *shape, const char *options, char *maker,

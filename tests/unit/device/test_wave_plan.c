@@ -25,35 +25,36 @@ typedef struct Account {
 } Account;
 
 static int rays_going_on(const Account *account, const HdWaveStep *step) {
-    int grain = account->frame->grain, groups = (step->count + grain - 1) / grain;
-    if (step->level >= account->frame->depth)
+    int grain = account->frame->grain, groups = (step->take.count + grain - 1) / grain;
+    if (step->take.level >= account->frame->depth)
         return 0;
     if (account->children < 0)
-        return step->level < 4 ? step->count / 2 * 3 : step->count / 20 * 19;
+        return step->take.level < 4 ? step->take.count / 2 * 3 : step->take.count / 20 * 19;
     return account->children * groups * grain;
 }
 
 static void trace(Account *account, const HdWaveStep *step) {
-    assert_true(step->count > 0);
+    assert_true(step->take.count > 0);
     assert_int_equal(step->taken_before, account->taken);
     assert_int_equal(step->is_first, account->steps == 0);
-    assert_in_range(step->level, 0, account->frame->depth);
-    if (step->level == 0) {
+    assert_in_range(step->take.level, 0, account->frame->depth);
+    if (step->take.level == 0) {
         assert_int_equal(step->first_item, account->next_item);
-        account->batch_samples += step->count;
-        assert_true(step->first + step->count <= account->plan->sum_stride);
+        account->batch_samples += step->take.count;
+        assert_true(step->take.first + step->take.count <= account->plan->sum_stride);
     }
     int going_on = rays_going_on(account, step);
-    assert_true(step->to + going_on <= account->plan->queue_stride);
-    for (int i = step->to; i < step->to + going_on; i++) {
+    assert_true(step->take.to + going_on <= account->plan->queue_stride);
+    for (int i = step->take.to; i < step->take.to + going_on; i++) {
         assert_false(account->waits[i]); /* nor is it one of those that are being read */
         account->waits[i] = 1;
     }
-    for (int i = step->first; step->level > 0 && i < step->first + step->count; i++) {
+    for (int i = step->take.first; step->take.level > 0 && i < step->take.first + step->take.count;
+         i++) {
         assert_true(account->waits[i]);
         account->waits[i] = 0;
     }
-    account->traced += step->count;
+    account->traced += step->take.count;
     account->steps++;
     account->taken += (unsigned)going_on;
 }
