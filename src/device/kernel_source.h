@@ -64,11 +64,7 @@ typedef enum HdKernel {
 /* What the kernel is called in the text; NULL: the shape has none. */
 const char *hd_kernel_name(const HdKernelShape *shape, HdKernel kernel);
 
-/* A bound that scenes of similar size share, so that one build serves them all: the least power of
-   two that is at least 8 and `count`. */
-int hd_kernel_bound(int count);
-
-/* What a scene needs, its numbers rounded up by hd_kernel_bound. */
+/* What a scene needs, its numbers rounded up for scenes of similar size to share a build. */
 HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables);
 bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b);
 

@@ -153,22 +153,16 @@ static HdStatus create_streams(Device *device, HdGpuFacts *facts, HdError *error
     return HD_OK;
 }
 
-static void destroy_streams(Device *device) {
-    HdError ignored;
-    if (enter(device, &ignored) != HD_OK)
-        return;
-    if (device->copies)
-        device->driver.cuStreamDestroy(device->copies);
-    if (device->stream)
-        device->driver.cuStreamDestroy(device->stream);
-}
-
 static void close_device(void *state) {
     Device *device = state;
-    if (device->context) {
-        destroy_streams(device);
+    HdError ignored;
+    const bool is_entered = device->context && enter(device, &ignored) == HD_OK;
+    if (is_entered && device->copies)
+        device->driver.cuStreamDestroy(device->copies);
+    if (is_entered && device->stream)
+        device->driver.cuStreamDestroy(device->stream);
+    if (device->context)
         device->driver.cuDevicePrimaryCtxRelease(device->handle);
-    }
     hd_nvrtc_close(&device->nvrtc);
     hd_cuda_code_free(&device->code);
 }

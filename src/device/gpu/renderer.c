@@ -131,37 +131,30 @@ static HdStatus write_scene(HdGpuRenderer *renderer, const HdSceneTables *tables
     return HD_OK;
 }
 
-static HdStatus upload(HdGpuRenderer *renderer, const HdSceneTables *tables, HdError *error) {
+static HdStatus gpu_upload(void *state, const HdSceneTables *tables, HdError *error) {
+    HdGpuRenderer *renderer = state;
     const HdGpu *gpu = &renderer->gpu;
+    const double longest = hd_longest_launch(&renderer->device, &renderer->options);
+    const int work = renderer->options.test.launch_work;
     HdKernelNeeds needs = hd_kernel_needs(tables);
     const HdMemoryRoom room = {.name = gpu->name,
                                .advice = hd_room_advice,
                                .memory = (double)gpu->facts.memory,
                                .at_once = (double)gpu->facts.at_once};
     HdError later;
+    renderer->depth = tables->depth;
+    renderer->flights.size = work > 0
+                                 ? hd_launch_size_fixed(work)
+                                 : hd_launch_size_start(renderer->device.compute_units, longest);
     needs.small_tables = needs.small_tables && gpu->driver->constant != NULL;
-    HdStatus status = hd_check_room(tables, &room, error);
-    if (status == HD_OK)
-        status = hd_gpu_build(&renderer->program, gpu, &needs, error);
-    if (status == HD_OK)
-        place_tables(renderer);
-    if (status == HD_OK)
-        status = write_scene(renderer, tables, error);
+    HD_TRY(enter(renderer, error));
+    HD_TRY(hd_check_room(tables, &room, error));
+    HD_TRY(hd_gpu_build(&renderer->program, gpu, &needs, error));
+    place_tables(renderer);
+    HdStatus status = write_scene(renderer, tables, error);
     /* After a failure too: copies that are under way read the tables, which are the caller's. */
     HdStatus finished = gpu->driver->finish(gpu->handle, status == HD_OK ? error : &later);
     return status == HD_OK ? finished : status;
-}
-
-static HdStatus gpu_upload(void *state, const HdSceneTables *tables, HdError *error) {
-    HdGpuRenderer *renderer = state;
-    const HdDevice *device = &renderer->device;
-    const double longest = hd_longest_launch(device, &renderer->options);
-    const int work = renderer->options.test.launch_work;
-    renderer->depth = tables->depth;
-    renderer->flights.size = work > 0 ? hd_launch_size_fixed(work)
-                                      : hd_launch_size_start(device->compute_units, longest);
-    HD_TRY(enter(renderer, error));
-    return upload(renderer, tables, error);
 }
 
 /* ---- frames ---- */

@@ -190,14 +190,6 @@ static bool has_extension(cl_device_id device, const char *name) {
     return strstr(extensions, name) != NULL;
 }
 
-/* NVIDIA's extensions: the build option -cl-nv-maxrregcount, and the question for the version. */
-static int find_nvidia_arch(cl_device_id device) {
-    enum { CAPABILITY_MAJOR = 0x4000, CAPABILITY_MINOR = 0x4001 };
-    if (!has_extension(device, "cl_nv_compiler_options"))
-        return 0;
-    return 10 * query_int(device, CAPABILITY_MAJOR) + query_int(device, CAPABILITY_MINOR);
-}
-
 /* Only NVIDIA's driver tells. */
 static bool has_timeout(cl_device_id id) {
     enum { KERNEL_EXEC_TIMEOUT_NV = 0x4005 };
@@ -208,6 +200,7 @@ static bool has_timeout(cl_device_id id) {
 }
 
 static void describe_device(HdDevice *device, Entry entry, int index) {
+    enum { CAPABILITY_MAJOR = 0x4000, CAPABILITY_MINOR = 0x4001 };
     memset(device, 0, sizeof *device);
     device->index = index;
     char platform[80], version[80], driver[48];
@@ -219,7 +212,11 @@ static void describe_device(HdDevice *device, Entry entry, int index) {
     device->is_cpu = query(entry.device, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU;
     device->compute_units = query_int(entry.device, CL_DEVICE_MAX_COMPUTE_UNITS);
     device->clock_mhz = query_int(entry.device, CL_DEVICE_MAX_CLOCK_FREQUENCY);
-    device->nvidia_arch = find_nvidia_arch(entry.device);
+    /* NVIDIA's extensions: the build option -cl-nv-maxrregcount, and the question for the version.
+     */
+    if (has_extension(entry.device, "cl_nv_compiler_options"))
+        device->nvidia_arch = 10 * query_int(entry.device, CAPABILITY_MAJOR) +
+                              query_int(entry.device, CAPABILITY_MINOR);
     device->has_double = query(entry.device, CL_DEVICE_DOUBLE_FP_CONFIG) != 0;
     device->has_wide_atomics = has_extension(entry.device, "cl_khr_int64_base_atomics");
     device->has_timeout = has_timeout(entry.device);
