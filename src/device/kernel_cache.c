@@ -10,9 +10,10 @@
 #include "base/text.h"
 #include "system/cache_folder.h"
 
-void hd_kernel_cache_begin(HdKernelCache *cache, const HdDevice *device) {
-    *cache = (HdKernelCache){.backend = device->backend->name};
-    snprintf(cache->device, sizeof cache->device, "%s (%s)", device->name, device->driver);
+void hd_kernel_cache_begin(HdKernelCache *cache, const char *backend, const char *device,
+                           const char *driver) {
+    *cache = (HdKernelCache){.backend = backend};
+    snprintf(cache->device, sizeof cache->device, "%s (%s)", device, driver);
 }
 
 /* ---- entries: a head, then the binary ---- */

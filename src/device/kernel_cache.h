@@ -9,7 +9,6 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "device/backend.h"
 #include "device/kernel_source.h"
 
 enum { HD_KERNEL_KEY_LENGTH = 4096 };
@@ -17,7 +16,7 @@ enum { HD_KERNEL_KEY_LENGTH = 4096 };
 /* Hands out the binary of compiled kernels, the caller's to free; NULL where that cannot be. */
 typedef unsigned char *HdKernelReader(const void *context, size_t *size);
 
-struct HdKernelCache {
+typedef struct HdKernelCache {
     const char *backend;
     char device[640];               /* name and driver, a part of every key */
     HdKernelShape shape;            /* of the kernels; the renderer's to set */
@@ -29,10 +28,11 @@ struct HdKernelCache {
     bool is_on_trial;               /* they may render meanwhile */
     HdKernelReader *read;           /* until they are accepted, */
     const void *context;            /* with this */
-};
+} HdKernelCache;
 
-/* For one device. There is nothing to free. */
-void hd_kernel_cache_begin(HdKernelCache *cache, const HdDevice *device);
+/* For a device, by its name and driver. There is nothing to free. */
+void hd_kernel_cache_begin(HdKernelCache *cache, const char *backend, const char *device,
+                           const char *driver);
 
 /* Looks for kernels: `source` and `options` are all that they are compiled from, `driver` what else
    they depend on, apart from the device. True where they are there; `*binary` is the caller's to

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/hash.h"
+#include "verify/probe_operands.h"
 
 #define WORDS(name, words) words,
 static const char *const number_words[] = {HD_PROBE_NUMBERS(WORDS)};

@@ -31,17 +31,4 @@ HdStatus hd_probe(HdRenderer *renderer, int tuples, HdProbeReport *report, HdErr
    HD_UNAVAILABLE, with the first difference, where the device computes wrongly. */
 HdStatus hd_probe_settle(HdRenderer *renderer, HdError *error);
 
-/* ---- its operands, and what plain C makes of them: the hard cases of each primitive by
-   construction
-   ---- */
-
-/* Fills a batch of that precision with tuples number `start` and so on of an endless list. */
-void hd_probe_operands_float(HdProbeBatch *batch, uint64_t start);
-void hd_probe_operands_double(HdProbeBatch *batch, uint64_t start);
-
-/* What the primitives make of a batch, in the C language's own words. Sums and counters, which
-   must be 0 before the first batch, go on. */
-void hd_probe_expect_float(const HdProbeBatch *batch, HdProbeResults *results);
-void hd_probe_expect_double(const HdProbeBatch *batch, HdProbeResults *results);
-
 #endif

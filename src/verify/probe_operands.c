@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Built for float and for double. */
-#include "verify/probe.h"
+#include "verify/probe_operands.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -11,7 +11,7 @@
 #include "device/renderer.h"
 #include "render/backends.h"
 #include "unit_test.h"
-#include "verify/probe.h"
+#include "verify/probe_operands.h"
 
 typedef enum FakePoint { FAKE_OPEN, FAKE_UPLOAD, FAKE_SUBMIT, FAKE_COLLECT } FakePoint;
 
@@ -63,7 +63,7 @@ static HdStatus fake_open(const HdDevice *device, const HdRenderOptions *options
     assert_non_null(opened);
     opened->index = device->index;
     opened->options = *options;
-    hd_kernel_cache_begin(&opened->kernels, device);
+    hd_kernel_cache_begin(&opened->kernels, device->backend->name, device->name, device->driver);
     opened->kernels.shape =
         (HdKernelShape){.lanes = 1, .precision = options->precision, .math = options->math};
     *renderer = opened;

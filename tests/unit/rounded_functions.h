@@ -11,7 +11,7 @@
 #include "kernels/common/division.h"
 
 #include "unit_test.h"
-#include "verify/probe.h"
+#include "verify/probe_operands.h"
 
 /* Sanitizers are slow, and look at a part of the numbers. */
 #ifndef __has_feature

@@ -61,7 +61,8 @@ static HdStatus gpu_open(const HdDevice *device, const HdRenderOptions *options,
         free(renderer);
         return status;
     }
-    hd_kernel_cache_begin(&renderer->program.cache, device);
+    hd_kernel_cache_begin(&renderer->program.cache, device->backend->name, device->name,
+                          device->driver);
     renderer->has_groups = !device->is_cpu || options->test.groups;
     choose_shape(renderer);
     renderer->queue.bytes = options->test.queue_bytes > 0 ? options->test.queue_bytes

@@ -9,6 +9,7 @@
 
 #include "device/kernel_cache.h"
 #include "unit_test.h"
+#include "verify/probe_operands.h"
 
 typedef enum Fault {
     NONE,
