@@ -201,12 +201,10 @@ static bool keeps(int given, int chosen) {
 
 static bool makes_sense(const HdRenderOptions *chosen, const HdRenderOptions *given,
                         const HdDevice *device) {
-    HdError ignored;
     return keeps((int)given->pipeline, (int)chosen->pipeline) &&
            keeps(given->lanes, chosen->lanes) && keeps(given->block, chosen->block) &&
            keeps(given->grid, chosen->grid) && keeps(given->registers, chosen->registers) &&
-           hd_render_options_check(chosen, &ignored) == HD_OK &&
-           hd_device_obstacle(device, chosen) == NULL;
+           hd_render_options_are_possible(chosen) && hd_device_obstacle(device, chosen) == NULL;
 }
 
 HdStatus hd_team_device_open(HdTeamDevice *member, const HdRenderOptions *options, const HdJob *job,

@@ -4,34 +4,47 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "device/arithmetic.h"
-#include "device/launch_size.h"
-
-static void recall(HdDevice *device) {
-    HdArithmetic known = {.difference = ""};
-    device->is_measured =
-        device->backend->needs_no_driver ||
-        hd_arithmetic_recall(device->name, device->driver, HD_PRECISION_FLOAT, &known);
-    if (known.difference[0] != '\0')
-        snprintf(device->not_strict, sizeof device->not_strict, "it computes wrongly: %s",
-                 known.difference);
-}
+#include "device/kernel_cache.h"
+#include "device/launch_plan.h"
 
 HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int capacity, int *count,
                               HdError *error) {
     HdStatus status = backend->enumerate(devices, capacity, count, error);
-    for (int i = 0; i < *count; i++) {
-        devices[i].backend = backend;
-        recall(&devices[i]);
+    for (HdDevice *device = devices; device < devices + *count; device++) {
+        HdArithmetic known = {.difference = ""};
+        device->backend = backend;
+        device->is_measured =
+            backend->needs_no_driver ||
+            hd_arithmetic_recall(device->name, device->driver, HD_PRECISION_FLOAT, &known);
+        if (known.difference[0] != '\0')
+            snprintf(device->not_strict, sizeof device->not_strict, "it computes wrongly: %s",
+                     known.difference);
     }
     return status;
 }
 
-HdStatus hd_backend_render(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
-                           HdFrame *frame, HdError *error) {
-    static const HdFrameWish radiance = {.radiance = true};
-    HdStatus status = backend->functions->submit(renderer, tables, &radiance, error);
-    return status == HD_OK ? backend->functions->collect(renderer, tables, frame, error) : status;
+/* ---- options ---- */
+
+const char *const hd_pipeline_names[HD_PIPELINE_COUNT + 1] = {"auto", "mega", "wavefront",
+                                                              "wavefront-uncompacted", NULL};
+
+bool hd_pipeline_is_wavefront(HdPipeline pipeline) {
+    return pipeline == HD_PIPELINE_WAVEFRONT || pipeline == HD_PIPELINE_WAVEFRONT_UNCOMPACTED;
+}
+
+static bool is_within(double number, double least, double most) {
+    return number == 0.0 || (number >= least && number <= most);
+}
+
+bool hd_render_options_are_possible(const HdRenderOptions *options) {
+#define IS(number) || options->lanes == (number)
+    return (options->lanes == 0 HD_LANE_COUNTS(IS)) &&
+           is_within(options->threads, 1, HD_MAX_THREADS) &&
+           is_within(options->block, HD_BLOCK_STEP, HD_MAX_BLOCK) &&
+           options->block % HD_BLOCK_STEP == 0 && is_within(options->grid, 1, HD_MAX_GRID) &&
+           is_within(options->registers, HD_MIN_REGISTERS, HD_MAX_REGISTERS) &&
+           is_within(options->launch_ms, HD_MIN_LAUNCH_MS, HD_MAX_LAUNCH_MS) &&
+           options->pipeline < HD_PIPELINE_COUNT;
 }
 
 /* ---- what suits a device ---- */

@@ -7,14 +7,21 @@
 #include <string.h>
 
 #include "base/hash.h"
+#include "base/text.h"
 #include "system/cache_folder.h"
 
-void hd_kernel_cache_begin(HdKernelCache *cache, const HdDevice *device) {
-    *cache = (HdKernelCache){.backend = device->backend->name};
-    snprintf(cache->device, sizeof cache->device, "%s (%s)", device->name, device->driver);
+void hd_kernel_cache_begin(HdKernelCache *cache, const char *backend, const char *device,
+                           const char *driver) {
+    *cache = (HdKernelCache){.backend = backend};
+    snprintf(cache->device, sizeof cache->device, "%s (%s)", device, driver);
 }
 
-/* ---- entries: the stamp, the maker, a line each, then the binary ---- */
+/* ---- entries: a head, then the binary ---- */
+
+typedef struct Head {
+    char stamp[48]; /* stamp_of */
+    char maker[sizeof((HdKernelCache *)0)->maker];
+} Head;
 
 /* What an entry, or a note, says of the kernels' test. */
 static const char *stamp_of(const HdKernelCache *cache) {
@@ -22,39 +29,31 @@ static const char *stamp_of(const HdKernelCache *cache) {
                                                : "not tested, for the arithmetic is fast";
 }
 
-/* Takes the line off the front of what is left; false where there is none that fits. */
-static bool take_line(unsigned char **bytes, size_t *size, char *line, size_t capacity) {
-    const unsigned char *end = *size > 0 ? memchr(*bytes, '\n', *size) : NULL;
-    size_t length = end != NULL ? (size_t)(end - *bytes) : 0;
-    if (end == NULL || length >= capacity)
-        return false;
-    memcpy(line, *bytes, length);
-    line[length] = '\0';
-    *bytes += length + 1;
-    *size -= length + 1;
-    return true;
-}
-
 /* Turns an entry into its binary, at the front of the same memory. */
 static bool open_entry(HdKernelCache *cache, unsigned char *entry, size_t *size) {
-    char stamp[64];
-    unsigned char *rest = entry;
-    if (!take_line(&rest, size, stamp, sizeof stamp) || strcmp(stamp, stamp_of(cache)) != 0 ||
-        !take_line(&rest, size, cache->maker, sizeof cache->maker) || *size == 0)
+    Head head;
+    if (*size <= sizeof head)
         return false;
-    memmove(entry, rest, *size);
+    memcpy(&head, entry, sizeof head);
+    if (strncmp(head.stamp, stamp_of(cache), sizeof head.stamp) != 0)
+        return false;
+    snprintf(cache->maker, sizeof cache->maker, "%.*s", (int)sizeof head.maker - 1, head.maker);
+    *size -= sizeof head;
+    memmove(entry, entry + sizeof head, *size);
     return true;
 }
 
 static HdStatus store_binary(const HdKernelCache *cache, const unsigned char *binary, size_t size,
                              HdError *error) {
-    size_t capacity = strlen(stamp_of(cache)) + sizeof cache->maker + 2 + size;
-    char *entry = malloc(capacity);
+    Head head = {.stamp = ""};
+    unsigned char *entry = malloc(sizeof head + size);
     if (entry == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for compiled kernels");
-    int length = snprintf(entry, capacity, "%s\n%s\n", stamp_of(cache), cache->maker);
-    memcpy(entry + length, binary, size);
-    HdStatus status = hd_cache_put(cache->backend, cache->key, entry, (size_t)length + size, error);
+    snprintf(head.stamp, sizeof head.stamp, "%s", stamp_of(cache));
+    memcpy(head.maker, cache->maker, sizeof head.maker);
+    memcpy(entry, &head, sizeof head);
+    memcpy(entry + sizeof head, binary, size);
+    HdStatus status = hd_cache_put(cache->backend, cache->key, entry, sizeof head + size, error);
     free(entry);
     return status;
 }
@@ -63,62 +62,50 @@ static HdStatus store_binary(const HdKernelCache *cache, const unsigned char *bi
 static HdStatus store(const HdKernelCache *cache, HdError *error) {
     char folder[HD_MAX_PATH];
     size_t size = 0;
-    HdStatus status = hd_cache_folder(folder, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_cache_folder(folder, error));
     unsigned char *binary = cache->key[0] != '\0' ? cache->read(cache->context, &size) : NULL;
-    status = binary != NULL && size > 0
-                 ? store_binary(cache, binary, size, error)
-                 : hd_fail(error, HD_UNAVAILABLE, "the driver does not hand them out");
+    HdStatus status = binary != NULL && size > 0
+                          ? store_binary(cache, binary, size, error)
+                          : hd_fail(error, HD_UNAVAILABLE, "the driver does not hand them out");
     free(binary);
     return status;
 }
 
-/* ---- notes ---- */
-
 static void add_note(HdKernelCache *cache, const char *text) {
-    size_t length = strlen(cache->note);
-    snprintf(cache->note + length, sizeof cache->note - length, "%s%s", length > 0 ? "; " : "",
-             text);
-}
-
-static void note_found(HdKernelCache *cache) {
-    char folder[HD_MAX_PATH];
-    HdError ignored;
-    hd_cache_folder(folder, &ignored);
-    snprintf(cache->note, sizeof cache->note, "taken from %.900s%s%s", folder,
-             cache->maker[0] != '\0' ? ", made by " : "", cache->maker);
+    hd_add_text(cache->note, sizeof cache->note, "; ", "%s", text);
 }
 
 /* ---- finding and keeping ---- */
 
-bool hd_kernel_cache_key(const HdKernelCache *cache, const void *source, size_t source_size,
-                         const char *options, const char *driver, char *key, size_t capacity) {
+/* False, and no key, where there is no room for all of it. */
+static bool write_key(HdKernelCache *cache, const void *source, size_t source_size,
+                      const char *options, const char *driver) {
     int length =
-        snprintf(key, capacity,
+        snprintf(cache->key, sizeof cache->key,
                  "hedron %s\nkernels %016" PRIx64 ", %zu bytes\noptions %s\ndevice %s\ndriver %s\n",
                  HD_VERSION, hd_hash_bytes(HD_HASH_START, source, source_size), source_size,
                  options, cache->device, driver);
-    if (length >= 0 && (size_t)length < capacity)
-        return true;
-    key[0] = '\0';
-    return false;
+    const bool has_room = length >= 0 && (size_t)length < sizeof cache->key;
+    if (!has_room)
+        cache->key[0] = '\0';
+    return has_room;
 }
 
 bool hd_kernel_cache_find(HdKernelCache *cache, const void *source, size_t source_size,
                           const char *options, const char *driver, unsigned char **binary,
                           size_t *size) {
+    char folder[HD_MAX_PATH];
     HdError error;
     cache->is_untested = false;
     cache->note[0] = cache->maker[0] = '\0';
-    if (!hd_kernel_cache_key(cache, source, source_size, options, driver, cache->key,
-                             sizeof cache->key)) {
-        *binary = NULL;
+    *binary = NULL;
+    if (!write_key(cache, source, source_size, options, driver))
         return false;
-    }
     HdStatus status = hd_cache_get(cache->backend, cache->key, binary, size, &error);
     if (status == HD_OK && open_entry(cache, *binary, size)) {
-        note_found(cache);
+        hd_cache_folder(folder, &error);
+        snprintf(cache->note, sizeof cache->note, "taken from %.900s%s%s", folder,
+                 cache->maker[0] != '\0' ? ", made by " : "", cache->maker);
         return true;
     }
     if (status == HD_OK)
@@ -138,11 +125,9 @@ void hd_kernel_cache_refuse(HdKernelCache *cache, const char *reason) {
 
 void hd_kernel_cache_compiled(HdKernelCache *cache, HdKernelReader *read, const void *context,
                               const char *maker, double seconds) {
-    char text[160];
     snprintf(cache->maker, sizeof cache->maker, "%s", maker);
-    snprintf(text, sizeof text, "compiled in %.0f ms%s%s", 1e3 * seconds,
-             maker[0] != '\0' ? " by " : "", cache->maker);
-    add_note(cache, text);
+    hd_add_text(cache->note, sizeof cache->note, "; ", "compiled in %.0f ms%s%s", 1e3 * seconds,
+                maker[0] != '\0' ? " by " : "", cache->maker);
     cache->is_untested = true;
     cache->read = read;
     cache->context = context;
@@ -158,4 +143,45 @@ void hd_kernel_cache_accept(HdKernelCache *cache) {
     add_note(cache, stored ? "cached" : "not cached");
     if (!stored)
         add_note(cache, error.message);
+}
+
+/* ---- the arithmetic of devices: one of these, or a word and what is wrong ---- */
+
+enum { KEY_LENGTH = 1024 };
+
+static const char kind[] = "arithmetic", right[] = "right", by_fma[] = "right with division by fma",
+                  wrong[] = "wrong: ";
+
+static void write_device_key(char key[KEY_LENGTH], const char *device, const char *driver,
+                             HdPrecision precision) {
+    uint64_t hash = hd_hash_bytes(HD_HASH_START, hd_opencl_source, hd_opencl_source_size);
+    hash = hd_hash_bytes(hash, hd_cuda_source, hd_cuda_source_size);
+    snprintf(key, KEY_LENGTH, "hedron %s, kernels %016" PRIx64 "\ndevice %s\ndriver %s\n%s\n",
+             HD_VERSION, hash, device, driver,
+             precision == HD_PRECISION_DOUBLE ? "double" : "float");
+}
+
+void hd_arithmetic_remember(const char *device, const char *driver, HdPrecision precision,
+                            const HdArithmetic *found) {
+    char key[KEY_LENGTH], text[sizeof wrong + sizeof found->difference];
+    HdError ignored;
+    write_device_key(key, device, driver, precision);
+    snprintf(text, sizeof text, "%s", found->rounds_by_fma ? by_fma : right);
+    if (found->difference[0] != '\0')
+        snprintf(text, sizeof text, "%s%s", wrong, found->difference);
+    hd_cache_put_text(kind, key, text, &ignored);
+}
+
+bool hd_arithmetic_recall(const char *device, const char *driver, HdPrecision precision,
+                          HdArithmetic *known) {
+    char key[KEY_LENGTH], text[sizeof wrong + sizeof known->difference];
+    HdError ignored;
+    write_device_key(key, device, driver, precision);
+    *known = (HdArithmetic){.difference = ""};
+    if (hd_cache_get_text(kind, key, text, sizeof text, &ignored) != HD_OK)
+        return false;
+    known->rounds_by_fma = strcmp(text, by_fma) == 0;
+    if (strncmp(text, wrong, strlen(wrong)) == 0)
+        snprintf(known->difference, sizeof known->difference, "%.511s", text + strlen(wrong));
+    return known->difference[0] != '\0' || known->rounds_by_fma || strcmp(text, right) == 0;
 }

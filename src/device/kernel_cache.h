@@ -9,7 +9,6 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "device/backend.h"
 #include "device/kernel_source.h"
 
 enum { HD_KERNEL_KEY_LENGTH = 4096 };
@@ -17,7 +16,7 @@ enum { HD_KERNEL_KEY_LENGTH = 4096 };
 /* Hands out the binary of compiled kernels, the caller's to free; NULL where that cannot be. */
 typedef unsigned char *HdKernelReader(const void *context, size_t *size);
 
-struct HdKernelCache {
+typedef struct HdKernelCache {
     const char *backend;
     char device[640];               /* name and driver, a part of every key */
     HdKernelShape shape;            /* of the kernels; the renderer's to set */
@@ -29,16 +28,11 @@ struct HdKernelCache {
     bool is_on_trial;               /* they may render meanwhile */
     HdKernelReader *read;           /* until they are accepted, */
     const void *context;            /* with this */
-};
+} HdKernelCache;
 
-/* For one device. There is nothing to free. */
-void hd_kernel_cache_begin(HdKernelCache *cache, const HdDevice *device);
-
-/* Writes the key of what depends on kernels; false where there is no room for all of it. `source`
-   and `options` are all that they are compiled from, `driver` what else they depend on, apart from
-   the device. */
-bool hd_kernel_cache_key(const HdKernelCache *cache, const void *source, size_t source_size,
-                         const char *options, const char *driver, char *key, size_t capacity);
+/* For a device, by its name and driver. There is nothing to free. */
+void hd_kernel_cache_begin(HdKernelCache *cache, const char *backend, const char *device,
+                           const char *driver);
 
 /* Looks for kernels: `source` and `options` are all that they are compiled from, `driver` what else
    they depend on, apart from the device. True where they are there; `*binary` is the caller's to
@@ -57,5 +51,20 @@ void hd_kernel_cache_compiled(HdKernelCache *cache, HdKernelReader *read, const 
 
 /* The compiled kernels are in order: stores them, if that can be. */
 void hd_kernel_cache_accept(HdKernelCache *cache);
+
+/* ---- what the probe found of a device's arithmetic (verify/probe.h), kept by the device's name,
+   its driver, the kernels and the version of this program ---- */
+
+typedef struct HdArithmetic {
+    bool rounds_by_fma;   /* division and roots are right only if they are made of fma */
+    char difference[512]; /* what was wrong first; "": nothing was */
+} HdArithmetic;
+
+void hd_arithmetic_remember(const char *device, const char *driver, HdPrecision precision,
+                            const HdArithmetic *found);
+
+/* False where nothing is remembered. */
+bool hd_arithmetic_recall(const char *device, const char *driver, HdPrecision precision,
+                          HdArithmetic *known);
 
 #endif

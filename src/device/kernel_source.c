@@ -71,24 +71,22 @@ const char *hd_kernel_name(const HdKernelShape *shape, HdKernel kernel) {
     }
 }
 
-int hd_kernel_bound(int count) {
+/* A bound that scenes of similar size share, so that one build serves them all: the least power of
+   two that is at least 8 and `count`. */
+static int bound_for(int count) {
     int bound = 8;
     while (bound < count)
         bound *= 2;
     return bound;
 }
 
-/* Deep enough for nearly all meshes, so that few builds differ in it. */
-static int stack_bound(int count) {
-    enum { USUAL = 32 };
-    return hd_kernel_bound(hd_max(count, USUAL));
-}
-
 HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables) {
+    enum { USUAL_STACK = 32 }; /* deep enough for nearly all meshes: few builds differ in it */
+    const int stack = bound_for(hd_max(tables->node_stack, USUAL_STACK));
     return (HdKernelNeeds){
-        .plane_bound = hd_kernel_bound(tables->plane_count),
-        .depth_bound = hd_kernel_bound(tables->depth),
-        .node_stack_bound = tables->node_stack > 0 ? stack_bound(tables->node_stack) : 0,
+        .plane_bound = bound_for(tables->plane_count),
+        .depth_bound = bound_for(tables->depth),
+        .node_stack_bound = tables->node_stack > 0 ? stack : 0,
         .refracts = tables->refracts,
         .lit_from_behind = tables->lit_from_behind,
         /* With meshes too, branches would nest too deeply (docs/lost-light.md). */

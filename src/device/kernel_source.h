@@ -36,18 +36,14 @@ typedef struct HdKernelShape {
     HdPrecision precision;
     HdMath math;
     int register_limit; /* of a thread on an NVIDIA device; 0: the compiler's own */
-    int ptx_arch;       /* CUDA: compiled to PTX for compute_ of that number, and by the driver from
-                           there on; 0: to the device's machine code */
+    int ptx_arch;       /* CUDA: PTX for compute_ of that number; 0: the device's machine code */
     bool is_probe;      /* the kernel of the probe (verify/probe.h) and no others */
-    bool rounds_by_fma; /* division and roots are made of fused operations: those of the device are
-                           not correctly rounded */
+    bool rounds_by_fma; /* division and roots are fused operations: the device's round wrongly */
 } HdKernelShape;
 
-/* The limit for a shape on an NVIDIA device of that architecture (61: sm_61): `asked`, or, where
-   that is 0, what suits. NVIDIA's compilers take so many registers, left alone, that few threads
-   are in flight. On an H100 128 is the best, or 96 for floats where there are many lights or
-   meshes, spills and all. A block's threads share 65536 registers, so that large blocks get fewer.
- */
+/* The limit for a shape on sm_`nvidia_arch`: `asked`, or, if that is 0, what suits. Left alone,
+   NVIDIA's compilers take so many registers that few threads are in flight. On an H100 128 is best,
+   or 96 for floats with many lights or meshes, spills and all. A block's threads share 65536. */
 int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked);
 
 enum { HD_KERNEL_DEFINES_SIZE = 512 };
@@ -68,11 +64,7 @@ typedef enum HdKernel {
 /* What the kernel is called in the text; NULL: the shape has none. */
 const char *hd_kernel_name(const HdKernelShape *shape, HdKernel kernel);
 
-/* A bound that scenes of similar size share, so that one build serves them all: the least power of
-   two that is at least 8 and `count`. */
-int hd_kernel_bound(int count);
-
-/* What a scene needs, its numbers rounded up by hd_kernel_bound. */
+/* What a scene needs, its numbers rounded up for scenes of similar size to share a build. */
 HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables);
 bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b);
 

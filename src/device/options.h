@@ -6,7 +6,6 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/error.h"
 #include "tables/tables.h"
 
 typedef enum HdMath { HD_MATH_STRICT, HD_MATH_FAST } HdMath;
@@ -51,8 +50,8 @@ typedef struct HdRenderOptions {
     HdPipeline pipeline;
     bool first_hits;     /* frames may be asked for what is met first (hd_renderer_first_hits). No
                             option of the command line */
-    bool has_deep_trees; /* hd_scene_has_deep_trees of the scene that is to be rendered; counts
-                            where the pipeline is left open. No option of the command line */
+    bool has_deep_trees; /* hd_scene_has_deep_trees of the scene, for a pipeline that is left open.
+                            No option of the command line */
     struct {
         bool groups;        /* an OpenCL CPU is used as a GPU is: one lane, groups of threads */
         size_t queue_bytes; /* of a wavefront's queue, on CPUs of each thread's; 0: what suits the
@@ -69,7 +68,7 @@ bool hd_pipeline_is_wavefront(HdPipeline pipeline);
 /* As on the command line, by HdPipeline; NULL ends them. */
 extern const char *const hd_pipeline_names[HD_PIPELINE_COUNT + 1];
 
-/* HD_BAD_INPUT where a number of the options is none that any device can have. */
-HdStatus hd_render_options_check(const HdRenderOptions *options, HdError *error);
+/* Whether all numbers are some that a device can have. */
+bool hd_render_options_are_possible(const HdRenderOptions *options);
 
 #endif

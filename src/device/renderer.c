@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: MIT */
-/* The checks that every backend relies on. */
 #include "device/renderer.h"
 
 #include <limits.h>
@@ -18,31 +17,20 @@ struct HdRenderer {
     bool has_failed;
     double longest_launch; /* seconds; negative: none is known */
     int in_flight;
-    struct {
-        const HdFrameTables *tables;
-        bool wants_radiance;
-    } flights[HD_FRAMES_IN_FLIGHT]; /* the oldest first */
+    const HdFrameTables *flights[HD_FRAMES_IN_FLIGHT]; /* the oldest first */
 };
-
-/* Says which backend failed, if it did. */
-static HdStatus name_backend(const HdBackend *backend, HdStatus status, HdError *error) {
-    if (status != HD_OK)
-        hd_error_prefix(error, backend->name);
-    return status;
-}
 
 HdStatus hd_renderer_fail(HdRenderer *renderer, HdStatus status, HdError *error) {
     if (status != HD_OK && status != HD_INTERRUPTED)
         renderer->has_failed = true;
-    return name_backend(renderer->backend, status, error);
+    if (status != HD_OK)
+        hd_error_prefix(error, renderer->backend->name);
+    return status;
 }
 
 HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
                           const HdRenderOptions *options, HdError *error) {
     *renderer = NULL;
-    HdStatus status = hd_render_options_check(options, error);
-    if (status != HD_OK)
-        return status;
     const char *obstacle = hd_device_obstacle(device, options);
     if (obstacle != NULL)
         return hd_fail(error, HD_UNAVAILABLE, "%s: %s cannot do this: %s", device->backend->name,
@@ -55,32 +43,15 @@ HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
     opened->device = *device;
     opened->options = *options;
     opened->options.pipeline = hd_choose_pipeline(device, options, NULL);
-    status = opened->backend->functions->open(device, &opened->options, &opened->state, error);
-    if (status != HD_OK) {
-        free(opened);
-        return name_backend(device->backend, status, error);
+    HdStatus status =
+        opened->backend->functions->open(device, &opened->options, &opened->state, error);
+    if (status == HD_OK) {
+        *renderer = opened;
+        return HD_OK;
     }
-    *renderer = opened;
-    return HD_OK;
-}
-
-static HdStatus check_tables(const HdTable *table, int count, int expected, const char *what,
-                             HdError *error) {
-    if (count != expected)
-        return hd_fail(error, HD_BAD_INPUT, "a %s has %d tables, not %d", what, expected, count);
-    for (int i = 0; i < count; i++)
-        if (table[i].bytes > 0 && !table[i].data)
-            return hd_fail(error, HD_BAD_INPUT, "table %d of the %s has %zu bytes and no data", i,
-                           what, table[i].bytes);
-    return HD_OK;
-}
-
-static HdStatus check_precision(const HdRenderer *renderer, HdPrecision precision, const char *what,
-                                HdError *error) {
-    if (precision != renderer->options.precision)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "the tables of the %s are not in the precision of the renderer", what);
-    return HD_OK;
+    hd_error_prefix(error, device->backend->name);
+    free(opened);
+    return status;
 }
 
 HdKernelCache *hd_renderer_kernels(const HdRenderer *renderer) {
@@ -113,42 +84,14 @@ HdStatus hd_renderer_compute(HdRenderer *renderer, const HdProbeBatch *batch,
     return hd_renderer_fail(renderer, status, error);
 }
 
-/* Must hold for `what` to be done. */
-static HdStatus check_in_flight(const HdRenderer *renderer, int most, const char *what,
-                                HdError *error) {
-    if (renderer->in_flight > most)
-        return hd_fail(error, HD_BAD_INPUT, "%s while %d frames were under way, at most %d may be",
-                       what, renderer->in_flight, most);
-    return HD_OK;
-}
-
 HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, HdError *error) {
-    HdStatus status =
-        check_tables(tables->table, tables->table_count, HD_SCENE_TABLE_COUNT, "scene", error);
-    if (status == HD_OK)
-        status = check_in_flight(renderer, 0, "a scene was uploaded", error);
-    if (status == HD_OK)
-        status = check_precision(renderer, tables->precision, "scene", error);
-    if (status == HD_OK && tables->lanes != hd_renderer_lanes(renderer))
-        status = hd_fail(error, HD_BAD_INPUT, "a scene was compiled for %d lanes, not %d",
-                         tables->lanes, hd_renderer_lanes(renderer));
-    if (status == HD_OK &&
-        (tables->plane_count < 0 || tables->depth < 0 || tables->depth > HD_MAX_DEPTH))
-        status = hd_fail(error, HD_BAD_INPUT, "a scene cannot have %d planes and the depth %d",
-                         tables->plane_count, tables->depth);
-    if (status != HD_OK)
-        return status;
-    renderer->has_scene = false;
-    status = renderer->backend->functions->upload(renderer->state, tables, error);
+    HdStatus status = renderer->backend->functions->upload(renderer->state, tables, error);
     renderer->has_scene = status == HD_OK;
     return hd_renderer_fail(renderer, status, error);
 }
 
 /* Kernels count work items and the values of a picture in int, whole blocks at a time. */
 static HdStatus check_size(int width, int height, HdError *error) {
-    if (width < 1 || height < 1 || width > HD_MAX_IMAGE_SIDE || height > HD_MAX_IMAGE_SIDE)
-        return hd_fail(error, HD_BAD_INPUT, "a frame of %d x %d pixels is not possible: 1 to %d",
-                       width, height, (int)HD_MAX_IMAGE_SIDE);
     int64_t columns = (width + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
     int64_t rows = (height + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
     int64_t limit = INT_MAX / 3 / HD_BLOCK_PIXELS;
@@ -166,41 +109,16 @@ static HdStatus check_frame_tables(const HdRenderer *renderer, const HdFrameTabl
     const HdKernelCache *kernels = hd_renderer_kernels(renderer);
     if (kernels != NULL && kernels->is_untested && !kernels->is_on_trial)
         return hd_fail(error, HD_BAD_INPUT, "a frame was asked for by kernels that are not tested");
-    HdStatus status =
-        check_tables(tables->table, tables->table_count, HD_FRAME_TABLE_COUNT, "frame", error);
-    if (status == HD_OK)
-        status = check_precision(renderer, tables->precision, "frame", error);
-    return status == HD_OK ? check_size(tables->width, tables->height, error) : status;
-}
-
-static HdStatus check_room(const HdFrame *frame, const HdFrameTables *tables, bool wants_radiance,
-                           HdError *error) {
-    if (frame->floats != tables->floats)
-        return hd_fail(error, HD_BAD_INPUT, "a frame of %d floats a pixel was given for one of %d",
-                       frame->floats, tables->floats);
-    if (!frame->rgb || frame->width != tables->width || frame->height != tables->height)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "a frame of %d x %d pixels was given for one of %d x %d", frame->width,
-                       frame->height, tables->width, tables->height);
-    if (!frame->rgba && !wants_radiance)
-        return hd_fail(error, HD_BAD_INPUT, "a frame was given that has no room for 8 bits");
-    return HD_OK;
+    return check_size(tables->width, tables->height, error);
 }
 
 HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
                             const HdFrameWish *wish, HdError *error) {
-    HdStatus status = check_frame_tables(renderer, tables, error);
+    HD_TRY(check_frame_tables(renderer, tables, error));
+    HdStatus status = renderer->backend->functions->submit(renderer->state, tables, wish, error);
     if (status == HD_OK)
-        status = check_in_flight(renderer, HD_FRAMES_IN_FLIGHT - 1, "a frame was asked for", error);
-    if (status != HD_OK)
-        return status;
-    status = renderer->backend->functions->submit(renderer->state, tables, wish, error);
-    if (status != HD_OK)
-        return hd_renderer_fail(renderer, status, error);
-    int place = renderer->in_flight++;
-    renderer->flights[place].tables = tables;
-    renderer->flights[place].wants_radiance = wish->radiance;
-    return HD_OK;
+        renderer->flights[renderer->in_flight++] = tables;
+    return hd_renderer_fail(renderer, status, error);
 }
 
 double hd_renderer_take_longest_launch(HdRenderer *renderer) {
@@ -210,13 +128,8 @@ double hd_renderer_take_longest_launch(HdRenderer *renderer) {
 }
 
 HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *error) {
-    if (renderer->in_flight == 0)
-        return hd_fail(error, HD_BAD_INPUT, "a frame was collected and none was under way");
-    const HdFrameTables *tables = renderer->flights[0].tables;
-    HdStatus status = check_room(frame, tables, renderer->flights[0].wants_radiance, error);
-    if (status != HD_OK)
-        return status;
-    status = renderer->backend->functions->collect(renderer->state, tables, frame, error);
+    HdStatus status =
+        renderer->backend->functions->collect(renderer->state, renderer->flights[0], frame, error);
     if (status == HD_OK && frame->longest_launch > renderer->longest_launch)
         renderer->longest_launch = frame->longest_launch;
     renderer->in_flight--;
@@ -227,15 +140,9 @@ HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *erro
 
 HdStatus hd_renderer_first_hits(HdRenderer *renderer, const HdFrameTables *tables, HdFrame *frame,
                                 HdError *error) {
-    HdStatus status = check_frame_tables(renderer, tables, error);
-    if (status != HD_OK)
-        return status;
-    if (!renderer->options.first_hits)
-        return hd_fail(error, HD_BAD_INPUT, "a renderer was not opened for what is met first");
-    if (frame->first == NULL || frame->width != tables->width || frame->height != tables->height)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "a frame was given that has no room for what is met first");
-    status = renderer->backend->functions->first_hits(renderer->state, tables, frame, error);
+    HD_TRY(check_frame_tables(renderer, tables, error));
+    HdStatus status =
+        renderer->backend->functions->first_hits(renderer->state, tables, frame, error);
     return hd_renderer_fail(renderer, status, error);
 }
 
@@ -252,14 +159,8 @@ void hd_renderer_drop(HdRenderer *renderer) {
 HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, HdFrame *frame,
                             HdError *error) {
     static const HdFrameWish radiance = {.radiance = true};
-    HdStatus status = check_frame_tables(renderer, tables, error);
-    if (status == HD_OK)
-        status = check_room(frame, tables, true, error);
-    if (status == HD_OK)
-        status = check_in_flight(renderer, 0, "a frame was rendered", error);
-    if (status == HD_OK)
-        status = hd_renderer_submit(renderer, tables, &radiance, error);
-    return status == HD_OK ? hd_renderer_collect(renderer, frame, error) : status;
+    HD_TRY(hd_renderer_submit(renderer, tables, &radiance, error));
+    return hd_renderer_collect(renderer, frame, error);
 }
 
 const HdDevice *hd_renderer_device(const HdRenderer *renderer) {
@@ -275,9 +176,6 @@ int hd_renderer_lanes(const HdRenderer *renderer) {
 }
 
 void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity) {
-    if (capacity < 1)
-        return;
-    text[0] = '\0';
     renderer->backend->functions->describe(renderer->state, text, capacity);
 }
 

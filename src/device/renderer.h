@@ -18,17 +18,16 @@ HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
 /* Users' scenes come by verify/trust.h, which looks at kernels that were compiled for them. */
 HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, HdError *error);
 
-/* Begins a frame, so that the device works on it while the caller does other things; at most
-   HD_FRAMES_IN_FLIGHT are under way. The tables must live until the frame is collected or dropped;
-   on failure they need not, and the earlier frames are still under way. HD_BAD_INPUT, as of
-   hd_renderer_first_hits, where the kernels are compiled anew and neither accepted nor on trial
-   (kernel_cache.h). */
+/* Begins a frame, for the device to work on meanwhile; fewer than HD_FRAMES_IN_FLIGHT are under
+   way. The tables must live until the frame is collected or dropped; after a failure they need not,
+   and earlier frames are still under way. HD_BAD_INPUT, as of hd_renderer_first_hits, for too large
+   a picture and for kernels that are neither accepted nor on trial (kernel_cache.h). */
 HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
                             const HdFrameWish *wish, HdError *error);
 
-/* Waits for the oldest frame under way; whatever comes of it, it is so no longer. `frame` must have
-   its size, and `rgba` unless radiance was wished for. HD_INTERRUPTED where a signal came first
-   (interrupt.h), or whoever watches wants it no more (watch.h). */
+/* Waits for the oldest frame under way, of which there must be one, and retires it, even on
+   failure. `frame` must have its size, and `rgba` unless radiance was wished for. HD_INTERRUPTED
+   after a signal (interrupt.h), or if whoever watches wants it no more (watch.h). */
 HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *error);
 
 /* Fills the frame's `first`, which it must have (hd_frame_add_layers), with what is met first in

@@ -34,58 +34,47 @@ typedef struct Part {
 
 static HdCertificateTest *begin_test(const Part *part, const char *what, const char *by) {
     HdCertificateTest *test = &part->certificate->tests[part->certificate->test_count++];
-    *test = (HdCertificateTest){.verdict = HD_VERDICT_RIGHT, .seconds = -hd_monotonic_seconds()};
+    *test = (HdCertificateTest){.seconds = -hd_monotonic_seconds()};
     snprintf(test->name, sizeof test->name, "%s %s%s%s", what,
              precision_names[part->options.precision], by,
              by[0] != '\0' ? hd_pipeline_names[part->options.pipeline] : "");
     return test;
 }
 
-static void end_test(const Part *part, HdCertificateTest *test, HdVerdict verdict,
-                     const char *reason) {
+/* `wrong` is what differs first; "": nothing does. Returns `status`. */
+static HdStatus end_test(const Part *part, HdCertificateTest *test, const char *wrong,
+                         HdStatus status, const HdError *error) {
     HdCertificate *certificate = part->certificate;
-    test->verdict = verdict;
+    const char *reason = status != HD_OK ? error->message : "";
+    test->verdict = status != HD_OK ? HD_VERDICT_UNTESTED : HD_VERDICT_RIGHT;
+    if (wrong[0] != '\0') {
+        test->verdict = HD_VERDICT_WRONG;
+        reason = wrong;
+    }
     snprintf(test->reason, sizeof test->reason, "%.2000s", reason);
     test->seconds += hd_monotonic_seconds();
-    if (certificate->verdict == HD_VERDICT_RIGHT || verdict == HD_VERDICT_WRONG)
-        certificate->verdict = verdict;
-}
-
-/* Where `reason` is what is wrong, "": nothing. */
-static HdStatus end_by(const Part *part, HdCertificateTest *test, const char *reason,
-                       HdStatus status, const HdError *error) {
-    if (reason[0] != '\0')
-        end_test(part, test, HD_VERDICT_WRONG, reason);
-    else if (status != HD_OK)
-        end_test(part, test, HD_VERDICT_UNTESTED, error->message);
-    else
-        end_test(part, test, HD_VERDICT_RIGHT, "");
+    if (certificate->verdict == HD_VERDICT_RIGHT || test->verdict == HD_VERDICT_WRONG)
+        certificate->verdict = test->verdict;
     return status;
 }
 
 static HdStatus test_arithmetic(const Part *part, HdError *error) {
-    HdProbeReport report = {.difference = ""};
+    HdProbeReport report = {0};
     const int tuples = part->effort == HD_TEST_QUICK ? HD_PROBE_QUICK : HD_PROBE_WHOLE;
     HdCertificateTest *test = begin_test(part, "arithmetic in", "");
     HdStatus status = hd_probe(part->renderer, tuples, &report, error);
     if (status == HD_OK) {
         test->tuples = report.tuples;
-        test->by_fma = report.rounds_by_fma;
+        test->by_fma = report.found.rounds_by_fma;
         test->hash = report.hash;
     }
-    return end_by(part, test, report.difference, status, error);
+    return end_test(part, test, report.found.difference, status, error);
 }
 
 /* ---- golden frames ---- */
 
 static HdStatus build_golden(const void *what, HdScene *scene, HdCamera *camera, HdError *error) {
     return hd_golden_build(what, scene, camera, error);
-}
-
-static bool is_quick(const HdScene *scene) {
-    int64_t side = scene->samples_per_side;
-    return !hd_scene_is_surveyed(scene) &&
-           scene->width * scene->height * side * side <= MOST_QUICK_SAMPLES;
 }
 
 typedef struct GoldenTest {
@@ -97,37 +86,39 @@ typedef struct GoldenTest {
     uint64_t found, expected; /* hashes of the first wrong one */
 } GoldenTest;
 
+/* If it is surveyed or not, and small enough. */
+static bool is_wanted(const GoldenTest *golden, const HdScene *scene, bool is_surveyed) {
+    const int64_t side = scene->samples_per_side;
+    return hd_scene_is_surveyed(scene) == is_surveyed &&
+           (golden->part->effort != HD_TEST_QUICK ||
+            scene->width * scene->height * side * side <= MOST_QUICK_SAMPLES);
+}
+
 static void judge_golden(GoldenTest *golden, const HdGoldenFrame *frame, uint64_t hash) {
-    HdGoldenHashes expected = {0};
+    HdGoldenHashes expected;
     golden->test->frames++;
     golden->test->hash = hd_hash_bytes(golden->test->hash, &hash, sizeof hash);
-    if (hd_golden_find_hashes(frame->name, golden->part->options.precision, &expected) &&
-        hash == expected.frame)
-        return;
-    if (golden->wrong++ > 0)
+    hd_golden_find_hashes(frame->name, golden->part->options.precision, &expected);
+    if (hash == expected.frame || golden->wrong++ > 0)
         return;
     golden->first_wrong = frame;
     golden->found = hash;
     golden->expected = expected.frame;
 }
 
-/* If it is surveyed or not. */
 static HdStatus render_golden(GoldenTest *golden, const HdGoldenFrame *frame, bool is_surveyed,
                               HdError *error) {
     HdScene scene;
     HdCamera camera;
     HdFrame image;
-    HdStatus status = hd_golden_build(frame, &scene, &camera, error);
-    if (status != HD_OK)
-        return status;
-    if (hd_scene_is_surveyed(&scene) == is_surveyed &&
-        (golden->part->effort != HD_TEST_QUICK || is_quick(&scene))) {
-        status = hd_put_and_render(golden->part->renderer, &scene, &camera, golden->like, 0, &image,
-                                   error);
-        if (status == HD_OK) {
-            judge_golden(golden, frame, hd_frame_hash(&image));
-            hd_frame_free(&image);
-        }
+    HD_TRY(hd_golden_build(frame, &scene, &camera, error));
+    const bool renders = is_wanted(golden, &scene, is_surveyed);
+    HdStatus status = renders ? hd_put_and_render(golden->part->renderer, &scene, &camera,
+                                                  golden->like, 0, &image, error)
+                              : HD_OK;
+    if (renders && status == HD_OK) {
+        judge_golden(golden, frame, hd_frame_hash(&image));
+        hd_frame_free(&image);
     }
     hd_scene_free(&scene);
     return status;
@@ -136,12 +127,11 @@ static HdStatus render_golden(GoldenTest *golden, const HdGoldenFrame *frame, bo
 /* By the same kernels, which are kept if all frames are right. */
 static HdStatus render_all(GoldenTest *golden, bool are_surveyed, HdError *error) {
     HdKernelCache *kernels = hd_renderer_kernels(golden->part->renderer);
-    HdStatus status = HD_OK;
-    for (int i = 0; status == HD_OK && i < hd_golden_frame_count; i++)
-        status = render_golden(golden, &hd_golden_frames[i], are_surveyed, error);
-    if (status == HD_OK && kernels != NULL && golden->wrong == 0)
+    for (int i = 0; i < hd_golden_frame_count; i++)
+        HD_TRY(render_golden(golden, &hd_golden_frames[i], are_surveyed, error));
+    if (kernels != NULL && golden->wrong == 0)
         hd_kernel_cache_accept(kernels);
-    return status;
+    return HD_OK;
 }
 
 /* What there is to say where a frame is wrong. */
@@ -170,7 +160,7 @@ static HdStatus test_golden(const Part *part, HdError *error) {
         status = render_all(&golden, true, error);
     if (golden.wrong > 0)
         tell_golden(&golden, reason, sizeof reason);
-    return end_by(part, golden.test, reason, status, error);
+    return end_test(part, golden.test, reason, status, error);
 }
 
 /* ---- random scenes ---- */
@@ -186,29 +176,22 @@ static HdStatus test_random_scenes(const Part *part, HdError *error) {
     HdCertificateTest *test = begin_test(part, "random scenes in", " by ");
     HdStatus status = hd_random_test(&random, &result, error);
     test->frames = result.scenes;
-    return end_by(part, test, result.text, status, error);
+    return end_test(part, test, result.text, status, error);
 }
 
 /* ---- the certificate ---- */
-
-/* The arithmetic is the same in all pipelines. */
-static HdStatus test_renderer(const Part *part, HdError *error) {
-    const HdCertificate *certificate = part->certificate;
-    HdStatus status = HD_OK;
-    if (part->options.pipeline == HD_PIPELINE_MEGA && !certificate->device.backend->needs_no_driver)
-        status = test_arithmetic(part, error);
-    if (status == HD_OK && certificate->verdict == HD_VERDICT_RIGHT)
-        status = test_golden(part, error);
-    return status;
-}
 
 static HdStatus test_pipeline(HdCertificate *certificate, const HdRenderOptions *options,
                               HdTestEffort effort, HdError *error) {
     Part part = {.certificate = certificate, .options = *options, .effort = effort};
     HdStatus status = hd_renderer_open(&part.renderer, &certificate->device, &part.options, error);
     if (status != HD_OK)
-        return end_by(&part, begin_test(&part, "opening for", " by "), "", status, error);
-    status = test_renderer(&part, error);
+        return end_test(&part, begin_test(&part, "opening for", " by "), "", status, error);
+    /* The arithmetic is the same in all pipelines. */
+    if (part.options.pipeline == HD_PIPELINE_MEGA && !certificate->device.backend->needs_no_driver)
+        status = test_arithmetic(&part, error);
+    if (status == HD_OK && certificate->verdict == HD_VERDICT_RIGHT)
+        status = test_golden(&part, error);
     const HdKernelCache *kernels = hd_renderer_kernels(part.renderer);
     if (kernels != NULL)
         snprintf(certificate->compiler, sizeof certificate->compiler, "%s", kernels->maker);
@@ -223,12 +206,11 @@ static HdStatus test_precision(HdCertificate *certificate, HdPrecision precision
                                HdTestEffort effort, HdError *error) {
     HdRenderOptions options = {
         .precision = precision, .pipeline = HD_PIPELINE_MEGA, .test.keeps_pipeline = true};
-    HdStatus status = test_pipeline(certificate, &options, effort, error);
+    HD_TRY(test_pipeline(certificate, &options, effort, error));
     options.pipeline = HD_PIPELINE_WAVEFRONT;
-    if (status == HD_OK && effort != HD_TEST_QUICK && certificate->verdict == HD_VERDICT_RIGHT &&
-        hd_device_obstacle(&certificate->device, &options) == NULL)
-        status = test_pipeline(certificate, &options, effort, error);
-    return status;
+    const bool goes_on = effort != HD_TEST_QUICK && certificate->verdict == HD_VERDICT_RIGHT &&
+                         hd_device_obstacle(&certificate->device, &options) == NULL;
+    return goes_on ? test_pipeline(certificate, &options, effort, error) : HD_OK;
 }
 
 HdStatus hd_certify(HdCertificate *certificate, const HdDevice *device, HdTestEffort effort,

@@ -37,12 +37,9 @@ static HdStatus open_sides(Search *search, HdError *error) {
     int count;
     const HdDispute *dispute = search->dispute;
     const HdRenderOptions options = {.precision = dispute->options->precision};
-    HdStatus status = hd_backend_enumerate(hd_backend_always_there(), &plain, 1, &count, error);
-    if (status == HD_OK)
-        status = open_side(search, DEVICE, dispute->device, dispute->options, error);
-    if (status == HD_OK)
-        status = open_side(search, PLAIN_C, &plain, &options, error);
-    return status;
+    HD_TRY(hd_backend_enumerate(hd_backend_always_there(), &plain, 1, &count, error));
+    HD_TRY(open_side(search, DEVICE, dispute->device, dispute->options, error));
+    return open_side(search, PLAIN_C, &plain, &options, error);
 }
 
 static void forget_frames(Search *search) {
@@ -88,19 +85,12 @@ static HdStatus compare(Search *search, int depth, bool splits, bool *differs, H
     return status;
 }
 
-/* Bit by bit: a NaN is the same as itself. */
-static bool is_same_value(float a, float b) {
-    uint32_t bits[2];
-    memcpy(&bits[0], &a, sizeof a);
-    memcpy(&bits[1], &b, sizeof b);
-    return bits[0] == bits[1];
-}
-
-/* The number of the first value that differs in the last comparison, row by row. */
+/* The number of the first value that differs in the last comparison, row by row, bit by bit: a NaN
+   is the same as itself. */
 static int first_value(const Search *search) {
     const HdFrame *found = &search->frames[DEVICE], *expected = &search->frames[PLAIN_C];
     for (int i = 0; i < found->width * found->height * found->floats; i++)
-        if (!is_same_value(found->rgb[i], expected->rgb[i]))
+        if (memcmp(&found->rgb[i], &expected->rgb[i], sizeof *found->rgb) != 0)
             return i;
     return NOWHERE;
 }

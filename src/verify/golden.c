@@ -24,30 +24,15 @@ static void two_lights(HdScene *scene) {
     build_light(scene, 1, hd_vec3(-4.0, -1.0, 3.0), hd_vec3(0.3, 0.4, 0.7));
 }
 
-static bool one_solid(HdScene *scene, HdCamera *camera, HdSolidKind kind) {
+static bool one_solid(HdScene *scene, HdCamera *camera, double kind) {
     if (!build_scene(scene, 64, 48, 2, 5, 1, 2) || !build_texture(&scene->floor.texture, 16, 12))
         return false;
     two_lights(scene);
-    build_solid(scene, 0, kind, hd_vec3(0.1, 0.2, 0.05), 1.2, hd_vec3(0.9, 0.6, 0.3), 3);
+    build_solid(scene, 0, (HdSolidKind)kind, hd_vec3(0.1, 0.2, 0.05), 1.2, hd_vec3(0.9, 0.6, 0.3),
+                3);
     build_square_floor(scene, 4.0, -1.3);
     build_camera(camera, hd_vec3(2.3, -2.9, 1.4), hd_vec3(0.0, 0.0, 0.0), 50.0);
     return true;
-}
-
-static bool tetrahedron(HdScene *scene, HdCamera *camera) {
-    return one_solid(scene, camera, HD_TETRAHEDRON);
-}
-static bool hexahedron(HdScene *scene, HdCamera *camera) {
-    return one_solid(scene, camera, HD_HEXAHEDRON);
-}
-static bool octahedron(HdScene *scene, HdCamera *camera) {
-    return one_solid(scene, camera, HD_OCTAHEDRON);
-}
-static bool dodecahedron(HdScene *scene, HdCamera *camera) {
-    return one_solid(scene, camera, HD_DODECAHEDRON);
-}
-static bool icosahedron(HdScene *scene, HdCamera *camera) {
-    return one_solid(scene, camera, HD_ICOSAHEDRON);
 }
 
 static bool three_solids(HdScene *scene, HdCamera *camera, double spacing) {
@@ -64,24 +49,14 @@ static bool three_solids(HdScene *scene, HdCamera *camera, double spacing) {
     return true;
 }
 
-static bool three_apart(HdScene *scene, HdCamera *camera) {
-    return three_solids(scene, camera, 2.4);
-}
-static bool three_overlapping(HdScene *scene, HdCamera *camera) {
-    return three_solids(scene, camera, 0.7);
-}
-static bool three_textured(HdScene *scene, HdCamera *camera) {
-    return three_solids(scene, camera, 2.0) && build_texture(&scene->floor.texture, 24, 24);
-}
-
-static void eye_inside(HdScene *scene, HdCamera *camera) {
-    (void)scene;
-    build_camera(camera, hd_vec3(2.5, 0.1, 0.2), hd_vec3(0.0, 0.3, 0.0), 80.0);
+static bool three_textured(HdScene *scene, HdCamera *camera, double spacing) {
+    return three_solids(scene, camera, spacing) && build_texture(&scene->floor.texture, 24, 24);
 }
 
 /* Exactly on the face x = 1 of a hexahedron with half-integer centre and edge 2, looking along it
    and inwards at once. */
-static bool eye_on_face(HdScene *scene, HdCamera *camera) {
+static bool eye_on_face(HdScene *scene, HdCamera *camera, double variant) {
+    (void)variant;
     if (!build_scene(scene, 64, 48, 1, 6, 1, 2))
         return false;
     two_lights(scene);
@@ -92,14 +67,10 @@ static bool eye_on_face(HdScene *scene, HdCamera *camera) {
     return true;
 }
 
-static void eye_on_floor_plane(HdScene *scene, HdCamera *camera) {
-    (void)scene;
-    build_camera(camera, hd_vec3(0.5, -4.0, -1.5), hd_vec3(0.0, 0.0, -1.5), 70.0);
-}
-
 /* The middle of the picture is a vertex, and its middle row and column run along edges: odd sizes
    put sample rays exactly there. */
-static bool edges_and_corners(HdScene *scene, HdCamera *camera) {
+static bool edges_and_corners(HdScene *scene, HdCamera *camera, double variant) {
+    (void)variant;
     if (!build_scene(scene, 65, 65, 1, 8, 2, 2))
         return false;
     two_lights(scene);
@@ -112,7 +83,8 @@ static bool edges_and_corners(HdScene *scene, HdCamera *camera) {
     return true;
 }
 
-static bool fifty_edge_lights(HdScene *scene, HdCamera *camera) {
+static bool fifty_edge_lights(HdScene *scene, HdCamera *camera, double variant) {
+    (void)variant;
     if (!build_scene(scene, 48, 36, 2, 6, 1, 0) || !build_texture(&scene->floor.texture, 7, 31))
         return false;
     build_solid(scene, 0, HD_HEXAHEDRON, hd_vec3(0.0, 0.0, 0.2), 1.5, hd_vec3(0.7, 0.4, 0.9), 50);
@@ -122,95 +94,32 @@ static bool fifty_edge_lights(HdScene *scene, HdCamera *camera) {
     return true;
 }
 
-static void tilted_floor(HdScene *scene, HdCamera *camera) {
-    (void)camera;
+static void tilted_floor(HdScene *scene) {
     build_floor(scene, hd_vec3(-4.0, 4.0, -0.5), hd_vec3(4.0, 4.0, -1.5), hd_vec3(4.0, -4.0, -2.5),
                 hd_vec3(-4.0, -4.0, -1.5));
 }
 
-static void trapezoid_floor(HdScene *scene, HdCamera *camera) {
-    (void)camera;
+static void trapezoid_floor(HdScene *scene) {
     build_floor(scene, hd_vec3(-1.0, 5.0, -1.3), hd_vec3(2.0, 4.0, -1.3), hd_vec3(6.0, -4.0, -1.3),
                 hd_vec3(-5.0, -3.0, -1.3));
 }
 
-static void all_of_the_light(HdScene *scene, HdCamera *camera) {
-    (void)camera;
-    scene->width = 40;
-    scene->height = 24;
-    scene->depth = 12;
-    for (int s = 0; s < 3; s++) {
-        scene->solids[s].face.reflection = 0.7;
-        scene->solids[s].face.transmission = 0.3;
+static void white_faces(HdScene *scene) {
+    for (int s = 0; s < scene->solid_count; s++)
         scene->solids[s].face.colour = hd_vec3(1.0, 1.0, 1.0);
-    }
 }
 
-static void mirror_only(HdScene *scene, HdCamera *camera) {
-    (void)camera;
-    scene->depth = 20;
-    for (int s = 0; s < 3; s++) {
-        scene->solids[s].face.reflection = 0.95;
-        scene->solids[s].face.transmission = 0.0;
-    }
-}
-
-static void glass_only(HdScene *scene, HdCamera *camera) {
-    (void)camera;
-    scene->depth = 10;
-    for (int s = 0; s < 3; s++) {
-        scene->solids[s].face.reflection = 0.0;
-        scene->solids[s].face.transmission = 0.9;
-    }
-}
-
-static void one_pixel(HdScene *scene, HdCamera *camera) {
-    (void)camera;
-    scene->width = scene->height = 1;
-    scene->samples_per_side = 7;
-}
-
-static void wide_strip(HdScene *scene, HdCamera *camera) {
-    scene->width = 1023;
-    scene->height = 7;
-    scene->samples_per_side = 1;
-    build_camera(camera, hd_vec3(0.4, -4.5, 1.2), hd_vec3(0.0, 0.0, 0.0), 150.0);
-}
-
-static void right_angle_view(HdScene *scene, HdCamera *camera) {
-    scene->samples_per_side = 3;
-    build_camera(camera, hd_vec3(0.4, -4.5, 1.2), hd_vec3(0.0, 0.0, 0.0), 90.0);
-}
-
-static void widest_view(HdScene *scene, HdCamera *camera) {
-    (void)scene;
-    build_camera(camera, hd_vec3(0.4, -4.5, 1.2), hd_vec3(0.0, 0.0, 0.0), 178.0);
-}
-
-static void cut_off(HdScene *scene, HdCamera *camera) {
-    (void)camera;
-    scene->depth = 12;
+static void cut_off(HdScene *scene) {
     scene->cutoff = 0.02;
     scene->exposure = 1.5;
 }
 
-static void far_from_origin(HdScene *scene, HdCamera *camera) {
-    HdVec3 shift = hd_vec3(16384.0, -8192.0, 4096.0);
-    for (int s = 0; s < 3; s++)
-        scene->solids[s].centre = hd_add(scene->solids[s].centre, shift);
-    for (int i = 0; i < 2; i++)
-        scene->lights[i].position = hd_add(scene->lights[i].position, shift);
-    for (int i = 0; i < 4; i++)
-        scene->floor.corners[i] = hd_add(scene->floor.corners[i], shift);
-    camera->eye = hd_add(camera->eye, shift);
-}
-
-static void clamped(HdScene *scene, HdCamera *camera) {
-    (void)camera;
+static void clamped(HdScene *scene) {
     scene->lights[0].intensity = hd_vec3(1e12, 1e12, 1e12);
 }
 
-static bool empty_scene(HdScene *scene, HdCamera *camera) {
+static bool empty_scene(HdScene *scene, HdCamera *camera, double variant) {
+    (void)variant;
     if (!build_scene(scene, 9, 5, 1, 3, 0, 0))
         return false;
     build_camera(camera, hd_vec3(0.0, -1.0, 0.0), hd_vec3(0.0, 0.0, 0.0), 60.0);
@@ -224,32 +133,26 @@ static void refract(HdSolid *solid, double index, double reflection, double tran
     solid->face.diffuse = 0.05;
 }
 
-static void glass_cube(HdScene *scene, HdCamera *camera) {
-    (void)camera;
+static void glass_cube(HdScene *scene) {
     scene->solids[0].rotation_degrees = hd_vec3(15.0, 25.0, 35.0);
     scene->solids[0].face.colour = hd_vec3(0.9, 0.97, 1.0);
     refract(&scene->solids[0], 1.5, 0.1, 0.85);
-    scene->depth = 8;
 }
 
 /* Most of what is seen was reflected totally. */
-static void eye_inside_glass(HdScene *scene, HdCamera *camera) {
-    glass_cube(scene, camera);
+static void dense_glass(HdScene *scene) {
+    glass_cube(scene);
     refract(&scene->solids[0], 2.4, 0.15, 0.8);
-    scene->samples_per_side = 1;
-    build_camera(camera, hd_vec3(0.2, 0.1, 0.15), hd_vec3(-0.3, 0.9, -0.4), 100.0);
 }
 
 /* An index below 1, as air has in water: total reflection on the outer side. */
-static void bubble(HdScene *scene, HdCamera *camera) {
-    (void)camera;
+static void bubble(HdScene *scene) {
     scene->solids[0].face.colour = hd_vec3(1.0, 1.0, 1.0);
     scene->solids[0].lights.per_edge = 0;
     refract(&scene->solids[0], 0.75, 0.05, 0.9);
 }
 
-static void glass_dodecahedron(HdScene *scene, HdCamera *camera) {
-    (void)camera;
+static void glass_dodecahedron(HdScene *scene) {
     scene->solids[0].face.colour = hd_vec3(1.0, 0.93, 0.85);
     scene->solids[0].face.has_inner_side = true;
     scene->solids[0].face.inner_reflection = 0.3;
@@ -259,12 +162,9 @@ static void glass_dodecahedron(HdScene *scene, HdCamera *camera) {
 }
 
 /* Mirrors from outside and nearly clear from within. */
-static void inner_sides(HdScene *scene, HdCamera *camera) {
-    (void)camera;
+static void inner_sides(HdScene *scene) {
     for (int s = 0; s < 3; s++) {
         HdMaterial *face = &scene->solids[s].face;
-        face->reflection = 0.7;
-        face->transmission = 0.25;
         face->has_inner_side = true;
         face->inner_reflection = 0.1 * s;
         face->inner_transmission = 0.8;
@@ -279,8 +179,7 @@ static void colour_edges(HdSolid *solid) {
         solid->lights.colours[i] = colours[i];
 }
 
-static void coloured_edges(HdScene *scene, HdCamera *camera) {
-    (void)camera;
+static void coloured_edges(HdScene *scene) {
     for (int s = 0; s < 3; s++) {
         scene->solids[s].rotation_degrees = hd_vec3(20.0 * s, 35.0, -50.0);
         scene->solids[s].lights.intensity = 0.15;
@@ -289,8 +188,7 @@ static void coloured_edges(HdScene *scene, HdCamera *camera) {
     }
 }
 
-static void ending_lights(HdScene *scene, HdCamera *camera) {
-    (void)camera;
+static void ending_lights(HdScene *scene) {
     colour_edges(&scene->solids[0]);
     scene->solids[0].lights.per_edge = 1;
     scene->solids[0].lights.intensity = 1.5;
@@ -303,10 +201,7 @@ static void ending_lights(HdScene *scene, HdCamera *camera) {
 
 /* Many lights on each edge, which threads with one ray judge together: of some points all are too
    far away, of others some. */
-static void runs_of_lights(HdScene *scene, HdCamera *camera) {
-    (void)camera;
-    scene->samples_per_side = 1;
-    scene->depth = 4;
+static void runs_of_lights(HdScene *scene) {
     for (int s = 0; s < 3; s++) {
         colour_edges(&scene->solids[s]);
         scene->solids[s].lights.per_edge = 6;
@@ -316,8 +211,7 @@ static void runs_of_lights(HdScene *scene, HdCamera *camera) {
 }
 
 /* Lanterns: paper faces over the solid's own lights, and a lamp below a thin floor. */
-static void lanterns(HdScene *scene, HdCamera *camera) {
-    (void)camera;
+static void lanterns(HdScene *scene) {
     HdSolid *solid = &scene->solids[0];
     colour_edges(solid);
     solid->lights.per_edge = 1;
@@ -332,11 +226,8 @@ static void lanterns(HdScene *scene, HdCamera *camera) {
     build_light(scene, 1, hd_vec3(-1.5, -0.5, -2.2), hd_vec3(0.9, 0.9, 0.5));
 }
 
-static void everything(HdScene *scene, HdCamera *camera) {
-    (void)camera;
-    scene->depth = 10;
+static void everything(HdScene *scene) {
     scene->cutoff = 0.001;
-    scene->samples_per_side = 1;
     for (int s = 0; s < 3; s++) {
         HdSolid *solid = &scene->solids[s];
         solid->rotation_degrees = hd_vec3(-30.0, 10.0 * s, 65.0);
@@ -356,7 +247,8 @@ static void everything(HdScene *scene, HdCamera *camera) {
 /* ---- meshes: few planes, a depth of at most 8 ---- */
 
 /* Curved mirrors of coloured glass beside a solid: a smooth one and a flat one. */
-static bool bumpy_sphere(HdScene *scene, HdCamera *camera) {
+static bool bumpy_sphere(HdScene *scene, HdCamera *camera, double variant) {
+    (void)variant;
     HdMaterial red = build_material(hd_vec3(0.95, 0.5, 0.3), 0.5, 0.4);
     HdMaterial green = build_material(hd_vec3(0.4, 0.9, 0.6), 0.3, 0.6);
     green.index_of_refraction = 1.4;
@@ -377,7 +269,8 @@ static bool bumpy_sphere(HdScene *scene, HdCamera *camera) {
 
 /* Enough for a hierarchy over them: textured, of several materials, some with one of their own, one
    stretched, three that overlap. */
-static bool many_instances(HdScene *scene, HdCamera *camera) {
+static bool many_instances(HdScene *scene, HdCamera *camera, double variant) {
+    (void)variant;
     HdMaterial blue = build_material(hd_vec3(0.4, 0.6, 1.0), 0.4, 0.5);
     blue.index_of_refraction = 1.25;
     HdMaterial gold = build_material(hd_vec3(1.0, 0.8, 0.3), 0.5, 0.0);
@@ -404,7 +297,8 @@ static bool many_instances(HdScene *scene, HdCamera *camera) {
 }
 
 /* What the classic scenes look like, all of it triangles: rims, discs, lights on edges, a floor. */
-static bool triangulated_solids(HdScene *scene, HdCamera *camera) {
+static bool triangulated_solids(HdScene *scene, HdCamera *camera, double variant) {
+    (void)variant;
     HdError error;
     if (!build_scene(scene, 80, 48, 2, 5, 2, 2) || !build_texture(&scene->floor.texture, 16, 12))
         return false;
@@ -420,7 +314,8 @@ static bool triangulated_solids(HdScene *scene, HdCamera *camera) {
 
 /* Rays that run exactly through edges and corners, from outside and from inside; the one frame that
    tries every triangle. */
-static bool mesh_edges_and_corners(HdScene *scene, HdCamera *camera) {
+static bool mesh_edges_and_corners(HdScene *scene, HdCamera *camera, double variant) {
+    (void)variant;
     HdMaterial clear = build_material(hd_vec3(0.9, 0.8, 1.0), 0.3, 0.6);
     HdMaterial glass = clear;
     glass.index_of_refraction = 1.1;
@@ -436,28 +331,14 @@ static bool mesh_edges_and_corners(HdScene *scene, HdCamera *camera) {
     return finish_meshes(scene);
 }
 
-static void mesh_far_from_origin(HdScene *scene, HdCamera *camera) {
-    HdVec3 shift = hd_vec3(16384.0, -8192.0, 4096.0);
-    scene->solids[0].centre = hd_add(scene->solids[0].centre, shift);
-    for (int i = 0; i < 2; i++) {
-        scene->instances[i].position = hd_add(scene->instances[i].position, shift);
-        scene->lights[i].position = hd_add(scene->lights[i].position, shift);
-    }
-    camera->eye = hd_add(camera->eye, shift);
-}
-
-/* Small enough for kernels to prove themselves by, and without refraction. */
-static void fewer_samples(HdScene *scene, HdCamera *camera) {
-    (void)camera;
-    scene->width = 40;
-    scene->height = 30;
-    scene->samples_per_side = 1;
+/* For frames by which kernels prove themselves. */
+static void without_refraction(HdScene *scene) {
     for (int i = 0; i < scene->mesh_count; i++)
         scene->meshes[i].materials[0].material.index_of_refraction = 1.0;
 }
 
-static void paper_instances(HdScene *scene, HdCamera *camera) {
-    fewer_samples(scene, camera);
+static void paper_instances(HdScene *scene) {
+    without_refraction(scene);
     for (int i = 0; i < scene->mesh_count; i++)
         scene->meshes[i].materials[0].material.lit_from_behind = true;
 }
@@ -466,17 +347,14 @@ static void paper_instances(HdScene *scene, HdCamera *camera) {
 
 /* Pixels with one sample, with four and with all of them; rays and lights that are left out; passes
    that are repeated. */
-static void adaptive_and_bounded(HdScene *scene, HdCamera *camera) {
-    everything(scene, camera);
+static void adaptive_and_bounded(HdScene *scene) {
+    everything(scene);
     scene->cutoff = 0.0;
-    scene->depth = 24;
-    scene->samples_per_side = 4;
     scene->sampling = HD_SAMPLING_ADAPTIVE;
     scene->max_error = 4.0;
 }
 
-static void crop_of_reference(HdScene *scene, HdCamera *camera) {
-    (void)camera;
+static void crop_of_reference(HdScene *scene) {
     scene->samples_per_side = 3;
     scene->sampling = HD_SAMPLING_REFERENCE;
     scene->max_error = 0.5;
@@ -490,52 +368,72 @@ static void crop_of_reference(HdScene *scene, HdCamera *camera) {
 
 /* ---- all of them ---- */
 
+#define SOLID(kind) .base = one_solid, .variant = HD_##kind
+#define APART       .base = three_solids, .variant = 2.4
+#define OVERLAPPING .base = three_solids, .variant = 0.7
+#define TEXTURED    .base = three_textured, .variant = 2.0
+#define SIZE(w, h, samples, levels)                                                                \
+    .width = (w), .height = (h), .samples_per_side = (samples), .depth = (levels)
+#define FACES(r, t)                  .reflection = (r), .transmission = (t)
+#define VIEW(x, y, z, tx, ty, tz, d) .eye = {x, y, z}, .target = {tx, ty, tz}, .degrees = (d)
+#define IN_FRONT(d)                  VIEW(0.4, -4.5, 1.2, 0.0, 0.0, 0.0, d)
+#define FEW_INSTANCES                .base = many_instances, SIZE(40, 30, 1, 0), .proves = true
+
 const HdGoldenFrame hd_golden_frames[] = {
-    {.name = "tetrahedron", .base = tetrahedron},
-    {.name = "hexahedron", .base = hexahedron, .proves = true},
-    {.name = "octahedron", .base = octahedron},
-    {.name = "dodecahedron", .base = dodecahedron},
-    {.name = "icosahedron", .base = icosahedron},
-    {.name = "three-apart", .base = three_apart},
-    {.name = "three-overlapping", .base = three_overlapping},
-    {.name = "eye-inside", .base = three_apart, .change = eye_inside},
+    {.name = "tetrahedron", SOLID(TETRAHEDRON)},
+    {.name = "hexahedron", SOLID(HEXAHEDRON), .proves = true},
+    {.name = "octahedron", SOLID(OCTAHEDRON)},
+    {.name = "dodecahedron", SOLID(DODECAHEDRON)},
+    {.name = "icosahedron", SOLID(ICOSAHEDRON)},
+    {.name = "three-apart", APART},
+    {.name = "three-overlapping", OVERLAPPING},
+    {.name = "eye-inside", APART, VIEW(2.5, 0.1, 0.2, 0.0, 0.3, 0.0, 80.0)},
     {.name = "eye-on-face", .base = eye_on_face},
-    {.name = "eye-on-floor-plane", .base = three_apart, .change = eye_on_floor_plane},
+    {.name = "eye-on-floor-plane", APART, VIEW(0.5, -4.0, -1.5, 0.0, 0.0, -1.5, 70.0)},
     {.name = "edges-and-corners", .base = edges_and_corners},
     {.name = "fifty-edge-lights", .base = fifty_edge_lights},
-    {.name = "tilted-floor", .base = icosahedron, .change = tilted_floor},
-    {.name = "trapezoid-floor", .base = tetrahedron, .change = trapezoid_floor},
-    {.name = "all-of-the-light", .base = three_apart, .change = all_of_the_light},
-    {.name = "mirror-only", .base = three_apart, .change = mirror_only},
-    {.name = "glass-only", .base = three_overlapping, .change = glass_only},
-    {.name = "one-pixel", .base = three_apart, .change = one_pixel},
-    {.name = "wide-strip", .base = three_apart, .change = wide_strip},
-    {.name = "right-angle-view", .base = three_apart, .change = right_angle_view},
-    {.name = "widest-view", .base = three_apart, .change = widest_view},
-    {.name = "cut-off", .base = three_apart, .change = cut_off},
-    {.name = "far-from-origin", .base = three_apart, .change = far_from_origin},
-    {.name = "clamped", .base = octahedron, .change = clamped},
+    {.name = "tilted-floor", SOLID(ICOSAHEDRON), .change = tilted_floor},
+    {.name = "trapezoid-floor", SOLID(TETRAHEDRON), .change = trapezoid_floor},
+    {.name = "all-of-the-light",
+     APART,
+     SIZE(40, 24, 2, 12),
+     FACES(0.7, 0.3),
+     .change = white_faces},
+    {.name = "mirror-only", APART, .depth = 20, .reflection = 0.95},
+    {.name = "glass-only", OVERLAPPING, .depth = 10, .transmission = 0.9},
+    {.name = "one-pixel", APART, SIZE(1, 1, 7, 0)},
+    {.name = "wide-strip", APART, SIZE(1023, 7, 1, 0), IN_FRONT(150.0)},
+    {.name = "right-angle-view", APART, SIZE(80, 48, 3, 0), IN_FRONT(90.0)},
+    {.name = "widest-view", APART, IN_FRONT(178.0)},
+    {.name = "cut-off", APART, .depth = 12, .change = cut_off},
+    {.name = "far-from-origin", APART, .is_far = true},
+    {.name = "clamped", SOLID(OCTAHEDRON), .change = clamped},
     {.name = "empty-scene", .base = empty_scene},
-    {.name = "inner-sides", .base = three_overlapping, .change = inner_sides},
-    {.name = "coloured-edges", .base = three_apart, .change = coloured_edges},
-    {.name = "ending-lights", .base = dodecahedron, .change = ending_lights},
-    {.name = "runs-of-lights", .base = three_apart, .change = runs_of_lights},
-    {.name = "glass-cube", .base = hexahedron, .change = glass_cube},
-    {.name = "eye-inside-glass", .base = hexahedron, .change = eye_inside_glass, .proves = true},
-    {.name = "bubble", .base = octahedron, .change = bubble},
-    {.name = "glass-dodecahedron", .base = dodecahedron, .change = glass_dodecahedron},
-    {.name = "lanterns", .base = icosahedron, .change = lanterns},
-    {.name = "everything", .base = three_textured, .change = everything},
+    {.name = "inner-sides", OVERLAPPING, FACES(0.7, 0.25), .change = inner_sides},
+    {.name = "coloured-edges", APART, .change = coloured_edges},
+    {.name = "ending-lights", SOLID(DODECAHEDRON), .change = ending_lights},
+    {.name = "runs-of-lights", APART, SIZE(80, 48, 1, 4), .change = runs_of_lights},
+    {.name = "glass-cube", SOLID(HEXAHEDRON), .depth = 8, .change = glass_cube},
+    {.name = "eye-inside-glass",
+     SOLID(HEXAHEDRON),
+     SIZE(64, 48, 1, 8),
+     VIEW(0.2, 0.1, 0.15, -0.3, 0.9, -0.4, 100.0),
+     .change = dense_glass,
+     .proves = true},
+    {.name = "bubble", SOLID(OCTAHEDRON), .change = bubble},
+    {.name = "glass-dodecahedron", SOLID(DODECAHEDRON), .change = glass_dodecahedron},
+    {.name = "lanterns", SOLID(ICOSAHEDRON), .change = lanterns},
+    {.name = "everything", TEXTURED, SIZE(80, 48, 1, 10), .change = everything},
     {.name = "bumpy-sphere", .base = bumpy_sphere},
     {.name = "many-instances", .base = many_instances},
     {.name = "triangulated-solids", .base = triangulated_solids},
     {.name = "mesh-edges-and-corners", .base = mesh_edges_and_corners, .proves = true},
-    {.name = "mesh-far-from-origin", .base = bumpy_sphere, .change = mesh_far_from_origin},
-    {.name = "adaptive-and-bounded", .base = three_textured, .change = adaptive_and_bounded},
+    {.name = "mesh-far-from-origin", .base = bumpy_sphere, .is_far = true},
+    {.name = "adaptive-and-bounded", TEXTURED, SIZE(80, 48, 4, 24), .change = adaptive_and_bounded},
     {.name = "crop-of-reference", .base = many_instances, .change = crop_of_reference},
-    {.name = "paper-cube", .base = hexahedron, .change = lanterns, .proves = true},
-    {.name = "plain-instances", .base = many_instances, .change = fewer_samples, .proves = true},
-    {.name = "paper-instances", .base = many_instances, .change = paper_instances, .proves = true},
+    {.name = "paper-cube", SOLID(HEXAHEDRON), .change = lanterns, .proves = true},
+    {.name = "plain-instances", FEW_INSTANCES, .change = without_refraction},
+    {.name = "paper-instances", FEW_INSTANCES, .change = paper_instances},
 };
 const int hd_golden_frame_count = (int)(sizeof hd_golden_frames / sizeof hd_golden_frames[0]);
 
@@ -546,20 +444,53 @@ const HdGoldenFrame *hd_golden_find(const char *name) {
     return NULL;
 }
 
+static void shift(HdScene *scene, HdCamera *camera) {
+    const HdVec3 by = {16384.0, -8192.0, 4096.0};
+    for (int i = 0; i < scene->solid_count; i++)
+        scene->solids[i].centre = hd_add(scene->solids[i].centre, by);
+    for (int i = 0; i < scene->instance_count; i++)
+        scene->instances[i].position = hd_add(scene->instances[i].position, by);
+    for (int i = 0; i < scene->light_count; i++)
+        scene->lights[i].position = hd_add(scene->lights[i].position, by);
+    for (int i = 0; i < 4; i++)
+        scene->floor.corners[i] = hd_add(scene->floor.corners[i], by);
+    camera->eye = hd_add(camera->eye, by);
+}
+
+static void change(const HdGoldenFrame *frame, HdScene *scene, HdCamera *camera) {
+    if (frame->width > 0) {
+        scene->width = frame->width;
+        scene->height = frame->height;
+        scene->samples_per_side = frame->samples_per_side;
+    }
+    if (frame->depth > 0)
+        scene->depth = frame->depth;
+    if (frame->degrees > 0.0)
+        build_camera(camera, frame->eye, frame->target, frame->degrees);
+    for (int s = 0; s < scene->solid_count && frame->reflection + frame->transmission > 0.0; s++) {
+        scene->solids[s].face.reflection = frame->reflection;
+        scene->solids[s].face.transmission = frame->transmission;
+    }
+    if (frame->is_far)
+        shift(scene, camera);
+    if (frame->change != NULL)
+        frame->change(scene);
+}
+
 HdStatus hd_golden_build(const HdGoldenFrame *frame, HdScene *scene, HdCamera *camera,
                          HdError *error) {
-    if (!frame->base(scene, camera)) {
+    if (!frame->base(scene, camera, frame->variant)) {
         hd_scene_free(scene);
         return hd_fail(error, HD_FAILED, "out of memory: no room for the golden frame '%s'",
                        frame->name);
     }
-    if (frame->change != NULL)
-        frame->change(scene, camera);
+    change(frame, scene, camera);
     return HD_OK;
 }
 
 bool hd_golden_find_hashes(const char *name, HdPrecision precision, HdGoldenHashes *hashes) {
     size_t length = strlen(name);
+    *hashes = (HdGoldenHashes){0};
     for (const char *line = (const char *)hd_golden_hashes; line != NULL && *line != '\0';
          line = strchr(line, '\n')) {
         line += *line == '\n';

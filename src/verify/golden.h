@@ -10,8 +10,18 @@
 
 typedef struct HdGoldenFrame {
     const char *name;
-    bool (*base)(HdScene *scene, HdCamera *camera);   /* false: there is too little memory */
-    void (*change)(HdScene *scene, HdCamera *camera); /* of the base; NULL: it stays as it is */
+    bool (*base)(HdScene *scene, HdCamera *camera, double variant); /* false: no memory is left */
+    double variant; /* of the base: the kind of its solid, or how far its solids are apart */
+
+    /* What differs from the base: numbers as a scene's and a camera's, those of 0 do not. */
+    int width, height, samples_per_side; /* all of them, or none */
+    int depth;
+    double reflection, transmission; /* of all solids' faces, if one of them is not 0 */
+    HdVec3 eye, target;              /* if there are degrees */
+    double degrees;                  /* of the field of view */
+    bool is_far;                     /* everything, from the origin */
+    void (*change)(HdScene *scene);  /* of the rest, at last; NULL: there is none */
+
     bool proves; /* kernels prove themselves by it if they can render it (trust.h) */
 } HdGoldenFrame;
 
@@ -35,7 +45,7 @@ typedef struct HdGoldenHashes {
 } HdGoldenHashes;
 
 /* Reads a frame's hashes from what is committed, a line "NAME FRAME-IN-FLOAT FRAME-IN-DOUBLE
-   FIRST-HITS-IN-FLOAT FIRST-HITS-IN-DOUBLE" for each; false where it is not among them. */
+   FIRST-HITS-IN-FLOAT FIRST-HITS-IN-DOUBLE" for each; false, and 0, where it is not among them. */
 bool hd_golden_find_hashes(const char *name, HdPrecision precision, HdGoldenHashes *hashes);
 
 #endif

@@ -8,55 +8,41 @@
 #include <string.h>
 
 #include "base/hash.h"
-#include "device/arithmetic.h"
-#include "device/kernel_cache.h"
 #include "verify/probe_operands.h"
 
 #define WORDS(name, words) words,
 static const char *const number_words[] = {HD_PROBE_NUMBERS(WORDS)};
 static const char *const integer_words[] = {HD_PROBE_INTEGERS(WORDS)};
 
+/* Of a batch, in the larger precision. */
+typedef struct Memory {
+    double operands[3][HD_PROBE_BATCH];
+    int64_t bits[HD_PROBE_BATCH];
+    struct {
+        double numbers[HD_PROBE_NUMBER_COUNT * HD_PROBE_BATCH];
+        int64_t integers[HD_PROBE_INTEGER_COUNT * HD_PROBE_BATCH];
+    } found, expected;
+} Memory;
+
 typedef struct Probe {
     HdPrecision precision;
     HdProbeBatch batch;
     HdProbeResults found, expected;
-    unsigned char *memory; /* of all of these */
     HdProbeReport *report;
     bool only_rounding_differs; /* of divisions and roots */
 } Probe;
 
-/* ---- memory ---- */
-
-static void *carve(unsigned char **memory, size_t bytes) {
-    void *carved = *memory;
-    *memory += bytes;
-    return carved;
-}
-
-static void carve_results(HdProbeResults *results, unsigned char **memory, size_t count,
-                          size_t number) {
-    results->numbers = carve(memory, HD_PROBE_NUMBER_COUNT * count * number);
-    results->integers = carve(memory, HD_PROBE_INTEGER_COUNT * count * sizeof(int64_t));
-}
-
-static HdStatus begin(Probe *probe, HdPrecision precision, int tuples, HdProbeReport *report,
-                      HdError *error) {
-    const size_t number = precision == HD_PRECISION_DOUBLE ? sizeof(double) : sizeof(float);
-    const size_t count = (size_t)(tuples < HD_PROBE_BATCH ? tuples : HD_PROBE_BATCH);
-    *probe = (Probe){.precision = precision, .report = report, .only_rounding_differs = true};
-    *report = (HdProbeReport){.hash = HD_HASH_START};
-    unsigned char *at = probe->memory =
-        calloc(count, (3 + 2 * HD_PROBE_NUMBER_COUNT) * number +
-                          (1 + 2 * HD_PROBE_INTEGER_COUNT) * sizeof(int64_t));
-    if (at == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the arithmetic probe");
-    probe->batch = (HdProbeBatch){.precision = precision, .count = (int)count};
-    probe->batch.bits = carve(&at, count * sizeof *probe->batch.bits);
-    for (int i = 0; i < 3; i++)
-        probe->batch.operands[i] = carve(&at, count * number);
-    carve_results(&probe->found, &at, count, number);
-    carve_results(&probe->expected, &at, count, number);
-    return HD_OK;
+static Probe probe_in(Memory *memory, HdPrecision precision, HdProbeReport *report) {
+    return (Probe){
+        .precision = precision,
+        .batch = {.precision = precision,
+                  .count = HD_PROBE_BATCH,
+                  .operands = {memory->operands[0], memory->operands[1], memory->operands[2]},
+                  .bits = memory->bits},
+        .found = {.numbers = memory->found.numbers, .integers = memory->found.integers},
+        .expected = {.numbers = memory->expected.numbers, .integers = memory->expected.integers},
+        .report = report,
+        .only_rounding_differs = true};
 }
 
 /* ---- numbers ---- */
@@ -74,18 +60,10 @@ static const char *precision_name(const Probe *probe) {
     return probe->precision == HD_PRECISION_DOUBLE ? "double" : "float";
 }
 
-static double least_normal(const Probe *probe) {
-    return probe->precision == HD_PRECISION_DOUBLE ? 0x1p-1022 : 0x1p-126;
-}
-
+/* Denormal. */
 static bool is_small(const Probe *probe, double a) {
-    return a != 0.0 && fabs(a) < least_normal(probe);
-}
-
-/* One kind of NaN, so that hashes agree. */
-static uint64_t hash_number(uint64_t hash, double number) {
-    double told = isnan(number) ? (double)NAN : number;
-    return hd_hash_words(hash, &told, sizeof told);
+    double least_normal = probe->precision == HD_PRECISION_DOUBLE ? 0x1p-1022 : 0x1p-126;
+    return a != 0.0 && fabs(a) < least_normal;
 }
 
 /* ---- what differs ---- */
@@ -117,32 +95,31 @@ static const char *guess_cause(const Probe *probe, int primitive, double a, doub
     return is_rounded ? " (it is not correctly rounded)" : "";
 }
 
-static void note_difference(Probe *probe, const char *text) {
-    char *first = probe->report->difference;
-    if (first[0] == '\0')
-        snprintf(first, sizeof probe->report->difference, "%s", text);
+/* Whether nothing differs so far: then the difference is to be told. */
+static bool is_first(const Probe *probe) {
+    return probe->report->found.difference[0] == '\0';
 }
 
 static void compare_number(Probe *probe, int primitive, size_t i) {
     size_t place = (size_t)primitive * (size_t)probe->batch.count + i;
     double found = number_at(probe, probe->found.numbers, place);
     double expected = number_at(probe, probe->expected.numbers, place);
-    probe->report->hash = hash_number(probe->report->hash, found);
+    double told = isnan(found) ? (double)NAN : found; /* one kind of NaN, so that hashes agree */
+    probe->report->hash = hd_hash_words(probe->report->hash, &told, sizeof told);
     if (is_same(found, expected))
         return;
     double a = number_at(probe, probe->batch.operands[0], i);
     double b = number_at(probe, probe->batch.operands[1], i);
     double c = number_at(probe, probe->batch.operands[2], i);
-    char text[sizeof probe->report->difference];
     probe->only_rounding_differs =
         probe->only_rounding_differs &&
         (primitive == HD_PROBE_NUMBER_quotient || primitive == HD_PROBE_NUMBER_root);
-    snprintf(text, sizeof text,
-             "%s of a = %a, b = %a, c = %a, x = 0x%016" PRIx64 " in %s is %a, expected %a%s",
-             number_words[primitive], a, b, c, (uint64_t)probe->batch.bits[i],
-             precision_name(probe), found, expected,
-             guess_cause(probe, primitive, a, b, c, found, expected));
-    note_difference(probe, text);
+    if (is_first(probe))
+        snprintf(probe->report->found.difference, sizeof probe->report->found.difference,
+                 "%s of a = %a, b = %a, c = %a, x = 0x%016" PRIx64 " in %s is %a, expected %a%s",
+                 number_words[primitive], a, b, c, (uint64_t)probe->batch.bits[i],
+                 precision_name(probe), found, expected,
+                 guess_cause(probe, primitive, a, b, c, found, expected));
 }
 
 static void compare_integer(Probe *probe, int primitive, size_t i) {
@@ -151,17 +128,17 @@ static void compare_integer(Probe *probe, int primitive, size_t i) {
     probe->report->hash = hd_hash_words(probe->report->hash, &found, sizeof found);
     if (found == expected)
         return;
-    char text[sizeof probe->report->difference];
     double a = number_at(probe, probe->batch.operands[0], i);
     double b = number_at(probe, probe->batch.operands[1], i);
     probe->only_rounding_differs = false;
-    snprintf(
-        text, sizeof text,
-        "%s of a = %a, b = %a, x = 0x%016" PRIx64 " in %s is %" PRId64 ", expected %" PRId64 "%s",
-        integer_words[primitive], a, b, (uint64_t)probe->batch.bits[i], precision_name(probe),
-        found, expected,
-        is_small(probe, a) || is_small(probe, b) ? " (denormal operands are taken for 0)" : "");
-    note_difference(probe, text);
+    if (is_first(probe))
+        snprintf(probe->report->found.difference, sizeof probe->report->found.difference,
+                 "%s of a = %a, b = %a, x = 0x%016" PRIx64 " in %s is %" PRId64
+                 ", expected %" PRId64 "%s",
+                 integer_words[primitive], a, b, (uint64_t)probe->batch.bits[i],
+                 precision_name(probe), found, expected,
+                 is_small(probe, a) || is_small(probe, b) ? " (denormal operands are taken for 0)"
+                                                          : "");
 }
 
 static void compare_batch(Probe *probe) {
@@ -175,17 +152,17 @@ static void compare_batch(Probe *probe) {
 
 /* Devices whose threads do not work in groups add nothing. */
 static void compare_sums(Probe *probe) {
-    char text[sizeof probe->report->difference];
     const HdProbeResults *found = &probe->found, *expected = &probe->expected;
     for (int i = 0; i < HD_PROBE_SUMS; i++)
         if (found->sums[i] != expected->sums[i] || found->counters[i] != expected->counters[i]) {
             probe->only_rounding_differs = false;
-            snprintf(text, sizeof text,
-                     "the sum %d that all threads add to atomically is 0x%016" PRIx64
-                     " in 64 bits and %" PRIu32 " in 32, expected 0x%016" PRIx64 " and %" PRIu32,
-                     i, (uint64_t)found->sums[i], found->counters[i], (uint64_t)expected->sums[i],
-                     expected->counters[i]);
-            note_difference(probe, text);
+            if (is_first(probe))
+                snprintf(probe->report->found.difference, sizeof probe->report->found.difference,
+                         "the sum %d that all threads add to atomically is 0x%016" PRIx64
+                         " in 64 bits and %" PRIu32 " in 32, expected 0x%016" PRIx64
+                         " and %" PRIu32,
+                         i, (uint64_t)found->sums[i], found->counters[i],
+                         (uint64_t)expected->sums[i], expected->counters[i]);
         }
 }
 
@@ -209,16 +186,17 @@ static HdStatus run(HdRenderer *renderer, Probe *probe, int tuples, HdError *err
 
 static HdStatus probe_once(HdRenderer *renderer, int tuples, HdProbeReport *report,
                            bool *only_rounding_differs, HdError *error) {
-    Probe probe;
     const HdKernelShape *shape = &hd_renderer_kernels(renderer)->shape;
-    HdStatus status = begin(&probe, shape->precision, tuples, report, error);
-    if (status != HD_OK)
-        return status;
-    status = run(renderer, &probe, tuples, error);
+    Memory *memory = calloc(1, sizeof *memory);
+    if (memory == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the arithmetic probe");
+    Probe probe = probe_in(memory, shape->precision, report);
+    *report = (HdProbeReport){.hash = HD_HASH_START};
+    HdStatus status = run(renderer, &probe, tuples, error);
     if (status == HD_OK && shape->group_size > 0)
         compare_sums(&probe);
     *only_rounding_differs = probe.only_rounding_differs;
-    free(probe.memory);
+    free(memory);
     return status;
 }
 
@@ -230,7 +208,7 @@ static void try_by_fma(HdRenderer *renderer, int tuples, HdProbeReport *report) 
     bool only_rounding_differs;
     shape->rounds_by_fma = true;
     HdStatus status = probe_once(renderer, tuples, &healed, &only_rounding_differs, &ignored);
-    shape->rounds_by_fma = status == HD_OK && healed.difference[0] == '\0';
+    shape->rounds_by_fma = status == HD_OK && healed.found.difference[0] == '\0';
     if (shape->rounds_by_fma)
         *report = healed;
 }
@@ -243,13 +221,12 @@ HdStatus hd_probe(HdRenderer *renderer, int tuples, HdProbeReport *report, HdErr
     kernels->is_settled = false;
     if (status != HD_OK)
         return status;
-    if (report->difference[0] != '\0' && only_rounding_differs && !kernels->shape.rounds_by_fma)
+    if (report->found.difference[0] != '\0' && only_rounding_differs &&
+        !kernels->shape.rounds_by_fma)
         try_by_fma(renderer, tuples, report);
-    report->rounds_by_fma = kernels->shape.rounds_by_fma;
-    kernels->is_settled = report->difference[0] == '\0';
-    HdArithmetic found = {.rounds_by_fma = report->rounds_by_fma};
-    snprintf(found.difference, sizeof found.difference, "%s", report->difference);
-    hd_arithmetic_remember(device->name, device->driver, kernels->shape.precision, &found);
+    report->found.rounds_by_fma = kernels->shape.rounds_by_fma;
+    kernels->is_settled = report->found.difference[0] == '\0';
+    hd_arithmetic_remember(device->name, device->driver, kernels->shape.precision, &report->found);
     return HD_OK;
 }
 
@@ -261,11 +238,8 @@ HdStatus hd_probe_settle(HdRenderer *renderer, HdError *error) {
     if (kernels == NULL || kernels->is_settled || kernels->shape.math != HD_MATH_STRICT)
         return HD_OK;
     if (!hd_arithmetic_recall(device->name, device->driver, kernels->shape.precision, &known)) {
-        HdStatus status = hd_probe(renderer, HD_PROBE_QUICK, &report, error);
-        if (status != HD_OK)
-            return status;
-        known.rounds_by_fma = report.rounds_by_fma;
-        snprintf(known.difference, sizeof known.difference, "%s", report.difference);
+        HD_TRY(hd_probe(renderer, HD_PROBE_QUICK, &report, error));
+        known = report.found;
     }
     kernels->shape.rounds_by_fma = known.rounds_by_fma;
     kernels->is_settled = known.difference[0] == '\0';

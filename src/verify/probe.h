@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 
+#include "device/kernel_cache.h"
 #include "device/renderer.h"
 
 enum {
@@ -15,16 +16,15 @@ enum {
 };
 
 typedef struct HdProbeReport {
-    int tuples;           /* that were compared */
-    uint64_t hash;        /* of all results */
-    bool rounds_by_fma;   /* division and roots are right only if they are made of fma */
-    char difference[512]; /* the first one, in words; empty: there is none */
+    int tuples;    /* that were compared */
+    uint64_t hash; /* of all results */
+    HdArithmetic found;
 } HdProbeReport;
 
 /* Probes a renderer that compiles its kernels, with strict arithmetic, in its precision and with
    its lanes. Where division or roots alone are wrong, they are made of fused operations, for the
    renderer's kernels too, and all is probed anew. What differs is told by the report, not by the
-   status, and remembered (device/arithmetic.h). The renderer has no scene afterwards. */
+   status, and remembered (kernel_cache.h). The renderer has no scene afterwards. */
 HdStatus hd_probe(HdRenderer *renderer, int tuples, HdProbeReport *report, HdError *error);
 
 /* Has the renderer probed quickly, unless it was or need not be, or what came of it is remembered.

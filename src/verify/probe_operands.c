@@ -69,18 +69,10 @@ static real scaled(real number, int exponent) {
 
 /* The last digits are few or many ones, or any. */
 static uint64_t draw_digits(uint64_t *seed) {
-    const uint64_t all = ((uint64_t)1 << (DIGITS - 1)) - 1;
-    uint64_t digits = draw(seed) & all;
-    switch (draw(seed) & 7) {
-    case 0:
-        return digits & 7;
-    case 1:
-        return all - (digits & 7);
-    case 2:
-        return digits & (all << (DIGITS / 2));
-    default:
-        return digits;
-    }
+    const uint64_t all = ((uint64_t)1 << (DIGITS - 1)) - 1, digits = draw(seed) & all;
+    const uint64_t kinds[] = {digits & 7, all - (digits & 7), digits & (all << (DIGITS / 2))};
+    const uint64_t kind = draw(seed) & 7;
+    return kind < 3 ? kinds[kind] : digits;
 }
 
 /* In [1, 2), of either sign. */
@@ -105,32 +97,30 @@ static void fill_any(Tuple *tuple, uint64_t seed) {
 
 static real special(uint64_t number) {
     const real one = R(1.0), last = scaled(one, 1 - DIGITS);
-    const real values[] = {
-        R(0.0),
-        one,
-        one + last,
-        one - last * R(0.5),
-        R(2.0),
-        R(0.5),
-        R(3.0),
-        R(10.0),
-        (real)INFINITY,
-        (real)NAN,
-        scaled(one, LEAST_EXPONENT),
-        scaled(one - last * R(0.5), LEAST_EXPONENT),
-        scaled(one - last, LEAST_EXPONENT),
-        scaled(one + last, LEAST_EXPONENT),
-        scaled(one, LEAST_EXPONENT - DIGITS + 1),
-        scaled(R(3.0), LEAST_EXPONENT - DIGITS + 1),
-        scaled(one, LEAST_EXPONENT / 2),
-        scaled(R(2.0) - last, MOST_EXPONENT),
-        scaled(one, MOST_EXPONENT),
-        scaled(one, MOST_EXPONENT / 2 + 1),
-        scaled(one, DIGITS),
-        scaled(one, DIGITS - 1),
-        scaled(one, DIGITS - 1) - R(0.5),
-        scaled(one, 31),
-    };
+    const real values[] = {R(0.0),
+                           one,
+                           one + last,
+                           one - last * R(0.5),
+                           R(2.0),
+                           R(0.5),
+                           R(3.0),
+                           R(10.0),
+                           (real)INFINITY,
+                           (real)NAN,
+                           scaled(one, LEAST_EXPONENT),
+                           scaled(one - last * R(0.5), LEAST_EXPONENT),
+                           scaled(one - last, LEAST_EXPONENT),
+                           scaled(one + last, LEAST_EXPONENT),
+                           scaled(one, LEAST_EXPONENT - DIGITS + 1),
+                           scaled(R(3.0), LEAST_EXPONENT - DIGITS + 1),
+                           scaled(one, LEAST_EXPONENT / 2),
+                           scaled(R(2.0) - last, MOST_EXPONENT),
+                           scaled(one, MOST_EXPONENT),
+                           scaled(one, MOST_EXPONENT / 2 + 1),
+                           scaled(one, DIGITS),
+                           scaled(one, DIGITS - 1),
+                           scaled(one, DIGITS - 1) - R(0.5),
+                           scaled(one, 31)};
     enum { COUNT = sizeof values / sizeof *values };
     real value = values[number / 2 % COUNT];
     return number & 1 ? -value : value;
@@ -274,29 +264,25 @@ static void fill_root(Tuple *tuple, uint64_t seed) {
 
 /* Operands or results are below the least normal number, or near the greatest one. */
 static void fill_small(Tuple *tuple, uint64_t seed) {
-    int size = draw_between(&seed, LEAST_EXPONENT / 2 - DIGITS, LEAST_EXPONENT / 2 + 2);
-    switch (draw(&seed) & 3) {
-    case 0: /* the product is small, and c as well */
-        tuple->a = scaled(draw_unit(&seed), size);
-        tuple->b = draw_of_size(&seed, LEAST_EXPONENT / 2 - 2, LEAST_EXPONENT / 2 + 2);
-        tuple->c = draw_of_size(&seed, LEAST_EXPONENT - DIGITS, LEAST_EXPONENT + 2);
-        break;
-    case 1: /* sums of small numbers */
-        tuple->a = draw_of_size(&seed, LEAST_EXPONENT - DIGITS, LEAST_EXPONENT + 2);
-        tuple->b = draw_of_size(&seed, LEAST_EXPONENT - DIGITS, LEAST_EXPONENT + 2);
-        tuple->c = draw_of_size(&seed, LEAST_EXPONENT - DIGITS, LEAST_EXPONENT + 2);
-        break;
-    case 2: /* a small number beside others */
-        tuple->a = draw_of_size(&seed, LEAST_EXPONENT - DIGITS, LEAST_EXPONENT - 1);
-        tuple->b = draw_of_size(&seed, -DIGITS, DIGITS);
-        tuple->c = draw_of_size(&seed, LEAST_EXPONENT - DIGITS, LEAST_EXPONENT + DIGITS);
-        break;
-    default:
-        tuple->a = draw_of_size(&seed, MOST_EXPONENT / 2 - 2, MOST_EXPONENT / 2 + 2);
-        tuple->b = draw_of_size(&seed, MOST_EXPONENT / 2 - 2, MOST_EXPONENT / 2 + 2);
-        tuple->c = draw_of_size(&seed, MOST_EXPONENT - 2, MOST_EXPONENT);
-        break;
-    }
+    enum { LEAST = LEAST_EXPONENT, MOST = MOST_EXPONENT };
+    static const struct {
+        int least, most;
+    } exponents[4][3] = {
+        /* The product is small, and c as well; a has the size below. */
+        {{0, 0}, {LEAST / 2 - 2, LEAST / 2 + 2}, {LEAST - DIGITS, LEAST + 2}},
+        /* Sums of small numbers. */
+        {{LEAST - DIGITS, LEAST + 2}, {LEAST - DIGITS, LEAST + 2}, {LEAST - DIGITS, LEAST + 2}},
+        /* A small number beside others. */
+        {{LEAST - DIGITS, LEAST - 1}, {-DIGITS, DIGITS}, {LEAST - DIGITS, LEAST + DIGITS}},
+        {{MOST / 2 - 2, MOST / 2 + 2}, {MOST / 2 - 2, MOST / 2 + 2}, {MOST - 2, MOST}},
+    };
+    int size = draw_between(&seed, LEAST / 2 - DIGITS, LEAST / 2 + 2);
+    const int kind = (int)(draw(&seed) & 3);
+    real *const numbers[] = {&tuple->a, &tuple->b, &tuple->c};
+    for (int i = 0; i < 3; i++)
+        *numbers[i] = kind == 0 && i == 0
+                          ? scaled(draw_unit(&seed), size)
+                          : draw_of_size(&seed, exponents[kind][i].least, exponents[kind][i].most);
 }
 
 /* a is near a whole number, a half or the end of what is converted. */

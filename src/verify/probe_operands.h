@@ -4,7 +4,7 @@
 #ifndef HD_VERIFY_PROBE_OPERANDS_H
 #define HD_VERIFY_PROBE_OPERANDS_H
 
-#include "device/probe_batch.h"
+#include "device/backend.h"
 
 /* Fills a batch of that precision with tuples number `start` and so on of an endless list. */
 void hd_probe_operands_float(HdProbeBatch *batch, uint64_t start);

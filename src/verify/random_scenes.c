@@ -242,13 +242,6 @@ static bool draw_meshes(Lots *lots, HdScene *scene) {
     return finish_meshes(scene);
 }
 
-static void draw_light(Lots *lots, HdLight *light) {
-    light->position = vector(lots, -5.0, 5.0);
-    light->position.z = from_to(lots, 2.0, 6.0);
-    light->intensity = vector(lots, 0.0, 1.2);
-    light->falloff = draw_falloff(lots);
-}
-
 static void draw_picture(Lots *lots, HdScene *scene) {
     scene->depth = lots->kind->needs.depth - below(lots, 3);
     if (scene->depth > 8 || chance(lots, 0.4))
@@ -275,8 +268,12 @@ static bool draw_scene(Lots *lots, HdScene *scene, HdCamera *camera) {
     lots->planes_left = PLANES - FLOOR_PLANES;
     for (int i = 0; i < solids; i++)
         draw_solid(lots, &scene->solids[i], i);
-    for (int i = 0; i < lights; i++)
-        draw_light(lots, &scene->lights[i]);
+    for (HdLight *light = scene->lights; light < scene->lights + lights; light++) {
+        light->position = vector(lots, -5.0, 5.0);
+        light->position.z = from_to(lots, 2.0, 6.0);
+        light->intensity = vector(lots, 0.0, 1.2);
+        light->falloff = draw_falloff(lots);
+    }
     if ((chance(lots, 0.8) && !draw_floor(lots, scene)) ||
         (lots->kind->has_meshes && !draw_meshes(lots, scene)))
         return false;
@@ -339,26 +336,10 @@ static const HdSceneTables *needs_of(const HdRandomTest *test, int kind) {
 static HdStatus render(const Run *run, HdRenderer *renderer, const HdScene *scene,
                        const HdCamera *camera, int kind, uint64_t *hash, HdError *error) {
     HdFrame frame;
-    HdStatus status =
-        hd_put_and_render(renderer, scene, camera, needs_of(run->test, kind), 0, &frame, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_put_and_render(renderer, scene, camera, needs_of(run->test, kind), 0, &frame, error));
     *hash = hd_frame_hash(&frame);
     hd_frame_free(&frame);
     return HD_OK;
-}
-
-/* The first renderer that needs kernels compiles them and keeps them for the others. */
-static HdStatus render_on_device(Run *run, Worker *worker, const HdScene *scene,
-                                 const HdCamera *camera, int kind, uint64_t *hash, HdError *error) {
-    bool has_kernels = worker->kind == kind;
-    if (!has_kernels)
-        pthread_mutex_lock(&run->mutex);
-    HdStatus status = render(run, worker->renderers[DEVICE], scene, camera, kind, hash, error);
-    if (!has_kernels)
-        pthread_mutex_unlock(&run->mutex);
-    worker->kind = kind;
-    return status;
 }
 
 static HdStatus compare(Run *run, Worker *worker, uint64_t seed, bool *differs, HdError *error) {
@@ -366,10 +347,15 @@ static HdStatus compare(Run *run, Worker *worker, uint64_t seed, bool *differs, 
     HdCamera camera;
     uint64_t found = 0, expected = 0;
     int kind = kind_of(seed);
-    HdStatus status = build_random(seed, &scene, &camera, error);
-    if (status != HD_OK)
-        return status;
-    status = render_on_device(run, worker, &scene, &camera, kind, &found, error);
+    HD_TRY(build_random(seed, &scene, &camera, error));
+    /* The first renderer that needs kernels compiles them and keeps them for the others. */
+    const bool has_kernels = worker->kind == kind;
+    if (!has_kernels)
+        pthread_mutex_lock(&run->mutex);
+    HdStatus status = render(run, worker->renderers[DEVICE], &scene, &camera, kind, &found, error);
+    if (!has_kernels)
+        pthread_mutex_unlock(&run->mutex);
+    worker->kind = kind;
     if (status == HD_OK)
         status = render(run, worker->renderers[PLAIN_C], &scene, &camera, kind, &expected, error);
     hd_scene_free(&scene);
@@ -437,12 +423,6 @@ static HdStatus open_workers(Run *run, HdError *error) {
     return status;
 }
 
-static void close_workers(Run *run) {
-    for (int i = 0; i < run->worker_count; i++)
-        for (int side = 0; side < SIDES; side++)
-            hd_renderer_close(run->workers[i].renderers[side]);
-}
-
 static HdStatus run_workers(Run *run, HdError *error) {
     HdThreadPool *pool;
     HdStatus status = open_workers(run, error);
@@ -453,7 +433,9 @@ static HdStatus run_workers(Run *run, HdError *error) {
         hd_thread_pool_destroy(pool);
         status = run->status;
     }
-    close_workers(run);
+    for (int i = 0; i < run->worker_count; i++)
+        for (int side = 0; side < SIDES; side++)
+            hd_renderer_close(run->workers[i].renderers[side]);
     return status;
 }
 
@@ -478,14 +460,12 @@ HdStatus hd_random_test(const HdRandomTest *test, HdRandomResult *result, HdErro
     Run run = {.test = test, .result = result, .error = error};
     int count;
     *result = (HdRandomResult){0};
-    HdStatus status = hd_backend_enumerate(hd_backend_always_there(), &run.plain, 1, &count, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_backend_enumerate(hd_backend_always_there(), &run.plain, 1, &count, error));
     run.worker_count = test->threads > 0 ? test->threads : hd_processor_count();
     if (run.worker_count > MOST_WORKERS)
         run.worker_count = MOST_WORKERS;
     pthread_mutex_init(&run.mutex, NULL);
-    status = run_workers(&run, error);
+    HdStatus status = run_workers(&run, error);
     pthread_mutex_destroy(&run.mutex);
     if (status == HD_INTERRUPTED || result->different == 0)
         return status;

@@ -25,15 +25,6 @@ HdMaterial build_material(HdVec3 colour, double reflection, double transmission)
                         .index_of_refraction = 1.0};
 }
 
-static HdMaterial rim_material(void) {
-    return (HdMaterial){.colour = same(0.05),
-                        .mirror_tint = same(1.0),
-                        .diffuse = 0.5,
-                        .specular = 0.25,
-                        .shininess = 7,
-                        .index_of_refraction = 1.0};
-}
-
 bool build_scene(HdScene *scene, int width, int height, int samples, int depth, int solids,
                  int lights) {
     memset(scene, 0, sizeof *scene);
@@ -63,7 +54,12 @@ void build_solid(HdScene *scene, int index, HdSolidKind kind, HdVec3 centre, dou
                                      .circumradius = radius,
                                      .face = build_material(colour, 0.6, 0.35),
                                      .rim_width = 0.05 * radius,
-                                     .rim = rim_material(),
+                                     .rim = {.colour = same(0.05),
+                                             .mirror_tint = same(1.0),
+                                             .diffuse = 0.5,
+                                             .specular = 0.25,
+                                             .shininess = 7,
+                                             .index_of_refraction = 1.0},
                                      .lights = {.per_edge = lights_per_edge,
                                                 .colour_count = 1,
                                                 .colours = {{1.0, 1.0, 1.0}},
@@ -158,40 +154,33 @@ static void set_material(HdMesh *mesh, int index, const HdMaterial *material) {
         (HdMeshMaterial){.material = *material, .picture = -1, .passes_as = -1};
 }
 
-/* A grid of (rows + 1) x (columns + 1) points whose first and last column, and whose first and last
-   row, are one each; only its texture coordinates keep them apart. */
-typedef struct Globe {
-    int rows, columns;
-} Globe;
-
-static int32_t vertex_at(const Globe *globe, int row, int column) {
-    if (row == 0)
-        return 0;
-    if (row == globe->rows)
-        return 1;
-    return 2 + (row - 1) * globe->columns + column % globe->columns;
+/* A globe is a grid of (rows + 1) x (2 rows + 1) points whose first and last column, and whose
+   first and last row, are one each; only its texture coordinates keep them apart. */
+static int32_t vertex_at(int rows, int row, int column) {
+    if (row == 0 || row == rows)
+        return row == rows;
+    return 2 + (row - 1) * 2 * rows + column % (2 * rows);
 }
 
-static HdVec3 point_at(const Globe *globe, int row, int column, double bump) {
+static HdVec3 point_at(int rows, int row, int column, double bump) {
     double polar_sine, polar_cosine, sine, cosine, wave, other_wave, unused;
-    hd_sine_cosine(HD_PI * row / globe->rows, &polar_sine, &polar_cosine);
-    hd_sine_cosine(2.0 * HD_PI * column / globe->columns, &sine, &cosine);
-    hd_sine_cosine(10.0 * HD_PI * column / globe->columns, &wave, &unused);
-    hd_sine_cosine(4.0 * HD_PI * row / globe->rows, &other_wave, &unused);
+    hd_sine_cosine(HD_PI * row / rows, &polar_sine, &polar_cosine);
+    hd_sine_cosine(2.0 * HD_PI * column / (2 * rows), &sine, &cosine);
+    hd_sine_cosine(10.0 * HD_PI * column / (2 * rows), &wave, &unused);
+    hd_sine_cosine(4.0 * HD_PI * row / rows, &other_wave, &unused);
     double radius = 1.0 + bump * wave * other_wave * polar_sine * polar_sine;
     return hd_scale(hd_vec3(polar_sine * cosine, polar_sine * sine, polar_cosine), radius);
 }
 
-static void add_globe_triangle(HdMesh *mesh, const Globe *globe, const int row[3],
-                               const int column[3]) {
+static void add_globe_triangle(HdMesh *mesh, int rows, const int row[3], const int column[3]) {
     int number = mesh->triangle_count++;
     for (int i = 0; i < 3; i++) {
-        int32_t vertex = vertex_at(globe, row[i], column[i]);
+        int32_t vertex = vertex_at(rows, row[i], column[i]);
         mesh->corners[number][i] = vertex;
         if (mesh->corner_normals != NULL)
             mesh->corner_normals[number][i] = vertex;
         if (mesh->corner_uvs != NULL)
-            mesh->corner_uvs[number][i] = row[i] * (globe->columns + 1) + column[i];
+            mesh->corner_uvs[number][i] = row[i] * (2 * rows + 1) + column[i];
     }
 }
 
@@ -205,41 +194,40 @@ static bool add_globe_normals(HdMesh *mesh, int triangles) {
     return true;
 }
 
-static bool add_globe_uvs(HdMesh *mesh, const Globe *globe, int triangles) {
-    const int count = (globe->rows + 1) * (globe->columns + 1);
+static bool add_globe_uvs(HdMesh *mesh, int rows, int triangles) {
+    const int columns = 2 * rows, count = (rows + 1) * (columns + 1);
     mesh->uvs = allocate(count, sizeof *mesh->uvs);
     mesh->corner_uvs = allocate(triangles, sizeof *mesh->corner_uvs);
     if (mesh->uvs == NULL || mesh->corner_uvs == NULL)
         return false;
     mesh->uv_count = count;
     for (int i = 0; i < mesh->uv_count; i++) {
-        int row = i / (globe->columns + 1);
-        mesh->uvs[i][0] = 3.0 * (i % (globe->columns + 1)) / globe->columns - 1.0;
-        mesh->uvs[i][1] = 1.5 * row / globe->rows;
+        int row = i / (columns + 1);
+        mesh->uvs[i][0] = 3.0 * (i % (columns + 1)) / columns - 1.0;
+        mesh->uvs[i][1] = 1.5 * row / rows;
     }
     return true;
 }
 
 bool build_sphere_mesh(HdMesh *mesh, int rows, double bump, bool smooth, bool mapped,
                        const HdMaterial *material) {
-    const Globe globe = {rows, 2 * rows};
-    const int triangles = 2 * globe.columns * (rows - 1);
-    if (!build_mesh(mesh, 2 + (rows - 1) * globe.columns, triangles, 1))
+    const int columns = 2 * rows, triangles = 2 * columns * (rows - 1);
+    if (!build_mesh(mesh, 2 + (rows - 1) * columns, triangles, 1))
         return false;
     for (int row = 0; row <= rows; row++)
-        for (int column = 0; column < globe.columns; column++)
-            mesh->vertices[vertex_at(&globe, row, column)] = point_at(&globe, row, column, bump);
+        for (int column = 0; column < columns; column++)
+            mesh->vertices[vertex_at(rows, row, column)] = point_at(rows, row, column, bump);
     if ((smooth && !add_globe_normals(mesh, triangles)) ||
-        (mapped && !add_globe_uvs(mesh, &globe, triangles)))
+        (mapped && !add_globe_uvs(mesh, rows, triangles)))
         return false;
     for (int row = 0; row < rows; row++)
-        for (int column = 0; column < globe.columns; column++) {
+        for (int column = 0; column < columns; column++) {
             int down[3] = {row, row + 1, row + 1}, right[3] = {column, column, column + 1};
             int back[3] = {row, row + 1, row}, left[3] = {column, column + 1, column + 1};
             if (row < rows - 1)
-                add_globe_triangle(mesh, &globe, down, right);
+                add_globe_triangle(mesh, rows, down, right);
             if (row > 0)
-                add_globe_triangle(mesh, &globe, back, left);
+                add_globe_triangle(mesh, rows, back, left);
         }
     set_material(mesh, 0, material);
     return true;

@@ -23,36 +23,23 @@ static HdStatus compile_like(HdSceneTables *tables, const HdScene *scene, HdRend
     return status;
 }
 
-/* Kernels cannot render it that would be others if they could. */
-static bool can_render(const HdSceneTables *tables, const HdSceneTables *like) {
-    const HdKernelNeeds needs = hd_kernel_needs(tables), there = hd_kernel_needs(like);
-    return hd_kernel_needs_equal(&needs, &there);
-}
-
-/* Without what else surveyed pixels come with. */
-static void keep_radiance(HdFrame *image) {
-    size_t pixels = (size_t)image->width * (size_t)image->height;
-    for (size_t pixel = 0; pixel < pixels; pixel++)
-        memmove(image->rgb + 3 * pixel, image->rgb + (size_t)image->floats * pixel,
-                3 * sizeof *image->rgb);
-    image->floats = 3;
-}
-
 /* Kernels for surveys render grids as well. */
 static HdStatus render_hash(HdRenderer *renderer, const HdSceneTables *tables, const HdScene *scene,
                             const HdCamera *camera, uint64_t *hash, HdError *error) {
     HdFrameTables view;
     HdFrame image;
-    HdStatus status = hd_compile_frame(&view, scene, camera, tables->precision, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_compile_frame(&view, scene, camera, tables->precision, error));
     view.floats = tables->surveyed ? HD_SURVEY_FLOATS : HD_RADIANCE_FLOATS;
-    status = hd_frame_create_with(&image, scene->width, scene->height, view.floats, error);
+    HdStatus status = hd_frame_create_with(&image, scene->width, scene->height, view.floats, error);
     if (status == HD_OK) {
         status = hd_renderer_upload(renderer, tables, error);
         if (status == HD_OK)
             status = hd_renderer_render(renderer, &view, &image, error);
-        keep_radiance(&image);
+        /* Without what else surveyed pixels come with. */
+        size_t pixels = (size_t)image.width * (size_t)image.height;
+        for (size_t i = 0; i < pixels; i++)
+            memmove(image.rgb + 3 * i, image.rgb + (size_t)image.floats * i, 3 * sizeof *image.rgb);
+        image.floats = 3;
         *hash = hd_frame_hash(&image);
         hd_frame_free(&image);
     }
@@ -69,9 +56,9 @@ typedef struct Proof {
 
 static HdStatus judge(Proof *proof, const HdGoldenFrame *frame, uint64_t hash, HdError *error) {
     const HdDevice *device = hd_renderer_device(proof->renderer);
-    HdGoldenHashes expected = {0};
-    const bool is_known = hd_golden_find_hashes(frame->name, proof->like->precision, &expected);
-    proof->is_wrong = !is_known || hash != expected.frame;
+    HdGoldenHashes expected;
+    hd_golden_find_hashes(frame->name, proof->like->precision, &expected);
+    proof->is_wrong = hash != expected.frame;
     proof->frames += !proof->is_wrong;
     return proof->is_wrong
                ? hd_fail(error, HD_UNAVAILABLE,
@@ -87,13 +74,12 @@ static HdStatus prove_by(Proof *proof, const HdGoldenFrame *frame, HdError *erro
     HdCamera camera;
     HdSceneTables tables;
     uint64_t hash;
-    HdStatus status = hd_golden_build(frame, &scene, &camera, error);
-    if (status != HD_OK)
-        return status;
-    status = compile_like(&tables, &scene, proof->renderer, proof->like, error);
+    HD_TRY(hd_golden_build(frame, &scene, &camera, error));
+    HdStatus status = compile_like(&tables, &scene, proof->renderer, proof->like, error);
     if (status == HD_OK) {
         tables.many_lights = proof->like->many_lights; /* kernels without look at each light */
-        if (can_render(&tables, proof->like)) {
+        const HdKernelNeeds needs = hd_kernel_needs(&tables), there = hd_kernel_needs(proof->like);
+        if (hd_kernel_needs_equal(&needs, &there)) {
             status = render_hash(proof->renderer, &tables, &scene, &camera, &hash, error);
             if (status == HD_OK)
                 status = judge(proof, frame, hash, error);
@@ -172,10 +158,8 @@ HdStatus hd_put_tables(HdRenderer *renderer, const HdSceneTables *tables, HdErro
 HdStatus hd_put_scene(HdRenderer *renderer, const HdScene *scene, const HdSceneTables *like,
                       HdError *error) {
     HdSceneTables tables;
-    HdStatus status = compile_like(&tables, scene, renderer, like, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_put_tables(renderer, &tables, error);
+    HD_TRY(compile_like(&tables, scene, renderer, like, error));
+    HdStatus status = hd_put_tables(renderer, &tables, error);
     hd_scene_tables_free(&tables);
     return status;
 }
@@ -184,12 +168,9 @@ HdStatus hd_put_and_render(HdRenderer *renderer, const HdScene *scene, const HdC
                            const HdSceneTables *like, unsigned layers, HdFrame *frame,
                            HdError *error) {
     const HdFrameMaker maker = {.renderer = renderer, .scene = scene, .wish.curve = HD_CURVE_SRGB};
-    HdStatus status = hd_put_scene(renderer, scene, like, error);
-    if (status == HD_OK)
-        status = hd_frame_create(frame, scene->width, scene->height, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_frame_add_layers(frame, layers, error);
+    HD_TRY(hd_put_scene(renderer, scene, like, error));
+    HD_TRY(hd_frame_create(frame, scene->width, scene->height, error));
+    HdStatus status = hd_frame_add_layers(frame, layers, error);
     if (status == HD_OK)
         status = hd_frame_render(&maker, camera, frame, error);
     if (status != HD_OK)

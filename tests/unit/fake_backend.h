@@ -63,7 +63,7 @@ static HdStatus fake_open(const HdDevice *device, const HdRenderOptions *options
     assert_non_null(opened);
     opened->index = device->index;
     opened->options = *options;
-    hd_kernel_cache_begin(&opened->kernels, device);
+    hd_kernel_cache_begin(&opened->kernels, device->backend->name, device->name, device->driver);
     opened->kernels.shape =
         (HdKernelShape){.lanes = 1, .precision = options->precision, .math = options->math};
     *renderer = opened;
@@ -165,12 +165,6 @@ static HdStatus fake_probe(void *state, const HdProbeBatch *batch, HdProbeResult
     return HD_OK;
 }
 
-static void fake_probe_key(void *state, char *text, size_t capacity) {
-    const FakeRenderer *renderer = state;
-    hd_kernel_cache_key(&renderer->kernels, "text", 5, fake.options != NULL ? fake.options : "",
-                        "1", text, capacity);
-}
-
 static int fake_lanes(const void *state) {
     return ((const FakeRenderer *)state)->kernels.shape.lanes;
 }
@@ -194,7 +188,6 @@ static const HdRendererFunctions fake_functions = {
     .drop = fake_drop,
     .kernels = fake_kernels,
     .probe = fake_probe,
-    .probe_key = fake_probe_key,
     .lanes = fake_lanes,
     .describe = fake_describe,
     .close = fake_close,

@@ -9,21 +9,6 @@
 #include "device/backend.h"
 #include "system/dynamic_library.h"
 
-static HdStatus load_functions(HdCudaDriver *driver, void *library, HdError *error) {
-    static const HdLibrarySymbol symbols[] = {
-#define SYMBOL(function, version, parameters)                                                      \
-    {#function #version, offsetof(HdCudaDriver, function)},
-        HD_CUDA_FUNCTIONS(SYMBOL)
-#undef SYMBOL
-    };
-    const char *missing =
-        hd_library_load(library, symbols, sizeof symbols / sizeof *symbols, driver);
-    if (missing)
-        return hd_fail(error, HD_UNAVAILABLE,
-                       "the NVIDIA driver is too old: libcuda.so.1 has no function %s", missing);
-    return HD_OK;
-}
-
 static const char *advise_start(const HdCudaDriver *driver, HdCuResult code) {
     enum { BRANCH_590 = 13010 }; /* what the first driver without cards before sm_75 tells */
     int version = 0;
@@ -42,23 +27,29 @@ static const char *advise_start(const HdCudaDriver *driver, HdCuResult code) {
     }
 }
 
-static HdStatus fail_to_start(const HdCudaDriver *driver, HdCuResult code, HdError *error) {
-    return hd_fail(error, code == HD_CU_ERROR_NO_DEVICE ? HD_UNAVAILABLE : HD_FAILED,
-                   "the NVIDIA driver does not start: cuInit failed with %s (%u)%s",
-                   hd_cuda_error_name(driver, code), code, advise_start(driver, code));
-}
-
 HdStatus hd_cuda_load_driver(HdCudaDriver *driver, HdError *error) {
+    static const HdLibrarySymbol symbols[] = {
+#define SYMBOL(function, version, parameters)                                                      \
+    {#function #version, offsetof(HdCudaDriver, function)},
+        HD_CUDA_FUNCTIONS(SYMBOL)
+#undef SYMBOL
+    };
     memset(driver, 0, sizeof *driver);
     void *library = hd_library_open("libcuda.so.1");
     if (!library)
         return hd_fail(error, HD_UNAVAILABLE, "the NVIDIA driver (libcuda.so.1) is not installed");
-    HdStatus status = load_functions(driver, library, error);
+    const char *missing =
+        hd_library_load(library, symbols, sizeof symbols / sizeof *symbols, driver);
     hd_library_close(library);
-    if (status != HD_OK)
-        return status;
+    if (missing)
+        return hd_fail(error, HD_UNAVAILABLE,
+                       "the NVIDIA driver is too old: libcuda.so.1 has no function %s", missing);
     HdCuResult code = driver->cuInit(0);
-    return code == HD_CU_SUCCESS ? HD_OK : fail_to_start(driver, code, error);
+    if (code == HD_CU_SUCCESS)
+        return HD_OK;
+    return hd_fail(error, code == HD_CU_ERROR_NO_DEVICE ? HD_UNAVAILABLE : HD_FAILED,
+                   "the NVIDIA driver does not start: cuInit failed with %s (%u)%s",
+                   hd_cuda_error_name(driver, code), code, advise_start(driver, code));
 }
 
 const char *hd_cuda_error_name(const HdCudaDriver *driver, HdCuResult code) {

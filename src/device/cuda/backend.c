@@ -60,14 +60,13 @@ static HdStatus query_attributes(HdDevice *device, const HdCudaDriver *driver, H
         {HD_CU_DEVICE_CLOCK_KHZ, &khz},
         {HD_CU_DEVICE_KERNEL_EXEC_TIMEOUT, &has_timeout},
     };
-    HdStatus status = HD_OK;
-    for (size_t i = 0; status == HD_OK && i < sizeof list / sizeof *list; i++)
-        status =
-            CALL(*driver, cuDeviceGetAttribute, (list[i].value, list[i].attribute, handle), error);
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
+        HD_TRY(
+            CALL(*driver, cuDeviceGetAttribute, (list[i].value, list[i].attribute, handle), error));
     device->nvidia_arch = 10 * major + minor;
     device->clock_mhz = khz / 1000;
     device->has_timeout = has_timeout != 0 || hd_display_may_be_there(HD_DISPLAY_FOLDER);
-    return status;
+    return HD_OK;
 }
 
 static int query_driver_version(const HdCudaDriver *driver) {
@@ -83,19 +82,14 @@ static bool takes_ptx(int arch) {
 static HdStatus query_device(HdDevice *device, const HdCudaDriver *driver, int index,
                              HdError *error) {
     HdCuDevice handle = 0;
-    HdStatus status = CALL(*driver, cuDeviceGet, (&handle, index), error);
-    if (status == HD_OK)
-        status =
-            CALL(*driver, cuDeviceGetName, (device->name, (int)sizeof device->name, handle), error);
-    if (status == HD_OK)
-        status = query_attributes(device, driver, handle, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(CALL(*driver, cuDeviceGet, (&handle, index), error));
+    HD_TRY(CALL(*driver, cuDeviceGetName, (device->name, (int)sizeof device->name, handle), error));
+    HD_TRY(query_attributes(device, driver, handle, error));
     int arch = device->nvidia_arch, version = query_driver_version(driver);
     snprintf(device->driver, sizeof device->driver, "sm_%d, driver for CUDA %d.%d", arch,
              version / 1000, version % 1000 / 10);
     /* Fails where there is no compiler, so that a choice among devices can pass it over. */
-    status = hd_nvrtc_check(device->name, arch, version / 1000, error);
+    HdStatus status = hd_nvrtc_check(device->name, arch, version / 1000, error);
     return status != HD_OK && takes_ptx(arch) ? HD_OK : status;
 }
 
@@ -114,13 +108,10 @@ static void describe_device(HdDevice *device, const HdCudaDriver *driver, int in
 
 static HdStatus cuda_enumerate(HdDevice *devices, int capacity, int *count, HdError *error) {
     HdCudaDriver driver;
-    *count = 0;
-    HdStatus status = hd_cuda_load_driver(&driver, error);
     int available = 0;
-    if (status == HD_OK)
-        status = CALL(driver, cuDeviceGetCount, (&available), error);
-    if (status != HD_OK)
-        return status;
+    *count = 0;
+    HD_TRY(hd_cuda_load_driver(&driver, error));
+    HD_TRY(CALL(driver, cuDeviceGetCount, (&available), error));
     if (available < 1)
         return hd_fail(error, HD_UNAVAILABLE, "the NVIDIA driver knows no device");
     for (*count = 0; *count < available && *count < capacity; ++*count)
@@ -152,53 +143,41 @@ static HdStatus enter(void *state, HdError *error) {
 
 static HdStatus create_streams(Device *device, HdGpuFacts *facts, HdError *error) {
     size_t available = 0, total = 0;
-    HdStatus status = enter(device, error);
-    if (status != HD_OK)
-        return status;
-    status =
-        CALL(device->driver, cuStreamCreate, (&device->stream, HD_CU_STREAM_NON_BLOCKING), error);
-    if (status == HD_OK)
-        status = CALL(device->driver, cuStreamCreate, (&device->copies, HD_CU_STREAM_NON_BLOCKING),
-                      error);
-    if (status == HD_OK)
-        status = CALL(device->driver, cuMemGetInfo, (&available, &total), error);
+    HD_TRY(enter(device, error));
+    HD_TRY(
+        CALL(device->driver, cuStreamCreate, (&device->stream, HD_CU_STREAM_NON_BLOCKING), error));
+    HD_TRY(
+        CALL(device->driver, cuStreamCreate, (&device->copies, HD_CU_STREAM_NON_BLOCKING), error));
+    HD_TRY(CALL(device->driver, cuMemGetInfo, (&available, &total), error));
     facts->memory = total;
-    return status;
-}
-
-static void destroy_streams(Device *device) {
-    HdError ignored;
-    if (enter(device, &ignored) != HD_OK)
-        return;
-    if (device->copies)
-        device->driver.cuStreamDestroy(device->copies);
-    if (device->stream)
-        device->driver.cuStreamDestroy(device->stream);
+    return HD_OK;
 }
 
 static void close_device(void *state) {
     Device *device = state;
-    if (device->context) {
-        destroy_streams(device);
+    HdError ignored;
+    const bool is_entered = device->context && enter(device, &ignored) == HD_OK;
+    if (is_entered && device->copies)
+        device->driver.cuStreamDestroy(device->copies);
+    if (is_entered && device->stream)
+        device->driver.cuStreamDestroy(device->stream);
+    if (device->context)
         device->driver.cuDevicePrimaryCtxRelease(device->handle);
-    }
     hd_nvrtc_close(&device->nvrtc);
     hd_cuda_code_free(&device->code);
 }
 
 static HdStatus open_device(void *state, const HdDevice *is, HdGpuFacts *facts, HdError *error) {
     Device *device = state;
-    HdCuContext context = NULL;
     device->is = *is;
     HdStatus status = hd_cuda_load_driver(&device->driver, error);
     if (status == HD_OK)
         status = CALL(device->driver, cuDeviceGet, (&device->handle, is->index), error);
     if (status == HD_OK)
-        status = CALL(device->driver, cuDevicePrimaryCtxRetain, (&context, device->handle), error);
-    if (status == HD_OK) {
-        device->context = context;
+        status = CALL(device->driver, cuDevicePrimaryCtxRetain, (&device->context, device->handle),
+                      error);
+    if (status == HD_OK)
         status = create_streams(device, facts, error);
-    }
     if (status != HD_OK)
         close_device(device);
     return status;
@@ -273,9 +252,9 @@ static HdStatus finish(void *state, HdError *error) {
 static HdStatus read_memory(void *state, const HdGpuMemory *memory, void *to, size_t bytes,
                             HdError *error) {
     const Device *device = state;
-    HdStatus status = CALL(device->driver, cuMemcpyDtoHAsync,
-                           (to, pointer_to(memory), bytes, device->stream), error);
-    return status == HD_OK ? finish(state, error) : status;
+    HD_TRY(CALL(device->driver, cuMemcpyDtoHAsync, (to, pointer_to(memory), bytes, device->stream),
+                error));
+    return finish(state, error);
 }
 
 /* ---- kernels ---- */
@@ -321,18 +300,14 @@ static bool find_constant(void *state, const char *name, HdGpuMemory *memory) {
 }
 
 static HdStatus get_kernels(Device *device, const HdKernelShape *shape, HdError *error) {
-    HdStatus status = HD_OK;
-    for (int i = 0; status == HD_OK && i < HD_KERNEL_COUNT; i++) {
+    for (int i = 0; i < HD_KERNEL_COUNT; i++) {
         const char *name = hd_kernel_name(shape, (HdKernel)i);
         if (name != NULL)
-            status = CALL(device->driver, cuModuleGetFunction,
-                          (&device->kernels[i], device->module, name), error);
+            HD_TRY(CALL(device->driver, cuModuleGetFunction,
+                        (&device->kernels[i], device->module, name), error));
     }
-    if (status == HD_OK)
-        status = query_kernel(device, HD_CU_FUNCTION_REGISTERS, &device->registers, error);
-    if (status == HD_OK)
-        status = query_kernel(device, HD_CU_FUNCTION_LOCAL_BYTES, &device->local_bytes, error);
-    return status;
+    HD_TRY(query_kernel(device, HD_CU_FUNCTION_REGISTERS, &device->registers, error));
+    return query_kernel(device, HD_CU_FUNCTION_LOCAL_BYTES, &device->local_bytes, error);
 }
 
 /* Of PTX the driver makes machine code, as NVRTC would be asked to. */
@@ -366,13 +341,6 @@ static HdStatus load(void *state, const HdKernelShape *shape, const char *option
     return load_module(state, shape, (const char *)binary, maker, error);
 }
 
-static HdStatus find_compiler(Device *device, HdCudaTarget target, HdError *error) {
-    if (device->nvrtc.library)
-        return HD_OK;
-    int driver_major = query_driver_version(&device->driver) / 1000;
-    return hd_nvrtc_open(&device->nvrtc, device->is.name, target.arch, driver_major, NULL, error);
-}
-
 /* What the program brings, in place of what no NVRTC is there to compile; the error tells that. */
 static HdStatus load_ptx(Device *device, const HdKernelShape *shape, char *maker, size_t capacity,
                          HdError *error) {
@@ -396,13 +364,14 @@ static HdStatus compile(void *state, const HdKernelShape *shape, const char *opt
                         size_t capacity, HdError *error) {
     Device *device = state;
     HdCudaTarget target = hd_cuda_target(shape, device->is.nvidia_arch);
-    HdStatus status = find_compiler(device, target, error);
+    HdStatus status = HD_OK;
+    if (!device->nvrtc.library)
+        status = hd_nvrtc_open(&device->nvrtc, device->is.name, target.arch,
+                               query_driver_version(&device->driver) / 1000, NULL, error);
     if (status == HD_UNAVAILABLE && !target.is_ptx && takes_ptx(target.arch))
         return load_ptx(device, shape, maker, capacity, error);
-    if (status == HD_OK)
-        status = hd_cuda_compile(&device->code, &device->nvrtc, target, options, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(status);
+    HD_TRY(hd_cuda_compile(&device->code, &device->nvrtc, target, options, error));
     int length = snprintf(maker, capacity, "NVRTC %d.%d", device->nvrtc.major, device->nvrtc.minor);
     if (target.is_ptx)
         snprintf(maker + length, capacity - (size_t)length, ", PTX for compute_%d", target.arch);
@@ -423,9 +392,9 @@ static unsigned char *copy_binary(const void *state, size_t *size) {
 /* Threads share the registers of a multiprocessor. */
 static HdStatus query_most_threads(void *state, size_t *threads, HdError *error) {
     int most = 0;
-    HdStatus status = query_kernel(state, HD_CU_FUNCTION_MAX_THREADS, &most, error);
+    HD_TRY(query_kernel(state, HD_CU_FUNCTION_MAX_THREADS, &most, error));
     *threads = (size_t)most;
-    return status;
+    return HD_OK;
 }
 
 /* ---- launches ---- */
@@ -433,11 +402,10 @@ static HdStatus query_most_threads(void *state, size_t *threads, HdError *error)
 /* To wait for the end of something must not cost a core. */
 static HdStatus record(const Device *device, void **event, HdCuStream stream, HdError *error) {
     HdCuEvent made = *event;
-    HdStatus status = HD_OK;
     if (made == NULL)
-        status = CALL(device->driver, cuEventCreate, (&made, HD_CU_EVENT_BLOCKING_SYNC), error);
+        HD_TRY(CALL(device->driver, cuEventCreate, (&made, HD_CU_EVENT_BLOCKING_SYNC), error));
     *event = made;
-    return status == HD_OK ? CALL(device->driver, cuEventRecord, (made, stream), error) : status;
+    return CALL(device->driver, cuEventRecord, (made, stream), error);
 }
 
 static void forget(void *state, HdGpuMark *mark) {
@@ -455,27 +423,25 @@ static HdStatus launch(void *state, const HdGpuLaunch *launch, HdGpuMark *mark, 
     unsigned int blocks = (unsigned int)launch->groups, threads = (unsigned int)launch->group_size;
     for (int i = 0; i < launch->argument_count; i++)
         arguments[i] = (void *)launch->arguments[i].value;
-    HdStatus status = mark != NULL ? record(device, &mark->begin, device->stream, error) : HD_OK;
-    if (status == HD_OK)
-        status = CALL(device->driver, cuLaunchKernel,
-                      (device->kernels[launch->kernel], blocks, 1, 1, threads, 1, 1, 0,
-                       device->stream, arguments, NULL),
-                      error);
-    if (status == HD_OK && mark != NULL)
-        status = record(device, &mark->end, device->stream, error);
-    return status;
+    HD_TRY(mark != NULL ? record(device, &mark->begin, device->stream, error) : HD_OK);
+    HD_TRY(CALL(device->driver, cuLaunchKernel,
+                (device->kernels[launch->kernel], blocks, 1, 1, threads, 1, 1, 0, device->stream,
+                 arguments, NULL),
+                error));
+    if (mark != NULL)
+        HD_TRY(record(device, &mark->end, device->stream, error));
+    return HD_OK;
 }
 
 static HdStatus copy_back(void *state, const HdGpuMark *after, const HdGpuCopy *copies, int count,
                           HdGpuMark *done, HdError *error) {
     const Device *device = state;
-    HdStatus status =
-        CALL(device->driver, cuStreamWaitEvent, (device->copies, after->end, 0), error);
-    for (int i = 0; status == HD_OK && i < count; i++)
-        status = CALL(device->driver, cuMemcpyDtoHAsync,
-                      (copies[i].to, pointer_to(copies[i].from), copies[i].bytes, device->copies),
-                      error);
-    return status == HD_OK ? record(device, &done->end, device->copies, error) : status;
+    HD_TRY(CALL(device->driver, cuStreamWaitEvent, (device->copies, after->end, 0), error));
+    for (int i = 0; i < count; i++)
+        HD_TRY(CALL(device->driver, cuMemcpyDtoHAsync,
+                    (copies[i].to, pointer_to(copies[i].from), copies[i].bytes, device->copies),
+                    error));
+    return record(device, &done->end, device->copies, error);
 }
 
 static HdStatus wait_for(void *state, const HdGpuMark *mark, HdError *error) {
@@ -492,10 +458,9 @@ static HdStatus measure_seconds(void *state, const HdGpuMark *from, const HdGpuM
                                 double *seconds, HdError *error) {
     const Device *device = state;
     float milliseconds = 0.0f;
-    HdStatus status =
-        CALL(device->driver, cuEventElapsedTime, (&milliseconds, from->begin, to->end), error);
+    HD_TRY(CALL(device->driver, cuEventElapsedTime, (&milliseconds, from->begin, to->end), error));
     *seconds = 1e-3 * (double)milliseconds;
-    return status;
+    return HD_OK;
 }
 
 static int describe(const void *state, const HdKernelShape *shape, int group_size,

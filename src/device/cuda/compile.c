@@ -28,31 +28,17 @@ typedef struct Search {
     char found[512]; /* what was found and does not fit, for people */
 } Search;
 
-/* NVRTC opens its helper by name and relies on the loader to look in NVRTC's own folder, which it
-   does not do when a sanitizer stands between. A library that is loaded already is found by its
-   name. */
-static void load_builtins(const HdNvrtc *nvrtc) {
-    char name[64];
-    snprintf(name, sizeof name, "libnvrtc-builtins.so.%d.%d", nvrtc->major, nvrtc->minor);
-    hd_library_close(hd_library_open_beside(nvrtc->library, "nvrtcVersion", name));
-}
-
-static bool load_functions(HdNvrtcFunctions *functions, void *library) {
+static bool load(HdNvrtc *nvrtc, const char *path) {
     static const HdLibrarySymbol symbols[] = {
 #define SYMBOL(type, member, symbol, parameters) {#symbol, offsetof(HdNvrtcFunctions, member)},
         HD_NVRTC_FUNCTIONS(SYMBOL)
 #undef SYMBOL
     };
-    return hd_library_load(library, symbols, sizeof symbols / sizeof *symbols, functions) == NULL;
-}
-
-static bool load(HdNvrtc *nvrtc, const char *path) {
     *nvrtc = (HdNvrtc){.library = hd_library_open(path)};
-    if (!nvrtc->library)
-        return false;
-    const HdNvrtcFunctions *functions = &nvrtc->functions;
-    if (load_functions(&nvrtc->functions, nvrtc->library) &&
-        functions->version(&nvrtc->major, &nvrtc->minor) == 0)
+    if (nvrtc->library &&
+        hd_library_load(nvrtc->library, symbols, sizeof symbols / sizeof *symbols,
+                        &nvrtc->functions) == NULL &&
+        nvrtc->functions.version(&nvrtc->major, &nvrtc->minor) == 0)
         return true;
     hd_nvrtc_close(nvrtc);
     return false;
@@ -64,21 +50,6 @@ static int list_archs(const HdNvrtc *nvrtc, int archs[MAX_ARCHS]) {
     if (nvrtc->functions.arch_count(&count) != 0 || count < 1 || count > MAX_ARCHS)
         return 0;
     return nvrtc->functions.list_archs(archs) == 0 ? count : 0;
-}
-
-static bool contains(const int *archs, int count, int arch) {
-    for (int i = 0; i < count; i++)
-        if (archs[i] == arch)
-            return true;
-    return false;
-}
-
-static void note(Search *search, const HdNvrtc *nvrtc, const int *archs, int count) {
-    char text[64];
-    snprintf(text, sizeof text, "NVRTC %d.%d for sm_%d to sm_%d", nvrtc->major, nvrtc->minor,
-             count ? archs[0] : 0, count ? archs[count - 1] : 0);
-    if (!strstr(search->found, text))
-        hd_add_text(search->found, sizeof search->found, ", ", "%s", text);
 }
 
 static bool is_better(const Search *search, const HdNvrtc *nvrtc) {
@@ -96,9 +67,15 @@ static void consider(Search *search, const char *path) {
     if (!load(&nvrtc, path))
         return;
     int archs[MAX_ARCHS];
-    int count = list_archs(&nvrtc, archs);
-    if (!contains(archs, count, search->arch)) {
-        note(search, &nvrtc, archs, count);
+    int count = list_archs(&nvrtc, archs), place = 0;
+    while (place < count && archs[place] != search->arch)
+        place++;
+    if (place == count) {
+        char text[64];
+        snprintf(text, sizeof text, "NVRTC %d.%d for sm_%d to sm_%d", nvrtc.major, nvrtc.minor,
+                 count ? archs[0] : 0, count ? archs[count - 1] : 0);
+        if (!strstr(search->found, text))
+            hd_add_text(search->found, sizeof search->found, ", ", "%s", text);
     } else if (is_better(search, &nvrtc)) {
         HdNvrtc worse = search->best;
         search->best = nvrtc;
@@ -108,68 +85,50 @@ static void consider(Search *search, const char *path) {
     hd_nvrtc_close(&nvrtc);
 }
 
-static void consider_pattern(Search *search, const char *pattern) {
+/* `folder` may be NULL or empty: nothing is below it. */
+static void consider_below(Search *search, const char *folder, const char *pattern) {
+    char path[HD_MAX_PATH];
     glob_t paths;
-    if (glob(pattern, 0, NULL, &paths) == 0)
+    if (!folder || !folder[0])
+        return;
+    int length = snprintf(path, sizeof path, "%s/%s", folder, pattern);
+    if (length < 0 || length >= HD_MAX_PATH)
+        return;
+    if (glob(path, 0, NULL, &paths) == 0)
         for (size_t i = 0; i < paths.gl_pathc; i++)
             consider(search, paths.gl_pathv[i]);
     globfree(&paths);
 }
 
-static void consider_below(Search *search, const char *folder, const char *pattern) {
-    char path[HD_MAX_PATH];
-    if (!folder || !folder[0])
-        return;
-    int length = snprintf(path, sizeof path, "%s/%s", folder, pattern);
-    if (length > 0 && length < HD_MAX_PATH)
-        consider_pattern(search, path);
-}
-
 #define PYTHON_PACKAGES "lib/python3*/*-packages/nvidia/*/lib/libnvrtc.so*"
 
-static void search_system(Search *search) {
+static void search_everywhere(Search *search) {
     static const char *const names[] = {"libnvrtc.so.13", "libnvrtc.so.12", "libnvrtc.so.11.2",
                                         "libnvrtc.so"};
-    static const char *const patterns[] = {
-        "/usr/local/cuda*/lib64/libnvrtc.so*",
-        "/usr/local/" PYTHON_PACKAGES,
-        "/usr/" PYTHON_PACKAGES,
+    char build[HD_MAX_PATH]; /* where the program lies */
+    const char *home = getenv("HOME"), *conda = getenv("CONDA_PREFIX");
+    const char *program = hd_path_of_program(build) ? build : NULL;
+    const struct {
+        const char *folder, *pattern;
+    } below[] = {
+        {"/usr/local", "cuda*/lib64/libnvrtc.so*"},
+        {"/usr/local", PYTHON_PACKAGES},
+        {"/usr", PYTHON_PACKAGES},
+        {getenv("CUDA_HOME"), "lib64/libnvrtc.so*"},
+        {getenv("CUDA_PATH"), "lib64/libnvrtc.so*"},
+        {home, HD_NVRTC_VENV "/" PYTHON_PACKAGES},
+        {home, ".local/" PYTHON_PACKAGES},
+        {getenv("VIRTUAL_ENV"), PYTHON_PACKAGES},
+        {conda, "lib/libnvrtc.so*"},
+        {conda, PYTHON_PACKAGES},
+        /* Where ./dev puts one, seen from the build's folder or one below it. */
+        {program, "../nvrtc12/nvidia/*/lib/libnvrtc.so*"},
+        {program, "../../nvrtc12/nvidia/*/lib/libnvrtc.so*"},
     };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         consider(search, names[i]);
-    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++)
-        consider_pattern(search, patterns[i]);
-}
-
-static void search_user(Search *search) {
-    static const char *const below[][2] = {
-        {"CUDA_HOME", "lib64/libnvrtc.so*"},
-        {"CUDA_PATH", "lib64/libnvrtc.so*"},
-        {"HOME", HD_NVRTC_VENV "/" PYTHON_PACKAGES},
-        {"HOME", ".local/" PYTHON_PACKAGES},
-        {"VIRTUAL_ENV", PYTHON_PACKAGES},
-        {"CONDA_PREFIX", "lib/libnvrtc.so*"},
-        {"CONDA_PREFIX", PYTHON_PACKAGES},
-    };
     for (size_t i = 0; i < sizeof below / sizeof *below; i++)
-        consider_below(search, getenv(below[i][0]), below[i][1]);
-}
-
-/* Where ./dev puts one, seen from a program in the build's folder or in one below it. */
-static void search_build(Search *search) {
-    static const char *const patterns[] = {"../nvrtc12/nvidia/*/lib/libnvrtc.so*",
-                                           "../../nvrtc12/nvidia/*/lib/libnvrtc.so*"};
-    char folder[HD_MAX_PATH];
-    if (!hd_path_of_program(folder))
-        return;
-    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++)
-        consider_below(search, folder, patterns[i]);
-}
-
-static void search_everywhere(Search *search) {
-    search_system(search);
-    search_user(search);
-    search_build(search);
+        consider_below(search, below[i].folder, below[i].pattern);
 }
 
 /* NVRTC 11 is the last for cards before sm_50, NVRTC 12 for those before sm_75. */
@@ -212,6 +171,7 @@ bool hd_nvrtc_is_named(void) {
 
 HdStatus hd_nvrtc_open(HdNvrtc *nvrtc, const char *device, int arch, int driver_major,
                        const char *path, HdError *error) {
+    char builtins[64];
     Search search = {.arch = arch, .driver_major = driver_major};
     const char *named = path ? path : hd_nvrtc_is_named() ? getenv("HEDRON_NVRTC") : NULL;
     if (named)
@@ -221,7 +181,10 @@ HdStatus hd_nvrtc_open(HdNvrtc *nvrtc, const char *device, int arch, int driver_
     if (!search.has_best)
         return fail_to_find(&search, device, named, error);
     *nvrtc = search.best;
-    load_builtins(nvrtc);
+    /* NVRTC opens its helper by name and relies on the loader to look in NVRTC's own folder, which
+       it does not do when a sanitizer stands between. A library that is loaded already is found. */
+    snprintf(builtins, sizeof builtins, "libnvrtc-builtins.so.%d.%d", nvrtc->major, nvrtc->minor);
+    hd_library_close(hd_library_open_beside(nvrtc->library, "nvrtcVersion", builtins));
     return HD_OK;
 }
 
@@ -275,9 +238,7 @@ HdStatus hd_nvrtc_check(const char *device, int arch, int driver_major, HdError 
     char library[HD_MAX_PATH];
     if (is_remembered(arch, driver_major))
         return HD_OK;
-    HdStatus status = hd_nvrtc_open(&nvrtc, device, arch, driver_major, NULL, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_nvrtc_open(&nvrtc, device, arch, driver_major, NULL, error));
     if (hd_library_path(nvrtc.library, "nvrtcVersion", library, sizeof library))
         hd_nvrtc_remember(library, arch, driver_major);
     hd_nvrtc_close(&nvrtc);

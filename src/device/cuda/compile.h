@@ -19,11 +19,10 @@ typedef struct HdNvrtc {
 } HdNvrtc;
 
 /* Takes the newest library that compiles for sm_`arch`, one that is not newer than the driver
-   (`driver_major`, 0: unknown) before one that is. Looked at: the file `path`; if that is NULL, the
-   file that HEDRON_NVRTC names, or nothing where it is "off"; otherwise the folders that
-   docs/backends.md lists. Where
-   there is none, the message says what was found and what to install for that device and driver.
-   `device` is its name. */
+   (`driver_major`, 0: unknown) before one that is. Looks at the file `path`; if that is NULL, at
+   the file that HEDRON_NVRTC names, or at none if it is "off"; else in the folders that
+   docs/backends.md lists. Otherwise the message says what was found and what to install for
+   `device`. */
 HdStatus hd_nvrtc_open(HdNvrtc *nvrtc, const char *device, int arch, int driver_major,
                        const char *path, HdError *error);
 void hd_nvrtc_close(HdNvrtc *nvrtc);
@@ -81,8 +80,7 @@ typedef struct HdCudaPtx {
 } HdCudaPtx;
 
 /* Made by cmake/embed_ptx.c: the kernels of the probe (verify/probe.h) and others, with strict
-   arithmetic and all that a scene may need up to the bounds below; none where there was no NVRTC.
- */
+   arithmetic and all that a scene may need up to the bounds below; none without NVRTC. */
 extern const HdCudaPtx hd_cuda_ptx[];
 extern const int hd_cuda_ptx_count;
 

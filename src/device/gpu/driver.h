@@ -69,26 +69,23 @@ typedef struct HdGpuDriver {
     const unsigned char *source;
     const size_t *source_size;
 
-    size_t
-        bytes; /* of an open device, which the functions get as `gpu`; zeroed before it is opened */
+    size_t bytes; /* of an open device, the functions' `gpu`; zeroed before it is opened */
     /* On failure there is nothing to close. */
     HdStatus (*open)(void *gpu, const HdDevice *device, HdGpuFacts *facts, HdError *error);
     void (*close)(void *gpu);
 
-    /* Before all calls but open and close, on a thread that may have worked on another GPU. NULL:
-       there is nothing to do. */
+    /* Precedes all calls but open and close, on a thread that may have used another GPU; or NULL.
+     */
     HdStatus (*enter)(void *gpu, HdError *error);
 
-    /* Makes an empty memory one of so many bytes. Fails with `refusal` instead of `error` where
-       memory is lacking; what launches failed with before is not taken for that with
-       HD_GPU_DEVICE_AT_ONCE. */
+    /* Makes an empty memory one of so many bytes. Fails with `refusal` instead of `error` if memory
+       is lacking, for which HD_GPU_DEVICE_AT_ONCE takes no earlier launch's failure. */
     HdStatus (*allocate)(void *gpu, HdGpuMemory *memory, HdGpuPlace place, size_t bytes,
                          HdGpuRefusal *refusal, HdError *error);
     /* Waits for what may still use it. */
     void (*release)(void *gpu, HdGpuMemory *memory);
 
-    /* Queues a copy to the device, in the order of the launches. The data must live until the
-       device is through with it. */
+    /* Queues a copy to the device, in the order of the launches. The data must live until then. */
     HdStatus (*write)(void *gpu, const HdGpuMemory *memory, const void *data, size_t bytes,
                       HdGpuRefusal *refusal, HdError *error);
     /* Copies to memory of the host in the order of the launches, and waits. */
@@ -106,16 +103,15 @@ typedef struct HdGpuDriver {
                      const unsigned char *binary, size_t size, const char *maker, HdError *error);
     unsigned char *(*binary)(const void *gpu, size_t *size); /* as HdKernelReader */
     void (*unload)(void *gpu);                               /* there may be no kernels */
-    /* The room that the kernels have for a table in constant memory; false: none. NULL where a
-       driver has no constant memory for tables. */
+    /* The kernels' room for a table in constant memory; false: none. NULL: no driver's table is. */
     bool (*constant)(void *gpu, const char *table, HdGpuMemory *memory);
     /* The most threads of a group of the tracing kernel. */
     HdStatus (*most_threads)(void *gpu, size_t *threads, HdError *error);
 
     /* Queues a launch; `mark`, if it is not NULL, tells its times. */
     HdStatus (*launch)(void *gpu, const HdGpuLaunch *launch, HdGpuMark *mark, HdError *error);
-    /* Queues copies to the host beside the launches that follow, after what `after` marks. `done`
-       marks the last one. */
+    /* Queues copies to the host, after what `after` marks, beside later launches. `done` marks the
+       last one. */
     HdStatus (*copy_back)(void *gpu, const HdGpuMark *after, const HdGpuCopy *copies, int count,
                           HdGpuMark *done, HdError *error);
     /* Waits for a launch, and for copies to the host, without keeping a core busy. */
@@ -125,8 +121,8 @@ typedef struct HdGpuDriver {
     HdStatus (*finish)(void *gpu, HdError *error);
     /* Waits for everything, whatever comes of it. */
     void (*drain)(void *gpu);
-    /* From the begin of one to the end of another one, both of which are over; negative: the device
-       does not tell. */
+    /* From the begin of one to the end of another, both over; negative: the device does not tell.
+     */
     HdStatus (*seconds)(void *gpu, const HdGpuMark *from, const HdGpuMark *to, double *seconds,
                         HdError *error);
     void (*forget)(void *gpu, HdGpuMark *mark);

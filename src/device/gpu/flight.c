@@ -38,16 +38,11 @@ static size_t picture_bytes(const HdGpuFlight *flight) {
     return pixel_count(flight) * (flight->encodes ? 4 : (size_t)flight->of->floats * sizeof(float));
 }
 
-static size_t bytes_of_tables(const HdFrameTables *tables) {
-    size_t bytes = 0;
-    for (int i = 0; i < tables->table_count; i++)
-        bytes += tables->table[i].bytes;
-    return bytes;
-}
-
 static HdStatus reserve(HdGpuFlight *flight, const HdGpu *gpu, HdError *error) {
-    size_t pixels = pixel_count(flight),
-           bytes = sizeof(float) * (size_t)flight->of->floats * pixels;
+    size_t pixels = pixel_count(flight), tables = 0;
+    size_t bytes = sizeof(float) * (size_t)flight->of->floats * pixels;
+    for (int i = 0; i < flight->of->table_count; i++)
+        tables += flight->of->table[i].bytes;
     const struct {
         HdGpuMemory *memory;
         HdGpuPlace place;
@@ -56,17 +51,16 @@ static HdStatus reserve(HdGpuFlight *flight, const HdGpu *gpu, HdError *error) {
     } list[] = {
         {&flight->pixels, HD_GPU_DEVICE, bytes, "pixels"},
         {&flight->sums, HD_GPU_DEVICE, SUM_BYTES, "sums of the counts"},
-        {&flight->tables, HD_GPU_HOST, bytes_of_tables(flight->of), "tables of the frame"},
+        {&flight->tables, HD_GPU_HOST, tables, "tables of the frame"},
         {&flight->copy, HD_GPU_HOST, SUM_BYTES + picture_bytes(flight),
          "pixels on their way to the host"},
         {&flight->image, HD_GPU_DEVICE, 4 * pixels, "encoded pixels"},
     };
     int count = flight->encodes ? 5 : 4;
-    HdStatus status = HD_OK;
-    for (int i = 0; status == HD_OK && i < count; i++)
-        status =
-            hd_gpu_reserve(gpu, list[i].memory, list[i].place, list[i].bytes, list[i].what, error);
-    return status;
+    for (int i = 0; i < count; i++)
+        HD_TRY(
+            hd_gpu_reserve(gpu, list[i].memory, list[i].place, list[i].bytes, list[i].what, error));
+    return HD_OK;
 }
 
 HdStatus hd_gpu_flight_begin(HdGpuRenderer *renderer, const HdFrameTables *tables, int items,
@@ -144,26 +138,20 @@ HdStatus hd_gpu_flight_send(HdGpuRenderer *renderer, HdGpuFlight *flight, HdErro
     return status;
 }
 
-/* Where the device does not tell, what the host sees: frames are traced one after the other. */
-static double host_seconds(const HdGpuFlights *flights, const HdGpuFlight *flight) {
-    return hd_monotonic_seconds() - fmax(flight->submitted, flights->collected);
-}
-
 static HdStatus fill(HdGpuRenderer *renderer, HdGpuFlight *flight, HdFrame *frame, HdError *error) {
     const HdGpu *gpu = &renderer->gpu;
     double seconds, waited = hd_monotonic_seconds();
     flight->is_alone = true;
-    HdStatus status = gpu->driver->wait_for_copies(gpu->handle, &flight->copied, error);
-    if (status == HD_OK)
-        status =
-            gpu->driver->seconds(gpu->handle, &flight->first, &flight->summed, &seconds, error);
-    if (status == HD_OK && flight->untimed != NULL)
-        status = hd_gpu_flight_time_launch(renderer, flight, waited, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(gpu->driver->wait_for_copies(gpu->handle, &flight->copied, error));
+    HD_TRY(gpu->driver->seconds(gpu->handle, &flight->first, &flight->summed, &seconds, error));
+    if (flight->untimed != NULL)
+        HD_TRY(hd_gpu_flight_time_launch(renderer, flight, waited, error));
     hd_gpu_flight_tell(flight, flight->items);
     frame->longest_launch = flight->longest_launch;
-    frame->trace_seconds = seconds < 0.0 ? host_seconds(&renderer->flights, flight) : seconds;
+    /* Where the device does not tell, what the host sees: frames are traced one after the other. */
+    if (seconds < 0.0)
+        seconds = hd_monotonic_seconds() - fmax(flight->submitted, renderer->flights.collected);
+    frame->trace_seconds = seconds;
     frame->is_encoded = flight->encodes;
     memcpy(flight->encodes ? (void *)frame->rgba : (void *)frame->rgb,
            (const char *)flight->copy.data + SUM_BYTES, picture_bytes(flight));

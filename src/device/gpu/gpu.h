@@ -5,8 +5,7 @@
 
 #include "device/gpu/driver.h"
 #include "device/kernel_cache.h"
-#include "device/launch_size.h"
-#include "device/wave_plan.h"
+#include "device/launch_plan.h"
 
 /* ---- an open GPU and its memory ---- */
 
@@ -17,16 +16,12 @@ typedef struct HdGpu {
     HdGpuFacts facts;
 } HdGpu;
 
-/* Makes it memory of at least `bytes`, unless it is; its contents are lost if not. It never
-   shrinks, for to take memory anew takes as long as a small frame. `what` is for messages:
-   "pixels". */
+/* Makes it memory of at least `bytes`, unless it is; then its contents are lost. It never shrinks,
+   for taking memory lasts as long as a small frame. `what` is for messages: "pixels". */
 HdStatus hd_gpu_reserve(const HdGpu *gpu, HdGpuMemory *memory, HdGpuPlace place, size_t bytes,
                         const char *what, HdError *error);
 
-/* The same where `refusal` tells that there is too little memory, for hd_gpu_refuse to make a
-   message of it, unless something else is done about it. */
-HdStatus hd_gpu_try(const HdGpu *gpu, HdGpuMemory *memory, HdGpuPlace place, size_t bytes,
-                    HdGpuRefusal *refusal, HdError *error);
+/* Fails, and makes a message of the refusal. */
 HdStatus hd_gpu_refuse(const HdGpu *gpu, HdGpuPlace place, size_t bytes, const char *what,
                        const HdGpuRefusal *refusal, HdError *error);
 
@@ -47,8 +42,7 @@ typedef struct HdGpuWaveQueue {
     bool is_cut;  /* the device refused more */
 } HdGpuWaveQueue;
 
-/* Takes memory for what the needs of each of the workers come to; where the device has too little
-   left, for less. */
+/* Takes memory for the needs of each worker, or for less if the device has too little left. */
 HdStatus hd_gpu_wave_queue_reserve(HdGpuWaveQueue *queue, const HdGpu *gpu, HdWaveNeeds *needs,
                                    int workers, HdError *error);
 
@@ -73,23 +67,18 @@ typedef struct HdGpuProgram {
     int group_size;     /* of a launch: 1 where threads do not work in groups */
 } HdGpuProgram;
 
-/* Has kernels that do what a scene needs. They are read by the cache later, so that `gpu` must stay
-   where it is. */
+/* Has kernels that do what a scene needs. The cache reads them later: `gpu` must stay in place. */
 HdStatus hd_gpu_build(HdGpuProgram *program, const HdGpu *gpu, const HdKernelNeeds *needs,
                       HdError *error);
 
 /* Has the kernel of the arithmetic probe, for the same shape, in place of those for a scene. */
 HdStatus hd_gpu_build_probe(HdGpuProgram *program, const HdGpu *gpu, HdError *error);
 
-/* All that this kernel depends on; "" where that is too much. */
-void hd_gpu_probe_key(const HdGpuProgram *program, const HdGpu *gpu, char *text, size_t capacity);
-
 /* Computes a batch with the kernel of hd_gpu_build_probe, and waits for it. */
 HdStatus hd_gpu_run_probe(const HdGpuProgram *program, const HdGpu *gpu, const HdProbeBatch *batch,
                           HdProbeResults *results, HdError *error);
 
-/* ---- flights: what its kernels write for a frame, and how that gets to the host while the next
-   one is traced ---- */
+/* ---- flights: frames on their way from the kernels to the host, while the next is traced ---- */
 
 enum { HD_SUM_WORKERS = 1024 }; /* work items of hedron_sum_counts; each writes one sum */
 
@@ -142,8 +131,7 @@ typedef struct HdGpuRenderer {
 /* None is under way. */
 void hd_gpu_flights_close(HdGpuRenderer *renderer);
 
-/* The next flight, with room for the frame of so many items, for kernels to be queued with its
-   marks. */
+/* The next flight, with room for a frame of so many items. */
 HdStatus hd_gpu_flight_begin(HdGpuRenderer *renderer, const HdFrameTables *tables, int items,
                              bool encodes, HdGpuFlight **flight, HdError *error);
 
@@ -151,9 +139,9 @@ HdStatus hd_gpu_flight_begin(HdGpuRenderer *renderer, const HdFrameTables *table
 HdStatus hd_gpu_flight_launch(const HdGpuRenderer *renderer, HdGpuFlight *flight,
                               const HdGpuLaunch *launch, double work, HdError *error);
 
-/* Learns from the last of these launches, which is over, what the size of the next ones should be.
-   Where the device does not tell how long it took, the host's clock does, as far as it can:
-   `waited` is when the host, by hd_monotonic_seconds, began to wait for it. */
+/* Learns from the last of these launches, which is over, what the size of the next ones should be;
+   if the device does not time it, by the host's clock: `waited` is when, by hd_monotonic_seconds,
+   the host began to wait for it. */
 HdStatus hd_gpu_flight_time_launch(HdGpuRenderer *renderer, HdGpuFlight *flight, double waited,
                                    HdError *error);
 

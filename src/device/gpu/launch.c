@@ -65,11 +65,8 @@ static HdStatus wait_between(HdGpuRenderer *renderer, HdGpuFlight *flight, int d
                              HdError *error) {
     const HdGpu *gpu = &renderer->gpu;
     double waited = hd_monotonic_seconds();
-    HdStatus status = gpu->driver->wait_for_launch(gpu->handle, flight->untimed, error);
-    if (status == HD_OK)
-        status = hd_gpu_flight_time_launch(renderer, flight, waited, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(gpu->driver->wait_for_launch(gpu->handle, flight->untimed, error));
+    HD_TRY(hd_gpu_flight_time_launch(renderer, flight, waited, error));
     hd_gpu_flight_tell(flight, done);
     return check_wanted(flight->of, error);
 }
@@ -95,18 +92,17 @@ static HdStatus launch_mega(HdGpuRenderer *renderer, HdGpuFlight *flight, HdErro
     Render own = {.parts = parts, .pixels = &flight->pixels, .counts = &renderer->counts};
     HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_TRACE);
     add_render(&launch, &own);
-    HdStatus status = HD_OK;
-    for (int done = 0; status == HD_OK && done < flight->items; done += own.item_count) {
-        status = done > 0 ? wait_between(renderer, flight, done, error) : HD_OK;
+    for (int done = 0; done < flight->items; done += own.item_count) {
+        if (done > 0)
+            HD_TRY(wait_between(renderer, flight, done, error));
         own.first_item = done;
         own.item_count =
             hd_launch_size_items(&renderer->flights.size, flight->items - done, work, per_group);
         launch.groups = group_count(renderer, own.item_count, per_group);
-        if (status == HD_OK)
-            status = hd_gpu_flight_launch(renderer, flight, &launch, (double)own.item_count * work,
-                                          error);
+        HD_TRY(
+            hd_gpu_flight_launch(renderer, flight, &launch, (double)own.item_count * work, error));
     }
-    return status;
+    return HD_OK;
 }
 
 /* Of the wavefront, with a queue each; on CPUs so many strive to be even. */
@@ -136,18 +132,17 @@ static HdStatus launch_workers(HdGpuRenderer *renderer, HdGpuFlight *flight, HdE
     HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_TRACE);
     add_queue(&launch, &queue);
     add_render_by_waves(&launch, &own);
-    HdStatus status = HD_OK;
-    for (int done = 0; status == HD_OK && done < flight->items; done = own.end_item) {
-        status = done > 0 ? wait_between(renderer, flight, done, error) : HD_OK;
+    for (int done = 0; done < flight->items; done = own.end_item) {
+        if (done > 0)
+            HD_TRY(wait_between(renderer, flight, done, error));
         const int count =
             hd_launch_size_items(&renderer->flights.size, flight->items - done, work, 1);
         own.first_item = done;
         own.end_item = done + count;
         launch.groups = worker_count(renderer, count);
-        if (status == HD_OK)
-            status = hd_gpu_flight_launch(renderer, flight, &launch, (double)count * work, error);
+        HD_TRY(hd_gpu_flight_launch(renderer, flight, &launch, (double)count * work, error));
     }
-    return status;
+    return HD_OK;
 }
 
 static HdStatus trace_step(HdGpuRenderer *renderer, HdGpuFlight *flight, const HdWaveStep *step,
@@ -156,10 +151,10 @@ static HdStatus trace_step(HdGpuRenderer *renderer, HdGpuFlight *flight, const H
     const Queue queue = queue_of(renderer);
     const TraceTake own = {
         .first_item = step->first_item,
-        .level = step->level,
-        .first = step->first,
-        .count = step->count,
-        .to = step->to,
+        .level = step->take.level,
+        .first = step->take.first,
+        .count = step->take.count,
+        .to = step->take.to,
         .taken_before = step->taken_before,
         .is_first_launch = step->is_first,
         .taken = &renderer->queue.taken,
@@ -168,15 +163,12 @@ static HdStatus trace_step(HdGpuRenderer *renderer, HdGpuFlight *flight, const H
     HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_TRACE);
     add_queue(&launch, &queue);
     add_trace_take(&launch, &own);
-    launch.groups = (step->count + group_size - 1) / group_size;
+    launch.groups = (step->take.count + group_size - 1) / group_size;
     launch.groups = step->is_first ? most_groups : hd_min(launch.groups, most_groups);
-    HdStatus status = hd_gpu_flight_launch(renderer, flight, &launch, step->count, error);
+    HD_TRY(hd_gpu_flight_launch(renderer, flight, &launch, step->take.count, error));
     double waited = hd_monotonic_seconds();
-    if (status == HD_OK)
-        status = hd_gpu_wave_queue_read(&renderer->queue, &renderer->gpu, taken, error);
-    if (status == HD_OK)
-        status = hd_gpu_flight_time_launch(renderer, flight, waited, error);
-    return status;
+    HD_TRY(hd_gpu_wave_queue_read(&renderer->queue, &renderer->gpu, taken, error));
+    return hd_gpu_flight_time_launch(renderer, flight, waited, error);
 }
 
 static HdStatus store_batch(const HdGpuRenderer *renderer, const HdGpuFlight *flight,
@@ -200,8 +192,9 @@ static HdStatus store_batch(const HdGpuRenderer *renderer, const HdGpuFlight *fl
    traced. */
 static void tell_step(HdGpuFlight *flight, const HdWaveStep *step) {
     const int samples = flight->of->samples;
-    const int last = step->action == HD_WAVE_TRACES ? (step->first + step->count) / samples : 0;
-    if (step->action == HD_WAVE_STORES || step->level == 0)
+    const int last =
+        step->action == HD_WAVE_TRACES ? (step->take.first + step->take.count) / samples : 0;
+    if (step->action == HD_WAVE_STORES || step->take.level == 0)
         hd_gpu_flight_tell(flight, step->first_item + step->item_count - last);
 }
 
@@ -217,19 +210,17 @@ static HdStatus launch_waves(HdGpuRenderer *renderer, HdGpuFlight *flight, int m
     };
     const HdWaveStep *step = &run.step;
     unsigned taken = 0;
-    HdStatus status = hd_gpu_wave_queue_empty(&renderer->queue, &renderer->gpu, error);
-    while (status == HD_OK) {
-        status = check_wanted(flight->of, error);
-        if (status == HD_OK)
-            status = hd_wave_next(&run, taken, &renderer->flights.size, error);
-        if (status != HD_OK || step->action == HD_WAVE_IS_DONE)
-            return status;
+    HD_TRY(hd_gpu_wave_queue_empty(&renderer->queue, &renderer->gpu, error));
+    for (;;) {
+        HD_TRY(check_wanted(flight->of, error));
+        HD_TRY(hd_wave_next(&run, taken, &renderer->flights.size, error));
+        if (step->action == HD_WAVE_IS_DONE)
+            return HD_OK;
         tell_step(flight, step);
-        status = step->action == HD_WAVE_STORES
-                     ? store_batch(renderer, flight, step, error)
-                     : trace_step(renderer, flight, step, most_groups, &taken, error);
+        HD_TRY(step->action == HD_WAVE_STORES
+                   ? store_batch(renderer, flight, step, error)
+                   : trace_step(renderer, flight, step, most_groups, &taken, error));
     }
-    return status;
 }
 
 static HdStatus launch_sum(HdGpuRenderer *renderer, HdGpuFlight *flight, int count_slots,
@@ -246,15 +237,14 @@ static HdStatus launch_sum(HdGpuRenderer *renderer, HdGpuFlight *flight, int cou
 
 static HdStatus trace(HdGpuRenderer *renderer, HdGpuFlight *flight, int count_slots,
                       HdError *error) {
-    HdStatus status;
     hd_launch_size_begin_frame(&renderer->flights.size);
     if (!renderer->program.cache.shape.wavefront)
-        status = launch_mega(renderer, flight, error);
+        HD_TRY(launch_mega(renderer, flight, error));
     else if (renderer->has_groups)
-        status = launch_waves(renderer, flight, count_slots, error);
+        HD_TRY(launch_waves(renderer, flight, count_slots, error));
     else
-        status = launch_workers(renderer, flight, error);
-    return status == HD_OK ? launch_sum(renderer, flight, count_slots, error) : status;
+        HD_TRY(launch_workers(renderer, flight, error));
+    return launch_sum(renderer, flight, count_slots, error);
 }
 
 /* ---- 8 bits ---- */
@@ -282,9 +272,7 @@ static HdStatus encode(HdGpuRenderer *renderer, HdGpuFlight *flight, HdCurve cur
                         .thresholds = &renderer->thresholds,
                         .image = &flight->image};
     HdGpuLaunch launch = launch_of(renderer, HD_KERNEL_ENCODE);
-    HdStatus status = write_thresholds(renderer, curve, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(write_thresholds(renderer, curve, error));
     add_encode(&launch, &own);
     launch.groups = group_count(renderer, own.count, launch.group_size);
     return queue_launch(renderer, &launch, &flight->encoded, error);
@@ -316,16 +304,15 @@ static HdStatus write_frame_table(HdGpuRenderer *renderer, int table, const void
 }
 
 static HdStatus write_frame(HdGpuRenderer *renderer, HdGpuFlight *flight, HdError *error) {
-    HdStatus status = HD_OK;
     char *from = flight->tables.data;
-    for (int i = 0; status == HD_OK && i < HD_FRAME_TABLE_COUNT; i++) {
+    for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++) {
         const HdTable *table = &flight->of->table[i];
         if (table->bytes > 0)
             memcpy(from, table->data, table->bytes);
-        status = write_frame_table(renderer, i, from, table->bytes, error);
+        HD_TRY(write_frame_table(renderer, i, from, table->bytes, error));
         from += table->bytes;
     }
-    return status;
+    return HD_OK;
 }
 
 /* Parts of it are counted one by one. */
@@ -333,33 +320,20 @@ HdStatus hd_gpu_launch_frame(HdGpuRenderer *renderer, HdGpuFlight *flight, HdCur
                              HdError *error) {
     const HdGpuProgram *program = &renderer->program;
     int count_slots = flight->items;
-    HdStatus status = HD_OK;
     if (program->cache.shape.wavefront)
-        status = reserve_queue(renderer, flight, error);
+        HD_TRY(reserve_queue(renderer, flight, error));
     if (program->cache.shape.wavefront && renderer->has_groups)
         count_slots =
             hd_wave_groups(&renderer->queue.plan, program->group_size, renderer->options.grid);
-    if (status == HD_OK)
-        status = write_frame(renderer, flight, error);
-    if (status == HD_OK)
-        status = hd_gpu_reserve(&renderer->gpu, &renderer->counts, HD_GPU_DEVICE,
-                                sizeof(HdRayCounts) * (size_t)count_slots,
-                                "counts of the work items", error);
-    if (status == HD_OK)
-        status = trace(renderer, flight, count_slots, error);
-    if (status == HD_OK && flight->encodes)
-        status = encode(renderer, flight, curve, error);
-    return status;
+    HD_TRY(write_frame(renderer, flight, error));
+    HD_TRY(hd_gpu_reserve(&renderer->gpu, &renderer->counts, HD_GPU_DEVICE,
+                          sizeof(HdRayCounts) * (size_t)count_slots, "counts of the work items",
+                          error));
+    HD_TRY(trace(renderer, flight, count_slots, error));
+    return flight->encodes ? encode(renderer, flight, curve, error) : HD_OK;
 }
 
 /* ---- what is met first ---- */
-
-static HdStatus wait_for_first_hits(const HdGpuRenderer *renderer, const HdFrameTables *tables,
-                                    HdError *error) {
-    const HdGpu *gpu = &renderer->gpu;
-    HdStatus status = gpu->driver->wait_for_launch(gpu->handle, &renderer->first_hits_found, error);
-    return status == HD_OK ? check_wanted(tables, error) : status;
-}
 
 /* A sample costs less here than where light is traced, by which the size of launches is learned:
    they are short enough. */
@@ -368,20 +342,22 @@ static HdStatus launch_first_hits(HdGpuRenderer *renderer, const HdFrameTables *
     enum { MOST_THREADS = 64 }; /* of a group, which has nothing to do together */
     HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_FIRST_HITS);
     FirstHits own = {.floats = floats, .hits = &renderer->first_hits};
+    const HdGpu *gpu = &renderer->gpu;
     int work = renderer->program.cache.shape.pixels_per_item * (tables->samples + 1);
-    HdStatus status = HD_OK;
     add_first_hits(&launch, &own);
     launch.group_size = hd_min(launch.group_size, MOST_THREADS);
-    for (int done = 0; status == HD_OK && done < items; done += own.item_count) {
-        status = done > 0 ? wait_for_first_hits(renderer, tables, error) : HD_OK;
+    for (int done = 0; done < items; done += own.item_count) {
+        if (done > 0) {
+            HD_TRY(gpu->driver->wait_for_launch(gpu->handle, &renderer->first_hits_found, error));
+            HD_TRY(check_wanted(tables, error));
+        }
         own.first_item = done;
         own.item_count =
             hd_launch_size_items(&renderer->flights.size, items - done, work, launch.group_size);
         launch.groups = group_count(renderer, own.item_count, launch.group_size);
-        if (status == HD_OK)
-            status = queue_launch(renderer, &launch, &renderer->first_hits_found, error);
+        HD_TRY(queue_launch(renderer, &launch, &renderer->first_hits_found, error));
     }
-    return status;
+    return HD_OK;
 }
 
 HdStatus hd_gpu_find_first_hits(HdGpuRenderer *renderer, const HdFrameTables *tables,
@@ -391,14 +367,11 @@ HdStatus hd_gpu_find_first_hits(HdGpuRenderer *renderer, const HdFrameTables *ta
     const size_t bytes = pixels * (size_t)frame->first_floats * sizeof *frame->first;
     const int items = hd_kernel_item_count(tables->width, tables->height,
                                            renderer->program.cache.shape.pixels_per_item);
-    HdStatus status = hd_gpu_reserve(gpu, &renderer->first_hits, HD_GPU_DEVICE, bytes,
-                                     "pixels' first hits", error);
-    for (int i = 0; status == HD_OK && i < HD_FRAME_TABLE_COUNT; i++)
-        status =
-            write_frame_table(renderer, i, tables->table[i].data, tables->table[i].bytes, error);
-    if (status == HD_OK)
-        status = launch_first_hits(renderer, tables, items, frame->first_floats, error);
-    return status == HD_OK
-               ? gpu->driver->read(gpu->handle, &renderer->first_hits, frame->first, bytes, error)
-               : status;
+    HD_TRY(hd_gpu_reserve(gpu, &renderer->first_hits, HD_GPU_DEVICE, bytes, "pixels' first hits",
+                          error));
+    for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
+        HD_TRY(
+            write_frame_table(renderer, i, tables->table[i].data, tables->table[i].bytes, error));
+    HD_TRY(launch_first_hits(renderer, tables, items, frame->first_floats, error));
+    return gpu->driver->read(gpu->handle, &renderer->first_hits, frame->first, bytes, error);
 }

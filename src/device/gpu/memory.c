@@ -37,8 +37,9 @@ static HdStatus check_size(const HdGpu *gpu, size_t bytes, const char *what, HdE
                    what, need, gpu->name, at_once, all);
 }
 
-HdStatus hd_gpu_try(const HdGpu *gpu, HdGpuMemory *memory, HdGpuPlace place, size_t bytes,
-                    HdGpuRefusal *refusal, HdError *error) {
+/* Fails with `refusal` where there is too little memory. */
+static HdStatus try_to_reserve(const HdGpu *gpu, HdGpuMemory *memory, HdGpuPlace place,
+                               size_t bytes, HdGpuRefusal *refusal, HdError *error) {
     if (memory->handle != NULL && memory->bytes >= bytes)
         return HD_OK;
     hd_gpu_release(gpu, memory);
@@ -50,7 +51,7 @@ HdStatus hd_gpu_reserve(const HdGpu *gpu, HdGpuMemory *memory, HdGpuPlace place,
     HdGpuRefusal refusal = {0};
     HdStatus status = check_size(gpu, bytes, what, error);
     if (status == HD_OK)
-        status = hd_gpu_try(gpu, memory, place, bytes, &refusal, error);
+        status = try_to_reserve(gpu, memory, place, bytes, &refusal, error);
     return refusal.lacks_memory ? hd_gpu_refuse(gpu, place, bytes, what, &refusal, error) : status;
 }
 
@@ -89,8 +90,8 @@ HdStatus hd_gpu_wave_queue_reserve(HdGpuWaveQueue *queue, const HdGpu *gpu, HdWa
             size_t bytes = queue->plan.bytes[i] * (size_t)workers;
             all += bytes;
             if (status == HD_OK)
-                status = hd_gpu_try(gpu, &queue->buffers[i], HD_GPU_DEVICE_AT_ONCE, bytes, &refusal,
-                                    error);
+                status = try_to_reserve(gpu, &queue->buffers[i], HD_GPU_DEVICE_AT_ONCE, bytes,
+                                        &refusal, error);
         }
         if (status == HD_OK)
             return HD_OK;
@@ -107,10 +108,8 @@ HdStatus hd_gpu_wave_queue_reserve(HdGpuWaveQueue *queue, const HdGpu *gpu, HdWa
 HdStatus hd_gpu_wave_queue_empty(HdGpuWaveQueue *queue, const HdGpu *gpu, HdError *error) {
     static const unsigned none[4] = {0};
     static const char what[] = "counter of the queue";
-    HdStatus status = hd_gpu_reserve(gpu, &queue->told, HD_GPU_HOST, sizeof none, what, error);
-    if (status == HD_OK)
-        status = hd_gpu_write_table(gpu, &queue->taken, none, sizeof none, what, error);
-    return status;
+    HD_TRY(hd_gpu_reserve(gpu, &queue->told, HD_GPU_HOST, sizeof none, what, error));
+    return hd_gpu_write_table(gpu, &queue->taken, none, sizeof none, what, error);
 }
 
 HdStatus hd_gpu_wave_queue_read(const HdGpuWaveQueue *queue, const HdGpu *gpu, unsigned *taken,

@@ -4,14 +4,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/minmax.h"
 #include "device/gpu/gpu.h"
 #include "kernels/host/shared.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "tables/table.h"
 
-/* Of a wavefront's queue on CPUs, one for each of its workers. */
-enum { CPU_QUEUE_BYTES = 512 << 10 };
+/* Of a wavefront's queue: on CPUs for each of its workers, elsewhere at most. */
+enum { CPU_QUEUE_BYTES = 512 << 10, GROUPS_QUEUE_BYTES = 1 << 30 };
 
 static HdStatus enter(const HdGpuRenderer *renderer, HdError *error) {
     const HdGpu *gpu = &renderer->gpu;
@@ -20,19 +21,14 @@ static HdStatus enter(const HdGpuRenderer *renderer, HdError *error) {
 
 /* ---- open and close ---- */
 
-/* As many lanes as a register has, within what the kernels are written for. */
-static int natural_lanes(int native_width) {
-    if (native_width >= 16)
-        return 16;
-    return native_width >= 8 ? 8 : 4;
-}
-
 static void choose_shape(HdGpuRenderer *renderer) {
     const HdGpu *gpu = &renderer->gpu;
     const HdRenderOptions *options = &renderer->options;
     HdKernelShape *shape = &renderer->program.cache.shape;
     bool has_groups = renderer->has_groups;
-    int lanes = has_groups ? 1 : natural_lanes(gpu->facts.native_lanes[options->precision]);
+    /* As many lanes as a register has, within what the kernels are written for. */
+    int width = gpu->facts.native_lanes[options->precision];
+    int lanes = has_groups ? 1 : width >= 16 ? 16 : width >= 8 ? 8 : 4;
     int group_size = options->block > 0 ? options->block : gpu->driver->group_size;
     *shape = (HdKernelShape){
         .lanes = options->lanes > 0 ? options->lanes : lanes,
@@ -50,13 +46,6 @@ static void choose_shape(HdGpuRenderer *renderer) {
     renderer->program.group_size = has_groups ? group_size : 1;
 }
 
-/* For each worker. */
-static size_t queue_bytes(const HdGpuRenderer *renderer) {
-    if (renderer->options.test.queue_bytes > 0)
-        return renderer->options.test.queue_bytes;
-    return renderer->has_groups ? hd_wave_budget(renderer->gpu.facts.memory) : CPU_QUEUE_BYTES;
-}
-
 static HdStatus gpu_open(const HdDevice *device, const HdRenderOptions *options, void **state,
                          HdError *error) {
     const HdGpuDriver *driver = device->backend->driver;
@@ -72,10 +61,14 @@ static HdStatus gpu_open(const HdDevice *device, const HdRenderOptions *options,
         free(renderer);
         return status;
     }
-    hd_kernel_cache_begin(&renderer->program.cache, device);
+    hd_kernel_cache_begin(&renderer->program.cache, device->backend->name, device->name,
+                          device->driver);
     renderer->has_groups = !device->is_cpu || options->test.groups;
     choose_shape(renderer);
-    renderer->queue.bytes = queue_bytes(renderer);
+    renderer->queue.bytes = options->test.queue_bytes > 0 ? options->test.queue_bytes
+                            : renderer->has_groups
+                                ? hd_min_size(gpu->facts.memory / 8, GROUPS_QUEUE_BYTES)
+                                : CPU_QUEUE_BYTES;
     *state = renderer;
     return HD_OK;
 }
@@ -129,48 +122,40 @@ static void place_tables(HdGpuRenderer *renderer) {
 }
 
 static HdStatus write_scene(HdGpuRenderer *renderer, const HdSceneTables *tables, HdError *error) {
-    HdStatus status = HD_OK;
-    for (int i = 0; status == HD_OK && i < HD_SCENE_TABLE_COUNT; i++) {
+    for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++) {
         const HdTable *table = &tables->table[i];
         char what[64];
         snprintf(what, sizeof what, "scene's %s", hd_scene_table_content(i));
-        status = hd_gpu_write_table(&renderer->gpu, &renderer->scene[i], table->data, table->bytes,
-                                    what, error);
+        HD_TRY(hd_gpu_write_table(&renderer->gpu, &renderer->scene[i], table->data, table->bytes,
+                                  what, error));
     }
-    return status;
+    return HD_OK;
 }
 
-static HdStatus upload(HdGpuRenderer *renderer, const HdSceneTables *tables, HdError *error) {
+static HdStatus gpu_upload(void *state, const HdSceneTables *tables, HdError *error) {
+    HdGpuRenderer *renderer = state;
     const HdGpu *gpu = &renderer->gpu;
+    const double longest = hd_longest_launch(&renderer->device, &renderer->options);
+    const int work = renderer->options.test.launch_work;
     HdKernelNeeds needs = hd_kernel_needs(tables);
     const HdMemoryRoom room = {.name = gpu->name,
                                .advice = hd_room_advice,
                                .memory = (double)gpu->facts.memory,
                                .at_once = (double)gpu->facts.at_once};
     HdError later;
+    renderer->depth = tables->depth;
+    renderer->flights.size = work > 0
+                                 ? hd_launch_size_fixed(work)
+                                 : hd_launch_size_start(renderer->device.compute_units, longest);
     needs.small_tables = needs.small_tables && gpu->driver->constant != NULL;
-    HdStatus status = hd_check_room(tables, &room, error);
-    if (status == HD_OK)
-        status = hd_gpu_build(&renderer->program, gpu, &needs, error);
-    if (status == HD_OK)
-        place_tables(renderer);
-    if (status == HD_OK)
-        status = write_scene(renderer, tables, error);
+    HD_TRY(enter(renderer, error));
+    HD_TRY(hd_check_room(tables, &room, error));
+    HD_TRY(hd_gpu_build(&renderer->program, gpu, &needs, error));
+    place_tables(renderer);
+    HdStatus status = write_scene(renderer, tables, error);
     /* After a failure too: copies that are under way read the tables, which are the caller's. */
     HdStatus finished = gpu->driver->finish(gpu->handle, status == HD_OK ? error : &later);
     return status == HD_OK ? finished : status;
-}
-
-static HdStatus gpu_upload(void *state, const HdSceneTables *tables, HdError *error) {
-    HdGpuRenderer *renderer = state;
-    const HdDevice *device = &renderer->device;
-    const double longest = hd_longest_launch(device, &renderer->options);
-    const int work = renderer->options.test.launch_work;
-    renderer->depth = tables->depth;
-    renderer->flights.size = work > 0 ? hd_launch_size_fixed(work)
-                                      : hd_launch_size_start(device->compute_units, longest);
-    HdStatus status = enter(renderer, error);
-    return status == HD_OK ? upload(renderer, tables, error) : status;
 }
 
 /* ---- frames ---- */
@@ -183,10 +168,8 @@ static HdStatus gpu_submit(void *state, const HdFrameTables *tables, const HdFra
     bool encodes = renderer->has_groups && !wish->radiance;
     int items = hd_kernel_item_count(tables->width, tables->height,
                                      renderer->program.cache.shape.pixels_per_item);
-    HdStatus status = enter(renderer, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_gpu_flight_begin(renderer, tables, items, encodes, &flight, error);
+    HD_TRY(enter(renderer, error));
+    HdStatus status = hd_gpu_flight_begin(renderer, tables, items, encodes, &flight, error);
     if (status == HD_OK)
         status = hd_gpu_launch_frame(renderer, flight, wish->curve, error);
     if (status == HD_OK)
@@ -214,10 +197,8 @@ static HdStatus gpu_first_hits(void *state, const HdFrameTables *tables, HdFrame
                                HdError *error) {
     HdGpuRenderer *renderer = state;
     HdError later;
-    HdStatus status = enter(renderer, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_gpu_find_first_hits(renderer, tables, frame, error);
+    HD_TRY(enter(renderer, error));
+    HdStatus status = hd_gpu_find_first_hits(renderer, tables, frame, error);
     if (status != HD_OK) /* copies that are under way read the tables, which are the caller's */
         renderer->gpu.driver->finish(renderer->gpu.handle, &later);
     return status;
@@ -238,16 +219,9 @@ static HdStatus gpu_probe(void *state, const HdProbeBatch *batch, HdProbeResults
                           HdError *error) {
     HdGpuRenderer *renderer = state;
     HdGpuProgram *program = &renderer->program;
-    HdStatus status = enter(renderer, error);
-    if (status == HD_OK)
-        status = hd_gpu_build_probe(program, &renderer->gpu, error);
-    return status == HD_OK ? hd_gpu_run_probe(program, &renderer->gpu, batch, results, error)
-                           : status;
-}
-
-static void gpu_probe_key(void *state, char *text, size_t capacity) {
-    const HdGpuRenderer *renderer = state;
-    hd_gpu_probe_key(&renderer->program, &renderer->gpu, text, capacity);
+    HD_TRY(enter(renderer, error));
+    HD_TRY(hd_gpu_build_probe(program, &renderer->gpu, error));
+    return hd_gpu_run_probe(program, &renderer->gpu, batch, results, error);
 }
 
 /* ---- what was chosen ---- */
@@ -271,8 +245,12 @@ static void gpu_describe(const void *state, char *text, int capacity) {
                                        program->cache.maker, text, capacity);
     if (program->cache.shape.rounds_by_fma && length > 0 && length < capacity)
         length += snprintf(text + length, (size_t)(capacity - length), ", division by fma");
-    if (renderer->queue.is_cut && length > 0 && length < capacity)
-        hd_wave_tell_cut(renderer->queue.bytes, text + length, capacity - length);
+    if (renderer->queue.is_cut && length > 0 && length < capacity) {
+        char room[HD_BYTE_TEXT_SIZE];
+        hd_byte_text((double)renderer->queue.bytes, room);
+        snprintf(text + length, (size_t)(capacity - length),
+                 ", the queue cut to %s, for more memory was refused", room);
+    }
 }
 
 const HdRendererFunctions hd_gpu_functions = {
@@ -284,7 +262,6 @@ const HdRendererFunctions hd_gpu_functions = {
     .drop = gpu_drop,
     .kernels = gpu_kernels,
     .probe = gpu_probe,
-    .probe_key = gpu_probe_key,
     .lanes = gpu_lanes,
     .describe = gpu_describe,
     .close = gpu_close,

@@ -65,25 +65,14 @@ static HdStatus open_device(void *state, const HdDevice *is, HdGpuFacts *facts, 
 
 /* ---- memory ---- */
 
-static bool is_lack_of_memory(cl_int code) {
-    return code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_RESOURCES ||
-           code == CL_OUT_OF_HOST_MEMORY;
-}
-
 static HdStatus check_room(cl_int code, const char *function, HdGpuRefusal *refusal,
                            HdError *error) {
-    if (!is_lack_of_memory(code))
+    if (code != CL_MEM_OBJECT_ALLOCATION_FAILURE && code != CL_OUT_OF_RESOURCES &&
+        code != CL_OUT_OF_HOST_MEMORY)
         return check(code, function, error);
     *refusal = (HdGpuRefusal){
         .lacks_memory = true, .function = function, .reason = hd_opencl_error_name(code)};
     return HD_FAILED;
-}
-
-/* Drivers may take memory only when it is touched first. */
-static cl_int touch(Device *device, cl_mem buffer) {
-    static const char nothing[1];
-    return clEnqueueWriteBuffer(device->queue, buffer, CL_TRUE, 0, sizeof nothing, nothing, 0, NULL,
-                                NULL);
 }
 
 static void release(void *state, HdGpuMemory *memory) {
@@ -111,16 +100,14 @@ static HdStatus allocate(void *state, HdGpuMemory *memory, HdGpuPlace place, siz
     Device *device = state;
     cl_int code = CL_MEM_OBJECT_ALLOCATION_FAILURE;
     cl_mem_flags flags = CL_MEM_READ_WRITE | (place == HD_GPU_HOST ? CL_MEM_ALLOC_HOST_PTR : 0);
-    HdStatus status = HD_OK;
     if (place == HD_GPU_DEVICE_AT_ONCE)
-        status = check(clFinish(device->queue), "clFinish", error);
-    if (status != HD_OK)
-        return status;
+        HD_TRY(check(clFinish(device->queue), "clFinish", error));
     if (device->at_once == 0 || bytes <= device->at_once)
         memory->handle = clCreateBuffer(device->context, flags, bytes, NULL, &code);
     memory->bytes = bytes;
     if (code == CL_SUCCESS && place == HD_GPU_DEVICE_AT_ONCE)
-        code = touch(device, memory->handle);
+        code = clEnqueueWriteBuffer(device->queue, memory->handle, CL_TRUE, 0, 1, "", 0, NULL,
+                                    NULL); /* drivers may take it only when it is touched first */
     if (code == CL_SUCCESS && place == HD_GPU_HOST)
         return map(device, memory, error);
     return check_room(code, "clCreateBuffer", refusal, error);
@@ -191,8 +178,7 @@ static HdStatus create_kernels(Device *device, const HdKernelShape *shape, HdErr
     return check(code, "clCreateKernel", error);
 }
 
-/* The caller's to free; NULL: there is none. */
-static char *read_log(const Device *device) {
+static HdStatus fail_with_log(const Device *device, cl_int code, HdError *error) {
     size_t size = 0;
     char *log = NULL;
     if (clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &size) ==
@@ -201,31 +187,22 @@ static char *read_log(const Device *device) {
         log = calloc(size + 1, 1);
     if (log)
         clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);
-    return log;
-}
-
-static HdStatus fail_with_log(const Device *device, cl_int code, HdError *error) {
-    char *log = read_log(device);
     hd_fail(error, HD_FAILED, "the compiler of %s refused the kernels (clBuildProgram: %s):\n%s",
             device->is.name, hd_opencl_error_name(code), log && log[0] ? log : "(it left no log)");
     free(log);
     return HD_FAILED;
 }
 
-static cl_int build_with(const Device *device, const char *options) {
-    return clBuildProgram(device->program, 1, &device->id, options, NULL, NULL);
-}
-
 /* Once more without the option that a driver may refuse. */
 static cl_int build(const Device *device, const char *options) {
     char other[OPTIONS_LENGTH];
     const char *refused = strstr(options, rounding);
-    cl_int code = build_with(device, options);
+    cl_int code = clBuildProgram(device->program, 1, &device->id, options, NULL, NULL);
     if (code != CL_INVALID_BUILD_OPTIONS || refused == NULL)
         return code;
     snprintf(other, sizeof other, "%.*s%s", (int)(refused - options), options,
              refused + strlen(rounding));
-    return build_with(device, other);
+    return clBuildProgram(device->program, 1, &device->id, other, NULL, NULL);
 }
 
 static HdStatus compile(void *state, const HdKernelShape *shape, const char *options, char *maker,

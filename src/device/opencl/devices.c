@@ -138,22 +138,13 @@ static int query_int(cl_device_id device, cl_device_info what) {
     return (int)query(device, what);
 }
 
-static void copy_trimmed(char *text, size_t capacity, const char *from) {
-    while (isspace((unsigned char)*from))
-        from++;
-    size_t length = strlen(from);
-    while (length > 0 && isspace((unsigned char)from[length - 1]))
-        length--;
-    snprintf(text, capacity, "%.*s", (int)length, from);
-}
-
 /* Of a device or, where the entry has none, of a platform. */
 static cl_int query_bytes(Entry of, cl_uint what, size_t size, void *value, size_t *needed) {
     return of.device ? clGetDeviceInfo(of.device, what, size, value, needed)
                      : clGetPlatformInfo(of.platform, what, size, value, needed);
 }
 
-/* Strings are asked for whole: a buffer that is too small is an error in OpenCL. */
+/* Without space at both ends. A buffer that is too small is an error in OpenCL. */
 static void query_text(Entry of, cl_uint what, char *text, size_t capacity) {
     text[0] = '\0';
     size_t size = 0;
@@ -161,48 +152,42 @@ static void query_text(Entry of, cl_uint what, char *text, size_t capacity) {
         size > HD_OPENCL_MOST_BYTES)
         return;
     char *whole = calloc(size + 1, 1);
-    if (whole && query_bytes(of, what, size, whole, NULL) == CL_SUCCESS)
-        copy_trimmed(text, capacity, whole);
+    if (whole && query_bytes(of, what, size, whole, NULL) == CL_SUCCESS) {
+        const char *start = whole;
+        while (isspace((unsigned char)*start))
+            start++;
+        size_t length = strlen(start);
+        while (length > 0 && isspace((unsigned char)start[length - 1]))
+            length--;
+        snprintf(text, capacity, "%.*s", (int)length, start);
+    }
     free(whole);
-}
-
-static void query_platform_name(cl_platform_id platform, char *text, size_t capacity) {
-    query_text((Entry){.platform = platform}, CL_PLATFORM_NAME, text, capacity);
-}
-
-static void add_reason(char *reasons, size_t capacity, bool ok, const char *reason) {
-    if (!ok)
-        hd_add_text(reasons, capacity, ", ", "%s", reason);
 }
 
 /* Why no kernel of ours can run; empty: one can. */
 static void find_obstacles(cl_device_id device, char *reasons, size_t capacity) {
-    reasons[0] = '\0';
     char version[64];
     int major = 0, minor = 0;
     query_text((Entry){.device = device}, CL_DEVICE_VERSION, version, sizeof version);
     bool is_known = sscanf(version, "OpenCL %d.%d", &major, &minor) == 2;
     bool is_12 = is_known && (major > 1 || (major == 1 && minor >= 2));
-    add_reason(reasons, capacity, query(device, CL_DEVICE_AVAILABLE), "it is not available");
-    add_reason(reasons, capacity, query(device, CL_DEVICE_COMPILER_AVAILABLE),
-               "its driver has no compiler");
-    add_reason(reasons, capacity, is_12, "it is older than OpenCL 1.2");
-    add_reason(reasons, capacity, query(device, CL_DEVICE_ENDIAN_LITTLE),
-               "it is not little-endian");
+    const struct {
+        bool is_met;
+        const char *reason;
+    } list[] = {{query(device, CL_DEVICE_AVAILABLE), "it is not available"},
+                {query(device, CL_DEVICE_COMPILER_AVAILABLE), "its driver has no compiler"},
+                {is_12, "it is older than OpenCL 1.2"},
+                {query(device, CL_DEVICE_ENDIAN_LITTLE), "it is not little-endian"}};
+    reasons[0] = '\0';
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
+        if (!list[i].is_met)
+            hd_add_text(reasons, capacity, ", ", "%s", list[i].reason);
 }
 
 static bool has_extension(cl_device_id device, const char *name) {
     char extensions[8192];
     query_text((Entry){.device = device}, CL_DEVICE_EXTENSIONS, extensions, sizeof extensions);
     return strstr(extensions, name) != NULL;
-}
-
-/* NVIDIA's extensions: the build option -cl-nv-maxrregcount, and the question for the version. */
-static int find_nvidia_arch(cl_device_id device) {
-    enum { CAPABILITY_MAJOR = 0x4000, CAPABILITY_MINOR = 0x4001 };
-    if (!has_extension(device, "cl_nv_compiler_options"))
-        return 0;
-    return 10 * query_int(device, CAPABILITY_MAJOR) + query_int(device, CAPABILITY_MINOR);
 }
 
 /* Only NVIDIA's driver tells. */
@@ -215,10 +200,11 @@ static bool has_timeout(cl_device_id id) {
 }
 
 static void describe_device(HdDevice *device, Entry entry, int index) {
+    enum { CAPABILITY_MAJOR = 0x4000, CAPABILITY_MINOR = 0x4001 };
     memset(device, 0, sizeof *device);
     device->index = index;
     char platform[80], version[80], driver[48];
-    query_platform_name(entry.platform, platform, sizeof platform);
+    query_text((Entry){.platform = entry.platform}, CL_PLATFORM_NAME, platform, sizeof platform);
     query_text(entry, CL_DEVICE_VERSION, version, sizeof version);
     query_text(entry, CL_DRIVER_VERSION, driver, sizeof driver);
     query_text(entry, CL_DEVICE_NAME, device->name, sizeof device->name);
@@ -226,7 +212,11 @@ static void describe_device(HdDevice *device, Entry entry, int index) {
     device->is_cpu = query(entry.device, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU;
     device->compute_units = query_int(entry.device, CL_DEVICE_MAX_COMPUTE_UNITS);
     device->clock_mhz = query_int(entry.device, CL_DEVICE_MAX_CLOCK_FREQUENCY);
-    device->nvidia_arch = find_nvidia_arch(entry.device);
+    /* NVIDIA's extensions: the build option -cl-nv-maxrregcount, and the question for the version.
+     */
+    if (has_extension(entry.device, "cl_nv_compiler_options"))
+        device->nvidia_arch = 10 * query_int(entry.device, CAPABILITY_MAJOR) +
+                              query_int(entry.device, CAPABILITY_MINOR);
     device->has_double = query(entry.device, CL_DEVICE_DOUBLE_FP_CONFIG) != 0;
     device->has_wide_atomics = has_extension(entry.device, "cl_khr_int64_base_atomics");
     device->has_timeout = has_timeout(entry.device);
@@ -250,9 +240,7 @@ static HdStatus list_devices(Entry *entries, int capacity, int *count, HdError *
     cl_platform_id platforms[MAX_PLATFORMS];
     cl_uint platform_count = 0;
     *count = 0;
-    HdStatus status = list_platforms(platforms, &platform_count, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(list_platforms(platforms, &platform_count, error));
     const cl_device_type types =
         CL_DEVICE_TYPE_CPU | CL_DEVICE_TYPE_GPU | CL_DEVICE_TYPE_ACCELERATOR;
     cl_int last_code = CL_DEVICE_NOT_FOUND;
@@ -272,7 +260,7 @@ static HdStatus list_devices(Entry *entries, int capacity, int *count, HdError *
     if (*count > 0)
         return HD_OK;
     char name[80];
-    query_platform_name(platforms[0], name, sizeof name);
+    query_text((Entry){.platform = platforms[0]}, CL_PLATFORM_NAME, name, sizeof name);
     return hd_fail(error, HD_UNAVAILABLE,
                    "none of the %u installed OpenCL platforms (%s%s) has a device: %s",
                    (unsigned)platform_count, name, platform_count > 1 ? ", ..." : "",
@@ -290,9 +278,7 @@ HdStatus hd_opencl_enumerate(HdDevice *devices, int capacity, int *count, HdErro
 HdStatus hd_opencl_find(cl_device_id *device, int index, HdGpuFacts *facts, HdError *error) {
     Entry entries[HD_MAX_DEVICES];
     int count;
-    HdStatus status = list_devices(entries, HD_MAX_DEVICES, &count, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(list_devices(entries, HD_MAX_DEVICES, &count, error));
     if (index < 0 || index >= count)
         return hd_fail(error, HD_UNAVAILABLE, "there is no device %d, only 0 to %d", index,
                        count - 1);

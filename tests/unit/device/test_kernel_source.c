@@ -73,7 +73,6 @@ TEST(scenes_of_similar_size_need_the_same) {
     tables.plane_count = 16;
     assert_int_equal(hd_kernel_needs(&tables).node_stack_bound, 64);
     assert_int_equal(hd_kernel_needs(&tables).plane_bound, 16);
-    assert_int_equal(hd_kernel_bound(0), 8);
     tables.refracts = tables.lit_from_behind = true;
     assert_true(hd_kernel_needs(&tables).refracts && hd_kernel_needs(&tables).lit_from_behind);
     for (int i = 0; i < 8; i++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Sizes of launches, with devices whose speed is made up. */
-#include "device/launch_size.h"
+#include "device/launch_plan.h"
 
 #include "unit_test.h"
 

@@ -105,7 +105,7 @@ static HdProbeReport probe(Fault of, HdPrecision precision) {
     assert_int_equal(hd_probe(renderer, HD_PROBE_QUICK, &report, &error), HD_OK);
     hd_renderer_close(renderer);
     assert_int_equal(report.tuples, HD_PROBE_QUICK);
-    assert_int_equal(report.rounds_by_fma, kernels.shape.rounds_by_fma);
+    assert_int_equal(report.found.rounds_by_fma, kernels.shape.rounds_by_fma);
     return report;
 }
 
@@ -115,8 +115,8 @@ static const uint64_t hashes[] = {0x98b531570775fa8d, 0x9aa55f0c416093c4};
 TEST(expectations_are_known) {
     for (int precision = 0; precision < 2; precision++) {
         const HdProbeReport report = probe(NONE, (HdPrecision)precision);
-        assert_string_equal(report.difference, "");
-        assert_false(report.rounds_by_fma);
+        assert_string_equal(report.found.difference, "");
+        assert_false(report.found.rounds_by_fma);
         if (report.hash != hashes[precision])
             fail_msg("precision %d has the hash %016" PRIx64, precision, report.hash);
     }
@@ -145,12 +145,12 @@ TEST(faults_are_told_or_healed) {
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
         const HdProbeReport report = probe(list[i].fault, HD_PRECISION_FLOAT);
         if (list[i].primitive == NULL) {
-            assert_string_equal(report.difference, "");
+            assert_string_equal(report.found.difference, "");
         } else {
-            expect_contains(report.difference, list[i].primitive);
-            expect_contains(report.difference, list[i].cause);
+            expect_contains(report.found.difference, list[i].primitive);
+            expect_contains(report.found.difference, list[i].cause);
         }
-        assert_int_equal(report.rounds_by_fma, list[i].fault == DIVISION);
+        assert_int_equal(report.found.rounds_by_fma, list[i].fault == DIVISION);
         if (list[i].fault != LOST_ADDITION)
             assert_int_equal(report.hash != hashes[0], list[i].primitive != NULL);
     }
