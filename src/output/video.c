@@ -90,19 +90,15 @@ static HdStatus read_patience(int *milliseconds, HdError *error) {
 /* FFmpeg is given a name that exists: so it is taken against other processes. */
 static HdStatus open_film(HdVideo *video, const char *path, HdError *error) {
     char ffmpeg[HD_MAX_PATH];
-    HdStatus status = read_patience(&video->patience_ms, error);
-    if (status == HD_OK)
-        status = hd_child_find("ffmpeg", ffmpeg, error);
-    if (status == HD_OK)
-        status = hd_child_find("ffprobe", video->ffprobe, error);
-    if (status == HD_OK)
-        status = hd_atomic_file_reserve(&video->file, path, error);
-    if (status == HD_OK)
-        status = start_ffmpeg(video, ffmpeg, error);
+    HD_TRY(read_patience(&video->patience_ms, error));
+    HD_TRY(hd_child_find("ffmpeg", ffmpeg, error));
+    HD_TRY(hd_child_find("ffprobe", video->ffprobe, error));
+    HD_TRY(hd_atomic_file_reserve(&video->file, path, error));
+    HD_TRY(start_ffmpeg(video, ffmpeg, error));
     /* Where FFmpeg does not take it, it does not take the first part either. */
-    if (status == HD_OK && video->plan.is_joined)
+    if (video->plan.is_joined)
         hd_child_send(&video->ffmpeg, join_head, sizeof join_head - 1, video->patience_ms);
-    return status;
+    return HD_OK;
 }
 
 HdStatus hd_video_open(HdVideo **out, const char *path, const HdVideoPlan *plan, HdError *error) {
@@ -174,10 +170,9 @@ HdStatus hd_video_add(HdVideo *video, const HdFrame *frame, HdError *error) {
     if (video->ffmpeg.pid == 0)
         return hd_fail(error, HD_FAILED, "the film %s failed at frame %ld, it takes no more frames",
                        video->file.path, video->frames);
-    const HdStatus status =
-        send(video, frame->rgba, (size_t)frame->width * (size_t)frame->height * 4, error);
-    video->frames += status == HD_OK;
-    return status;
+    HD_TRY(send(video, frame->rgba, (size_t)frame->width * (size_t)frame->height * 4, error));
+    video->frames++;
+    return HD_OK;
 }
 
 /* In single quotes, which FFmpeg reads as a shell does. The times are told, since each film knows
@@ -228,17 +223,9 @@ static HdStatus end_ffmpeg(HdVideo *video, HdError *error) {
                    how, hd_child_said(&video->ffmpeg));
 }
 
-/* What FFmpeg said although it ended with code 0, with room for it: a full disk, say. */
-static const char *excuse(HdVideo *video, char words[MAX_EXCUSE]) {
-    if (video->ffmpeg.said_length == 0)
-        return "";
-    snprintf(words, MAX_EXCUSE, "; FFmpeg had said: %.500s", hd_child_said(&video->ffmpeg));
-    return words;
-}
-
 /* FFmpeg ends with code 0 even where its input was cut short, so only the file itself tells. */
 static HdStatus count_frames(HdVideo *video, HdError *error) {
-    char target[HD_MAX_PATH + 8], how[64], words[MAX_EXCUSE], *end;
+    char target[HD_MAX_PATH + 8], how[64], excuse[MAX_EXCUSE] = "", *end;
     HdChild ffprobe;
     snprintf(target, sizeof target, "file:%s", video->file.temporary);
     /* clang-format off */
@@ -246,24 +233,25 @@ static HdStatus count_frames(HdVideo *video, HdError *error) {
         video->ffprobe, "-v", "error", "-select_streams", "v:0", "-count_packets",
         "-show_entries", "stream=nb_read_packets", "-of", "csv=p=0", target, NULL};
     /* clang-format on */
-    HdStatus status = hd_child_start(&ffprobe, arguments, false, -1, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_child_start(&ffprobe, arguments, false, -1, error));
     bool done = hd_child_end(&ffprobe, video->patience_ms, how);
     if (!done && hd_interrupt_signal() != 0)
         return fail_interrupted(video, "ffprobe", error);
     if (ffprobe.is_stuck)
         return fail_stuck(video, "ffprobe", "while it counted the frames", &ffprobe, error);
+    /* What FFmpeg said although it ended with code 0: a full disk, say. */
+    if (video->ffmpeg.said_length > 0)
+        snprintf(excuse, MAX_EXCUSE, "; FFmpeg had said: %.500s", hd_child_said(&video->ffmpeg));
     const char *answer = hd_child_said(&ffprobe);
     long found = strtol(answer, &end, 10);
     if (!done || *end != '\0')
         return hd_fail(error, HD_FAILED,
                        "ffprobe could not count the frames of %s (%s), expected %ld; it said: "
                        "%.500s%s",
-                       video->file.path, how, video->frames, answer, excuse(video, words));
+                       video->file.path, how, video->frames, answer, excuse);
     if (found != video->frames)
         return hd_fail(error, HD_FAILED, "FFmpeg wrote %ld frames to %s, expected %ld%s", found,
-                       video->file.path, video->frames, excuse(video, words));
+                       video->file.path, video->frames, excuse);
     return HD_OK;
 }
 
