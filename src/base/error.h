@@ -34,11 +34,11 @@ hd_fail(HdError *error, HdStatus status, const char *format, ...);
 
 /* Leaves the calling function with the status of `call` unless that is HD_OK. For functions that
    have nothing to give up first. */
-#define HD_TRY(call)                    \
-    do {                                \
-        const HdStatus tried_ = (call); \
-        if (tried_ != HD_OK)            \
-            return tried_;              \
+#define HD_TRY(call)                                                                               \
+    do {                                                                                           \
+        const HdStatus tried_ = (call);                                                            \
+        if (tried_ != HD_OK)                                                                       \
+            return tried_;                                                                         \
     } while (0)
 
 /* Puts `name` and a colon before the message of `error`, which is cut if it gets too long. */

@@ -129,9 +129,11 @@ void hd_add_text(char *text, size_t size, const char *separator, const char *for
 
 enum { MAX_LETTERS = 31 };
 
-/* The table of distances between the beginnings of both words (R. A. Wagner and M. J. Fischer, The
-   string-to-string correction problem, 1974), two swapped neighbours counting as one mistake. */
-int hd_edit_distance(const char *a, const char *b) {
+/* How many letters must be put in, taken away, replaced or swapped with their neighbour to make one
+   word of the other (R. A. Wagner and M. J. Fischer, The string-to-string correction problem,
+   1974): a table of distances between the beginnings of both words. Longer words count as far from
+   all. */
+static int edit_distance(const char *a, const char *b) {
     size_t a_length = strlen(a), b_length = strlen(b);
     int table[MAX_LETTERS + 1][MAX_LETTERS + 1];
     if (a_length > MAX_LETTERS || b_length > MAX_LETTERS)
@@ -152,7 +154,7 @@ int hd_edit_distance(const char *a, const char *b) {
 }
 
 void hd_nearest_offer(HdNearest *nearest, const char *name) {
-    int distance = hd_edit_distance(nearest->word, name);
+    int distance = edit_distance(nearest->word, name);
     if (distance <= hd_max((int)strlen(name) / 3, 1) &&
         (nearest->name == NULL || distance < nearest->distance)) {
         nearest->name = name;

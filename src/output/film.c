@@ -18,7 +18,7 @@
 
 static uint64_t name_of(const HdSegments *segments, const HdOutputPlan *plan,
                         const HdOutput *output, const HdFrameList *frames, int index) {
-    const int begin = hd_segment_begin(segments, index);
+    const int begin = index * segments->length;
     const char *format = output->format->name;
     uint64_t hash = hd_hash_bytes(plan->fingerprint, format, strlen(format));
     hash = hd_frame_fingerprint(hash, plan->style.frames_per_second);
@@ -65,12 +65,8 @@ bool hd_segments_have(const HdSegments *segments, int item) {
     return segments->count > 1 && segments->is_whole[item / segments->length];
 }
 
-int hd_segment_begin(const HdSegments *segments, int index) {
-    return index * segments->length;
-}
-
 int hd_segment_frames(const HdSegments *segments, int index) {
-    return hd_min(segments->frame_count - hd_segment_begin(segments, index), segments->length);
+    return hd_min(segments->frame_count - index * segments->length, segments->length);
 }
 
 HdStatus hd_segment_path(const HdSegments *segments, int index, char out[HD_MAX_PATH],
@@ -118,7 +114,6 @@ typedef struct Ending {
     pthread_t thread;
     bool has_thread;
     HdVideo *video; /* NULL: nothing is ending */
-    HdDurability durability;
     int index;
     HdStatus status;
     HdError error;
@@ -145,7 +140,7 @@ static HdStatus open_video(HdFilm *film, int index, HdError *error) {
 
 /* The first segment from `index` on that is not whole; negative: there is none. */
 static int next_missing(const HdSegments *segments, int index) {
-    while (index < segments->count && hd_segments_have(segments, hd_segment_begin(segments, index)))
+    while (index < segments->count && hd_segments_have(segments, index * segments->length))
         index++;
     return index < segments->count ? index : -1;
 }
@@ -171,8 +166,8 @@ HdStatus hd_film_open(HdFilm **out, HdSegments *segments, const HdOutputPlan *pl
 }
 
 static void *end_video(void *data) {
-    Ending *ending = data;
-    ending->status = hd_video_close(ending->video, ending->durability, &ending->error);
+    HdFilm *film = data;
+    film->ending.status = hd_video_close(film->ending.video, film->durability, &film->ending.error);
     return NULL;
 }
 
@@ -196,18 +191,18 @@ static HdStatus wait_for_segment(HdFilm *film, HdError *error) {
 static HdStatus end_segment(HdFilm *film, int index, HdError *error) {
     Ending *ending = &film->ending;
     HD_TRY(wait_for_segment(film, error));
-    *ending = (Ending){.video = film->video, .durability = film->durability, .index = index};
+    *ending = (Ending){.video = film->video, .index = index};
     film->video = NULL;
-    ending->has_thread = pthread_create(&ending->thread, NULL, end_video, ending) == 0;
+    ending->has_thread = pthread_create(&ending->thread, NULL, end_video, film) == 0;
     if (!ending->has_thread)
-        end_video(ending);
+        end_video(film);
     return HD_OK;
 }
 
 HdStatus hd_film_add(HdFilm *film, int item, const HdFrame *frame, HdError *error) {
     const HdSegments *segments = film->segments;
     const int index = item / segments->length;
-    const int last = hd_segment_begin(segments, index) + hd_segment_frames(segments, index) - 1;
+    const int last = index * segments->length + hd_segment_frames(segments, index) - 1;
     if (film->video == NULL)
         HD_TRY(open_video(film, index, error));
     HD_TRY(hd_video_add(film->video, frame, error));

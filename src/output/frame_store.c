@@ -379,15 +379,14 @@ static HdStatus create_place(Place *place, const HdFrameStorePlan *plan, HdError
 }
 
 static HdStatus create_places(HdFrameStore *store, HdError *error) {
-    int count = choose_place_count(&store->plan);
-    HdStatus status = HD_OK;
+    const int count = choose_place_count(&store->plan);
     store->places = calloc((size_t)count, sizeof *store->places);
     store->waiting = calloc((size_t)count, sizeof *store->waiting);
     if (store->places == NULL || store->waiting == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for %d frames", count);
-    for (; store->place_count < count && status == HD_OK; store->place_count++)
-        status = create_place(&store->places[store->place_count], &store->plan, error);
-    return status;
+    while (store->place_count < count)
+        HD_TRY(create_place(&store->places[store->place_count++], &store->plan, error));
+    return HD_OK;
 }
 
 /* Drops pictures that were written but not published. */
@@ -417,17 +416,14 @@ static void destroy(HdFrameStore *store) {
     free(store);
 }
 
-static HdStatus start_stages(HdFrameStore *store, HdError *error) {
+static HdStatus start(HdFrameStore *store, HdError *error) {
     const HdResume *resume = store->plan.resume;
+    HD_TRY(probe_pictures(&store->plan, error));
+    HD_TRY(open_films(store, error));
+    HD_TRY(create_places(store, error));
     list_stages(store);
-    HdStatus status = create_places(store, error);
-    if (status == HD_OK)
-        status =
-            hd_stages_start(&store->stages, store->list, store->stage_count, resume->all->count,
-                            resume->is_finished, store->place_count, error);
-    if (status != HD_OK)
-        free_places(store);
-    return status;
+    return hd_stages_start(&store->stages, store->list, store->stage_count, resume->all->count,
+                           resume->is_finished, store->place_count, error);
 }
 
 HdStatus hd_frame_store_start(HdFrameStore **out, const HdFrameStorePlan *plan, HdError *error) {
@@ -437,15 +433,13 @@ HdStatus hd_frame_store_start(HdFrameStore **out, const HdFrameStorePlan *plan, 
         return hd_fail(error, HD_FAILED, "out of memory: no room to store frames");
     store->plan = *plan;
     hd_stale_files_remove(plan->outputs, plan->resume->all);
-    HdStatus status = probe_pictures(plan, error);
-    if (status == HD_OK)
-        status = open_films(store, error);
-    if (status == HD_OK)
-        status = start_stages(store, error);
-    if (status == HD_OK)
+    const HdStatus status = start(store, error);
+    if (status == HD_OK) {
         *out = store;
-    else
+    } else {
+        free_places(store);
         destroy(store);
+    }
     return status;
 }
 

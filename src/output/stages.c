@@ -320,9 +320,8 @@ HdStatus hd_stages_end(HdStages *stages, HdError *error) {
 static int start_worker(HdStages *stages, int stage) {
     Worker *worker = &stages->workers[stages->worker_count];
     *worker = (Worker){.stages = stages, .stage = stage};
-    int reason = hd_start_thread(&worker->thread, worker_main, worker);
-    if (reason == 0)
-        stages->worker_count++;
+    const int reason = hd_start_thread(&worker->thread, worker_main, worker);
+    stages->worker_count += reason == 0;
     return reason;
 }
 

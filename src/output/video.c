@@ -163,13 +163,6 @@ static HdStatus send(HdVideo *video, const void *bytes, size_t size, HdError *er
 }
 
 HdStatus hd_video_add(HdVideo *video, const HdFrame *frame, HdError *error) {
-    if (frame->width != video->plan.width || frame->height != video->plan.height)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "a frame of %d x %d pixels for the film %s, expected %d x %d", frame->width,
-                       frame->height, video->file.path, video->plan.width, video->plan.height);
-    if (video->ffmpeg.pid == 0)
-        return hd_fail(error, HD_FAILED, "the film %s failed at frame %ld, it takes no more frames",
-                       video->file.path, video->frames);
     HD_TRY(send(video, frame->rgba, (size_t)frame->width * (size_t)frame->height * 4, error));
     video->frames++;
     return HD_OK;
@@ -207,12 +200,6 @@ HdStatus hd_video_add_part(HdVideo *video, const char *path, int frames, HdError
 
 static HdStatus end_ffmpeg(HdVideo *video, HdError *error) {
     char how[64];
-    if (video->ffmpeg.pid == 0)
-        return hd_fail(error, HD_FAILED, "the film %s failed at frame %ld", video->file.path,
-                       video->frames);
-    if (video->frames == 0)
-        return hd_fail(error, HD_FAILED, "the film %s has no frames, expected at least 1",
-                       video->file.path);
     if (hd_child_end(&video->ffmpeg, video->patience_ms, how))
         return HD_OK;
     if (hd_interrupt_signal() != 0)

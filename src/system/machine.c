@@ -77,7 +77,7 @@ static bool is_connected(const char *path) {
     FILE *file = fopen(path, "r");
     if (file == NULL)
         return false;
-    bool is_read = fgets(text, sizeof text, file) != NULL;
+    const bool is_read = fgets(text, sizeof text, file) != NULL;
     fclose(file);
     return is_read && strcmp(text, "connected\n") == 0;
 }

@@ -203,14 +203,6 @@ bool hd_pattern_has_number(const char *path) {
     return has_number(path, true);
 }
 
-static HdStatus fail_part(const char *pattern, const char *part, HdError *error) {
-    return hd_fail(error, HD_BAD_INPUT,
-                   "the pattern \"%s\" has \"%.*s\", expected %%d, %%0Nd with N from 1 to %d, 1 to "
-                   "%d #, or %%%% for a percent sign",
-                   pattern, *part == '#' ? (int)strspn(part, "#") : 4, part, MAX_DIGITS,
-                   MAX_DIGITS);
-}
-
 /* Also counts the numbers that it has. */
 static HdStatus expand(const char *pattern, int frame, char out[HD_MAX_PATH], int *numbers,
                        HdError *error) {
@@ -223,7 +215,11 @@ static HdStatus expand(const char *pattern, int frame, char out[HD_MAX_PATH], in
         char piece[16];
         const Part part = read_part(&text, takes_marks, &digits);
         if (part == PART_WRONG)
-            return fail_part(pattern, text, error);
+            return hd_fail(error, HD_BAD_INPUT,
+                           "the pattern \"%s\" has \"%.*s\", expected %%d, %%0Nd with N from 1 to "
+                           "%d, 1 to %d #, or %%%% for a percent sign",
+                           pattern, *text == '#' ? (int)strspn(text, "#") : 4, text, MAX_DIGITS,
+                           MAX_DIGITS);
         const int size = part == PART_NUMBER ? snprintf(piece, sizeof piece, "%0*d", digits, frame)
                                              : snprintf(piece, sizeof piece, "%c", text[-1]);
         if (length + (size_t)size >= HD_MAX_PATH)
@@ -266,30 +262,7 @@ HdStatus hd_pattern_format_single(const char *name, char out[HD_MAX_PATH], HdErr
 
 /* ---- bytes ---- */
 
-typedef struct File {
-    const char *path, *what;
-    int descriptor;
-} File;
-
-static HdStatus fail_reading(const File *file, HdError *error) {
-    return hd_fail(error, HD_BAD_INPUT, "cannot read the %s %s: %s", file->what, file->path,
-                   strerror(errno));
-}
-
-static HdStatus check_file(const File *file, int64_t most, size_t *size, HdError *error) {
-    struct stat found;
-    if (fstat(file->descriptor, &found) != 0)
-        return fail_reading(file, error);
-    if (!S_ISREG(found.st_mode))
-        return hd_fail(error, HD_BAD_INPUT, "cannot read the %s %s: it is not a regular file",
-                       file->what, file->path);
-    if (found.st_size > most || (uintmax_t)found.st_size >= SIZE_MAX)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "cannot read the %s %s: it has %lld bytes, expected at most %lld",
-                       file->what, file->path, (long long)found.st_size, (long long)most);
-    *size = (size_t)found.st_size;
-    return HD_OK;
-}
+#define CANNOT_READ "cannot read the %s %s: "
 
 ssize_t hd_read_fully(int descriptor, void *bytes, size_t size) {
     size_t done = 0;
@@ -306,34 +279,41 @@ ssize_t hd_read_fully(int descriptor, void *bytes, size_t size) {
     return (ssize_t)done;
 }
 
-static HdStatus read_file(const File *file, unsigned char **bytes, size_t size, HdError *error) {
-    *bytes = malloc(size + 1);
+static HdStatus read_file(int descriptor, const char *what, const char *path, int64_t most,
+                          unsigned char **bytes, size_t *size, HdError *error) {
+    struct stat found;
+    if (descriptor < 0 || fstat(descriptor, &found) != 0)
+        return hd_fail(error, HD_BAD_INPUT, CANNOT_READ "%s", what, path, strerror(errno));
+    if (!S_ISREG(found.st_mode))
+        return hd_fail(error, HD_BAD_INPUT, CANNOT_READ "it is not a regular file", what, path);
+    if (found.st_size > most || (uintmax_t)found.st_size >= SIZE_MAX)
+        return hd_fail(error, HD_BAD_INPUT, CANNOT_READ "it has %lld bytes, expected at most %lld",
+                       what, path, (long long)found.st_size, (long long)most);
+    *size = (size_t)found.st_size;
+    *bytes = malloc(*size + 1);
     if (*bytes == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for the %zu bytes of the %s %s",
-                       size, file->what, file->path);
-    const ssize_t done = hd_read_fully(file->descriptor, *bytes, size);
-    if (done == (ssize_t)size)
-        return HD_OK;
-    const HdStatus status =
-        done < 0
-            ? fail_reading(file, error)
-            : hd_fail(error, HD_BAD_INPUT, "cannot read the %s %s: it ended after %zd of %zu bytes",
-                      file->what, file->path, done, size);
-    free(*bytes);
-    *bytes = NULL;
-    return status;
+                       *size, what, path);
+    const ssize_t done = hd_read_fully(descriptor, *bytes, *size);
+    if (done < 0)
+        return hd_fail(error, HD_BAD_INPUT, CANNOT_READ "%s", what, path, strerror(errno));
+    if (done < (ssize_t)*size)
+        return hd_fail(error, HD_BAD_INPUT, CANNOT_READ "it ended after %zd of %zu bytes", what,
+                       path, done, *size);
+    return HD_OK;
 }
 
 HdStatus hd_file_read(const char *path, const char *what, int64_t most, unsigned char **bytes,
                       size_t *size, HdError *error) {
     /* Not blocking, lest a named pipe stops the program before it is refused. */
-    const File file = {path, what, open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+    const int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     *bytes = NULL;
-    if (file.descriptor < 0)
-        return fail_reading(&file, error);
-    HdStatus status = check_file(&file, most, size, error);
-    if (status == HD_OK)
-        status = read_file(&file, bytes, *size, error);
-    close(file.descriptor);
+    const HdStatus status = read_file(descriptor, what, path, most, bytes, size, error);
+    if (descriptor >= 0)
+        close(descriptor);
+    if (status != HD_OK) {
+        free(*bytes);
+        *bytes = NULL;
+    }
     return status;
 }

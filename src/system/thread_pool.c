@@ -40,7 +40,7 @@ static void work_off(HdThreadPool *pool, int thread) {
         int item = atomic_fetch_add_explicit(&pool->next, 1, memory_order_relaxed);
         if (item >= pool->count)
             return;
-        if (pool->must_stop(pool->context)) {
+        if (pool->must_stop != NULL && pool->must_stop(pool->context)) {
             atomic_store(&pool->stopped, true);
             return;
         }
@@ -75,12 +75,16 @@ static void *thread_main(void *argument) {
    more than 2 MB, which is more than some systems give a thread. */
 enum { STACK_BYTES = 8 << 20 };
 
+static int init_attributes(pthread_attr_t *attributes) {
+    int code = pthread_attr_init(attributes);
+    if (code == 0)
+        code = pthread_attr_setstacksize(attributes, STACK_BYTES);
+    return code;
+}
+
 int hd_start_thread(pthread_t *thread, void *(*work)(void *), void *argument) {
     pthread_attr_t attributes;
-    int code = pthread_attr_init(&attributes);
-    if (code != 0)
-        return code;
-    code = pthread_attr_setstacksize(&attributes, STACK_BYTES);
+    int code = init_attributes(&attributes);
     if (code == 0)
         code = pthread_create(thread, &attributes, work, argument);
     pthread_attr_destroy(&attributes);
@@ -94,9 +98,7 @@ enum { LEAST_STACK_BYTES = 1 << 20 };
 static void enlarge_other_stacks(void) {
 #ifdef __GLIBC__
     pthread_attr_t attributes;
-    if (pthread_attr_init(&attributes) != 0)
-        return;
-    if (pthread_attr_setstacksize(&attributes, STACK_BYTES) == 0)
+    if (init_attributes(&attributes) == 0)
         pthread_setattr_default_np(&attributes);
     pthread_attr_destroy(&attributes);
 #endif
@@ -145,7 +147,7 @@ HdStatus hd_thread_pool_create(HdThreadPool **out, int threads, HdError *error) 
     pthread_mutex_init(&pool->mutex, NULL);
     pthread_cond_init(&pool->work_given, NULL);
     pthread_cond_init(&pool->work_done, NULL);
-    HdStatus status = start_threads(pool, threads, error);
+    const HdStatus status = start_threads(pool, threads, error);
     if (status != HD_OK)
         hd_thread_pool_destroy(pool);
     else
@@ -206,11 +208,6 @@ typedef struct Job {
     int found[MOST_CHUNKS]; /* by chunk */
 } Job;
 
-static bool never(const void *context) {
-    (void)context;
-    return false;
-}
-
 static int end_of(const Job *job, int chunk) {
     return hd_min((chunk + 1) * job->each, job->count);
 }
@@ -235,7 +232,7 @@ static int run(HdThreadPool *pool, Job *job, HdThreadWork *work) {
     if (chunks == 1)
         work(job, 0, 0);
     else if (chunks > 1)
-        hd_thread_pool_run(pool, chunks, work, job, never);
+        hd_thread_pool_run(pool, chunks, work, job, NULL);
     return chunks;
 }
 
