@@ -231,18 +231,14 @@ static int find_free(HdStages *stages) {
     return stages->first_free;
 }
 
-/* No more than there is room for need be counted. */
-static int count_free(HdStages *stages) {
-    int count = 0, end = wanted_end(stages);
-    for (int item = find_free(stages); item < end && count < stages->room; item++)
-        count += stages->states[item] == FREE;
-    return count;
-}
-
-static bool can_take(HdStages *stages, const HdTaker *taker, int item) {
-    if (item >= wanted_end(stages) || item >= stages->gone + stages->room + taker->ahead)
+static bool can_take(const HdStages *stages, const HdTaker *taker, int item) {
+    const int end = wanted_end(stages);
+    int left = 0; /* no more than there is room for need be counted */
+    if (item >= end || item >= stages->gone + stages->room + taker->ahead)
         return false;
-    return taker->wants == NULL || taker->wants(taker->context, count_free(stages));
+    for (int i = item; i < end && left < stages->room; i++)
+        left += stages->states[i] == FREE;
+    return taker->wants == NULL || taker->wants(taker->context, left);
 }
 
 int hd_stages_take(HdStages *stages, const HdTaker *taker, bool waits) {

@@ -30,16 +30,6 @@ struct HdVideo {
 
 enum { MAX_ARGUMENTS = 64, MAX_EXCUSE = 600 };
 
-typedef struct Arguments {
-    size_t count;
-    const char *words[MAX_ARGUMENTS + 1]; /* NULL after the last */
-} Arguments;
-
-static void append(Arguments *arguments, const char *const *words) {
-    while (*words != NULL && arguments->count < MAX_ARGUMENTS)
-        arguments->words[arguments->count++] = *words++;
-}
-
 static const uint8_t join_head[] = "ffconcat version 1.0\n";
 static const char *const join_input[] = {
     "-f", "concat", "-safe", "0", "-protocol_whitelist", "file,pipe", "-i", "pipe:0", NULL};
@@ -63,13 +53,16 @@ static HdStatus start_ffmpeg(HdVideo *video, const char *ffmpeg, HdError *error)
         "-f", "rawvideo", "-pixel_format", "rgba", "-video_size", size, "-framerate", rate,
         "-i", "pipe:0", NULL};
     /* clang-format on */
-    const char *const end[] = {target, NULL};
-    Arguments arguments = {0};
-    append(&arguments, start);
-    append(&arguments, video->plan.is_joined ? join_input : frames);
-    append(&arguments, output_arguments(&video->plan));
-    append(&arguments, end);
-    return hd_child_start(&video->ffmpeg, arguments.words, true, video->file.lock, error);
+    const char *const *const parts[] = {start, video->plan.is_joined ? join_input : frames,
+                                        output_arguments(&video->plan)};
+    const char *arguments[MAX_ARGUMENTS + 2];
+    size_t count = 0;
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        for (const char *const *word = parts[i]; *word != NULL && count < MAX_ARGUMENTS; word++)
+            arguments[count++] = *word;
+    arguments[count] = target;
+    arguments[count + 1] = NULL;
+    return hd_child_start(&video->ffmpeg, arguments, true, video->file.lock, error);
 }
 
 static HdStatus read_patience(int *milliseconds, HdError *error) {

@@ -90,25 +90,18 @@ static HdStatus check_folder(const char *folder, HdError *error) {
                          : hd_fail(error, HD_FAILED, "cannot use the folder %s: %s", folder, fault);
 }
 
-static const char *find_stat_fault(const struct stat *found) {
-    if (!S_ISREG(found->st_mode))
-        return "it is not a regular file";
-    const char *fault = find_owner_fault(found);
-    if (fault != NULL)
-        return fault;
-    if (found->st_size < CHECKSUM_BYTES || found->st_size > HD_CACHE_MAX_ENTRY_BYTES)
-        return "its size is wrong";
-    return NULL;
-}
-
 /* Returns what is wrong, or NULL; `*file` is the caller's to free in any case. */
 static const char *read_file(int descriptor, unsigned char **file, size_t *size) {
     struct stat found;
     if (fstat(descriptor, &found) != 0)
         return "it cannot be looked at";
-    const char *fault = find_stat_fault(&found);
+    if (!S_ISREG(found.st_mode))
+        return "it is not a regular file";
+    const char *fault = find_owner_fault(&found);
     if (fault != NULL)
         return fault;
+    if (found.st_size < CHECKSUM_BYTES || found.st_size > HD_CACHE_MAX_ENTRY_BYTES)
+        return "its size is wrong";
     *size = (size_t)found.st_size;
     *file = malloc(*size);
     if (*file == NULL)
@@ -172,12 +165,10 @@ typedef struct Usage {
 
 static void add_entry(Usage *usage, const char *name, const struct stat *found) {
     const int64_t used = (int64_t)found->st_mtim.tv_sec * 1000000000 + found->st_mtim.tv_nsec;
-    if (strlen(name) >= sizeof usage->oldest)
-        return;
     usage->bytes += (int64_t)found->st_size;
     if (used <= usage->stuck || (usage->oldest[0] != '\0' && used >= usage->used))
         return;
-    memcpy(usage->oldest, name, strlen(name) + 1);
+    snprintf(usage->oldest, sizeof usage->oldest, "%s", name);
     usage->used = used;
 }
 

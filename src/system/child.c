@@ -29,13 +29,9 @@ enum { GLANCE_MS = 200, SHORT_GLANCE_MS = 10 };
 /* Real-time ones included; where there are fewer, nothing is known of the rest. */
 enum { LAST_SIGNAL = 64 };
 
-static bool is_program(const char *path) {
-    struct stat found;
-    return stat(path, &found) == 0 && S_ISREG(found.st_mode) && access(path, X_OK) == 0;
-}
-
 HdStatus hd_child_find(const char *name, char out[HD_MAX_PATH], HdError *error) {
     const char *folders = getenv("PATH");
+    struct stat found;
     if (folders == NULL)
         folders = "/usr/local/bin:/usr/bin:/bin";
     for (const char *folder = folders;; folder++) {
@@ -43,7 +39,8 @@ HdStatus hd_child_find(const char *name, char out[HD_MAX_PATH], HdError *error) 
         /* An empty item stands for the current folder. */
         int used = length == 0 ? snprintf(out, HD_MAX_PATH, "./%s", name)
                                : snprintf(out, HD_MAX_PATH, "%.*s/%s", length, folder, name);
-        if (used > 0 && used < HD_MAX_PATH && is_program(out))
+        if (used < HD_MAX_PATH && stat(out, &found) == 0 && S_ISREG(found.st_mode) &&
+            access(out, X_OK) == 0)
             return HD_OK;
         folder += length;
         if (*folder == '\0')
@@ -103,25 +100,17 @@ static bool set_signals(void) {
     return sigprocmask(SIG_SETMASK, &none, NULL) == 0;
 }
 
-/* Our end may come before we ask for this. Where the system cannot do so, the lock tells that the
-   program lives. */
-static void die_with(pid_t parent) {
+static _Noreturn void become(const Order *order, int report, pid_t parent) {
 #ifdef __linux__
+    /* Where the system cannot do so, the lock tells that the program lives. */
     prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
-    if (getppid() != parent)
+    if (getppid() != parent) /* whose end came before that */
         _exit(1);
-}
-
-/* Under a number that no standard stream takes. */
-static bool keep_open(int descriptor) {
-    return descriptor < 0 || fcntl(descriptor, F_DUPFD, STDERR_FILENO + 1) >= 0;
-}
-
-static _Noreturn void become(const Order *order, int report, pid_t parent) {
-    die_with(parent);
-    if (setpgid(0, 0) == 0 && keep_open(order->lock) && set_streams(order->input, order->output) &&
-        set_signals())
+    /* The lock gets a number that no standard stream takes. */
+    if (setpgid(0, 0) == 0 &&
+        (order->lock < 0 || fcntl(order->lock, F_DUPFD, STDERR_FILENO + 1) >= 0) &&
+        set_streams(order->input, order->output) && set_signals())
         /* the words are not changed, whatever the prototype says */
         execve(order->arguments[0], (char *const *)order->arguments, environ);
     const int reason = errno;
