@@ -248,8 +248,10 @@ HdStatus hd_cache_get_text(const char *kind, const char *key, char *text, size_t
                            HdError *error) {
     unsigned char *bytes;
     size_t size;
+    const HdStatus status = hd_cache_get(kind, key, &bytes, &size, error);
     text[0] = '\0';
-    HD_TRY(hd_cache_get(kind, key, &bytes, &size, error));
+    if (bytes == NULL)
+        return status;
     const bool is_text = size < capacity && memchr(bytes, '\0', size) == NULL;
     if (is_text)
         snprintf(text, capacity, "%.*s", (int)size, (const char *)bytes);
