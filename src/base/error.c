@@ -49,11 +49,6 @@ bool hd_problems_are_full(const HdProblems *problems) {
     return problems->count >= (int)sizeof problems->text / SHORTEST_LINE;
 }
 
-static void append_line(char *whole, size_t size, const char *line, size_t length) {
-    const size_t used = strlen(whole);
-    snprintf(whole + used, size - used, "\n  %.*s", (int)length, line);
-}
-
 HdStatus hd_problems_first(const HdProblems *problems, HdError *error) {
     if (problems->count == 0)
         return HD_OK;
@@ -75,10 +70,10 @@ HdStatus hd_problems_status(const HdProblems *problems, const char *name, HdErro
         return status;
     snprintf(whole, sizeof whole, "%s: %d problems", name, problems->count);
     for (const char *line = problems->text; *line != '\0'; line += strcspn(line, "\n") + 1) {
-        append_line(whole, sizeof whole, line, strcspn(line, "\n"));
+        hd_add_text(whole, sizeof whole, "\n  ", "%.*s", (int)strcspn(line, "\n"), line);
         listed++;
     }
     if (listed < problems->count)
-        append_line(whole, sizeof whole, "and more of them", strlen("and more of them"));
+        hd_add_text(whole, sizeof whole, "\n  ", "and more of them");
     return hd_fail(error, HD_BAD_INPUT, "%s", whole);
 }

@@ -16,10 +16,6 @@
 /* The longest of \u001b, \x9b and a character of UTF-8. */
 enum { LONGEST_PIECE = 6 };
 
-static bool continues_character(char c) {
-    return ((unsigned char)c & 0xc0) == 0x80;
-}
-
 /* The bytes of the character that `text` begins with, and its number; 0: that is no UTF-8. */
 static size_t read_character(const char *text, unsigned *number) {
     const unsigned char first = (unsigned char)text[0];
@@ -29,7 +25,7 @@ static size_t read_character(const char *text, unsigned *number) {
         return 0;
     *number = size == 1 ? first : first & (0xffu >> (size + 1));
     for (size_t i = 1; i < size; i++) {
-        if (!continues_character(text[i]))
+        if (((unsigned char)text[i] & 0xc0) != 0x80)
             return 0;
         *number = *number << 6 | ((unsigned char)text[i] & 0x3f);
     }
@@ -133,9 +129,11 @@ void hd_add_text(char *text, size_t size, const char *separator, const char *for
 
 enum { MAX_LETTERS = 31 };
 
-/* The table of distances between the beginnings of both words (R. A. Wagner and M. J. Fischer, The
-   string-to-string correction problem, 1974), two swapped neighbours counting as one mistake. */
-int hd_edit_distance(const char *a, const char *b) {
+/* How many letters must be put in, taken away, replaced or swapped with their neighbour to make one
+   word of the other (R. A. Wagner and M. J. Fischer, The string-to-string correction problem,
+   1974): a table of distances between the beginnings of both words. Longer words count as far from
+   all. */
+static int edit_distance(const char *a, const char *b) {
     size_t a_length = strlen(a), b_length = strlen(b);
     int table[MAX_LETTERS + 1][MAX_LETTERS + 1];
     if (a_length > MAX_LETTERS || b_length > MAX_LETTERS)
@@ -156,11 +154,9 @@ int hd_edit_distance(const char *a, const char *b) {
 }
 
 void hd_nearest_offer(HdNearest *nearest, const char *name) {
-    int distance = hd_edit_distance(nearest->word, name);
-    int limit = (int)strlen(name) / 3;
-    if (distance > (limit > 1 ? limit : 1))
-        return;
-    if (nearest->name == NULL || distance < nearest->distance) {
+    int distance = edit_distance(nearest->word, name);
+    if (distance <= hd_max((int)strlen(name) / 3, 1) &&
+        (nearest->name == NULL || distance < nearest->distance)) {
         nearest->name = name;
         nearest->distance = distance;
     }

@@ -49,12 +49,4 @@ typedef struct HdVec2 {
     double x, y;
 } HdVec2;
 
-static inline HdVec2 hd_sub2(HdVec2 a, HdVec2 b) {
-    return (HdVec2){a.x - b.x, a.y - b.y};
-}
-/* Positive where b is counterclockwise of a. */
-static inline double hd_cross2(HdVec2 a, HdVec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
-
 #endif

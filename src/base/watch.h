@@ -24,13 +24,6 @@ typedef struct HdWatched {
     uint64_t worth; /* at most HD_WATCH_FRAME */
 } HdWatched;
 
-/* What the items first .. end - 1 of `count` are worth; all items together are worth what the work
-   is. */
-static inline uint64_t hd_watched_worth(const HdWatched *watched, int first, int end, int count) {
-    return watched->worth * (uint64_t)end / (uint64_t)count -
-           watched->worth * (uint64_t)first / (uint64_t)count;
-}
-
 /* Takes a share, up to 1, of the work that is left. */
 static inline HdWatched hd_watched_take(HdWatched *left, double share) {
     const HdWatched taken = {left->watch, (uint64_t)((double)left->worth * share)};
@@ -38,12 +31,13 @@ static inline HdWatched hd_watched_take(HdWatched *left, double share) {
     return taken;
 }
 
-/* These items are done. Each is told once, in any order. */
+/* Counts the items first .. end - 1 of `count` as done: each once, in any order. All together are
+   worth what the work is. */
 static inline void hd_watched_add(const HdWatched *watched, int first, int end, int count) {
+    const uint64_t worth = watched->worth * (uint64_t)end / (uint64_t)count -
+                           watched->worth * (uint64_t)first / (uint64_t)count;
     if (watched->watch != NULL)
-        atomic_fetch_add_explicit(&watched->watch->done,
-                                  hd_watched_worth(watched, first, end, count),
-                                  memory_order_relaxed);
+        atomic_fetch_add_explicit(&watched->watch->done, worth, memory_order_relaxed);
 }
 
 static inline bool hd_watched_is_unwanted(const HdWatched *watched) {

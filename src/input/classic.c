@@ -2,13 +2,152 @@
 #include "input/classic.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/text.h"
-#include "base/tokens.h"
 #include "input/check.h"
+
+/* ---- tokens separated by white space. Messages name the line, the value and what was expected.
+   After the first failure nothing is read any more, so a list of reads needs no checks in between.
+   `what` names the value; it is left alone where there is none or a wrong one ---- */
+
+typedef struct Reader {
+    const char *text; /* need not end in a zero byte */
+    size_t size, position;
+    int line;          /* of the token read last; starts at 1 */
+    const char *name;  /* of the text, for messages */
+    bool hides_tokens; /* from messages: the text is somebody else's */
+    char where[32];    /* put before the names of values: "solid 2: ", or nothing */
+    HdError *error;
+    HdStatus status;
+} Reader;
+
+static bool is_space(char c) {
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+/* The start of a token, fit for a message. */
+static const char *shown(const char *token, char out[44]) {
+    const size_t taken = hd_escape(token, out, 41), length = strlen(out);
+    snprintf(out + length, 4, "%s", token[taken] != '\0' ? "..." : "");
+    return out;
+}
+
+#define refuse(reader, what, format, ...)                                                          \
+    ((reader)->status =                                                                            \
+         hd_fail((reader)->error, HD_BAD_INPUT, "%s:%d: %s%s " format, (reader)->name,             \
+                 (reader)->line, (reader)->where, what, __VA_ARGS__))
+
+static void fail_token(Reader *reader, const char *what, const char *token, const char *expected) {
+    char value[44];
+    refuse(reader, what, "is '%s', expected %s", reader->hides_tokens ? "..." : shown(token, value),
+           expected);
+}
+
+static void skip_space(Reader *reader) {
+    while (reader->position < reader->size && is_space(reader->text[reader->position])) {
+        if (reader->text[reader->position] == '\n')
+            reader->line++;
+        reader->position++;
+    }
+}
+
+/* False where there is none, which is an error, or where an error came before. */
+static bool read_token(Reader *reader, const char *what, const char *expected,
+                       char token[HD_MAX_PATH]) {
+    if (reader->status != HD_OK)
+        return false;
+    skip_space(reader);
+    const char *start = reader->text + reader->position;
+    size_t length = 0;
+    while (reader->position + length < reader->size && !is_space(start[length]))
+        length++;
+    reader->position += length;
+    if (length == 0)
+        refuse(reader, what, "is missing, expected %s", expected);
+    else if (length >= HD_MAX_PATH)
+        refuse(reader, what, "has %zu characters, expected at most %d", length, HD_MAX_PATH - 1);
+    else if (memchr(start, '\0', length) != NULL)
+        refuse(reader, what, "holds a zero byte, expected %s", expected);
+    if (reader->status != HD_OK)
+        return false;
+    memcpy(token, start, length);
+    token[length] = '\0';
+    return true;
+}
+
+/* Decimal notation only: strtod alone would take hexadecimal numbers, "nan" and "inf" too. */
+static bool is_decimal(const char *s, double *number) {
+    char *end;
+    *number = strtod(s, &end);
+    return *end == '\0' && s[strspn(s, "0123456789+-.eE")] == '\0';
+}
+
+/* False where there is none, which is an error. */
+static bool next_number(Reader *reader, const char *what, double *number) {
+    static const char *const expected = "a number";
+    char token[HD_MAX_PATH];
+    if (!read_token(reader, what, expected, token))
+        return false;
+    if (!is_decimal(token, number))
+        fail_token(reader, what, token, expected);
+    else if (isinf(*number))
+        fail_token(reader, what, token, "a number within the range of double precision");
+    return reader->status == HD_OK;
+}
+
+/* A finite number in decimal notation. */
+static void read_number(Reader *reader, const char *what, double *value) {
+    double number;
+    if (next_number(reader, what, &number))
+        *value = number;
+}
+
+/* A number from 0 to 1. */
+static void read_share(Reader *reader, const char *what, double *value) {
+    double number;
+    if (!next_number(reader, what, &number))
+        return;
+    if (number >= 0.0 && number <= 1.0)
+        *value = number;
+    else
+        refuse(reader, what, "is %.15g, expected a number from 0 to 1", number);
+}
+
+/* A whole number from `low` to `high`. */
+static void read_int(Reader *reader, const char *what, int low, int high, int *value) {
+    char expected[64], *end;
+    char token[HD_MAX_PATH];
+    snprintf(expected, sizeof expected, "a whole number from %d to %d", low, high);
+    if (!read_token(reader, what, expected, token))
+        return;
+    const long number = strtol(token, &end, 10); /* one too long is the largest or least */
+    if (*end != '\0' || number < low || number > high)
+        fail_token(reader, what, token, expected);
+    else
+        *value = (int)number;
+}
+
+/* Any token, which names a file. */
+static void read_path(Reader *reader, const char *what, char path[HD_MAX_PATH]) {
+    read_token(reader, what, "a path", path);
+}
+
+/* Fails where a token is left. */
+static void read_end(Reader *reader) {
+    static const char *const what = "what follows the last value";
+    char token[HD_MAX_PATH];
+    if (reader->status != HD_OK)
+        return;
+    skip_space(reader);
+    if (reader->position < reader->size && read_token(reader, what, "the end of the input", token))
+        fail_token(reader, what, token, "the end of the input");
+}
+
+/* ---- the scene ---- */
 
 /* What the input leaves open. Lengths are in circumradii of the solid. */
 static const double classic_diffuse = 0.5;
@@ -21,11 +160,9 @@ static const double classic_disc_radius = 0.02;
 static const double classic_disc_radiance = 4.0;
 static const double classic_edge_power = 0.7; /* of all edge lights of one solid together */
 
-_Static_assert((int)HD_MAX_TOKEN == (int)HD_MAX_PATH, "a token has room for any path");
+typedef void ReadComponent(Reader *reader, const char *what, double *value);
 
-typedef void ReadComponent(HdTokenReader *reader, const char *what, double *value);
-
-static void read_three(HdTokenReader *reader, const char *what, const char *const parts[3],
+static void read_three(Reader *reader, const char *what, const char *const parts[3],
                        ReadComponent *read, HdVec3 *value) {
     double *const component[3] = {&value->x, &value->y, &value->z};
     for (int i = 0; i < 3; i++) {
@@ -35,41 +172,39 @@ static void read_three(HdTokenReader *reader, const char *what, const char *cons
     }
 }
 
-static void read_point(HdTokenReader *reader, const char *what, HdVec3 *value) {
+static void read_point(Reader *reader, const char *what, HdVec3 *value) {
     static const char *const parts[3] = {" x", " y", " z"};
-    read_three(reader, what, parts, hd_read_number, value);
+    read_three(reader, what, parts, read_number, value);
 }
 
-static void read_colour(HdTokenReader *reader, const char *what, ReadComponent *read,
-                        HdVec3 *value) {
+static void read_colour(Reader *reader, const char *what, ReadComponent *read, HdVec3 *value) {
     static const char *const parts[3] = {"'s red", "'s green", "'s blue"};
     read_three(reader, what, parts, read, value);
 }
 
-static void enter(HdTokenReader *reader, const char *name, int number) {
+static void enter(Reader *reader, const char *name, int number) {
     if (number == 0)
         snprintf(reader->where, sizeof reader->where, "%s: ", name);
     else
         snprintf(reader->where, sizeof reader->where, "%s %d: ", name, number);
 }
 
-static void leave(HdTokenReader *reader) {
+static void leave(Reader *reader) {
     reader->where[0] = '\0';
 }
 
-enum { FLIGHT_NUMBERS = 10 };
-_Static_assert(sizeof(HdCylinderPath) == FLIGHT_NUMBERS * sizeof(double),
-               "a path on a cylinder has these numbers, in the order of the text");
-
-static void read_flight(HdTokenReader *reader, const char *name, HdCylinderPath *path) {
-    static const char *const names[FLIGHT_NUMBERS] = {
-        "r0",          "z0",          "phi0",          "r amplitude", "z amplitude",
-        "r frequency", "z frequency", "phi frequency", "r phase",     "z phase"};
-    double numbers[FLIGHT_NUMBERS] = {0.0};
+static void read_flight(Reader *reader, const char *name, HdCylinderPath *path) {
     enter(reader, name, 0);
-    for (int i = 0; i < FLIGHT_NUMBERS; i++)
-        hd_read_number(reader, names[i], &numbers[i]);
-    memcpy(path, numbers, sizeof *path);
+    read_number(reader, "r0", &path->r0);
+    read_number(reader, "z0", &path->z0);
+    read_number(reader, "phi0", &path->phi0);
+    read_number(reader, "r amplitude", &path->r_amplitude);
+    read_number(reader, "z amplitude", &path->z_amplitude);
+    read_number(reader, "r frequency", &path->r_frequency);
+    read_number(reader, "z frequency", &path->z_frequency);
+    read_number(reader, "phi frequency", &path->phi_frequency);
+    read_number(reader, "r phase", &path->r_phase);
+    read_number(reader, "z phase", &path->z_phase);
     leave(reader);
 }
 
@@ -99,23 +234,23 @@ static void fill_solid(HdSolid *solid) {
     solid->lights.disc_radiance = classic_disc_radiance;
 }
 
-static void read_solid(HdTokenReader *reader, HdSolidKind kind, int number, HdSolid *solid) {
+static void read_solid(Reader *reader, HdSolidKind kind, int number, HdSolid *solid) {
     /* So many on an edge reach the limit even on the solid with the fewest edges. */
     static const int most_per_edge = HD_MAX_LIGHTS / 6;
     solid->kind = kind;
     solid->face = classic_material();
     enter(reader, "solid", number);
     read_point(reader, "centre", &solid->centre);
-    read_colour(reader, "colour", hd_read_share, &solid->face.colour);
-    hd_read_number(reader, "radius", &solid->circumradius);
-    hd_read_share(reader, "reflection", &solid->face.reflection);
-    hd_read_share(reader, "transparency", &solid->face.transmission);
-    hd_read_int(reader, "number of lights per edge", 0, most_per_edge, &solid->lights.per_edge);
+    read_colour(reader, "colour", read_share, &solid->face.colour);
+    read_number(reader, "radius", &solid->circumradius);
+    read_share(reader, "reflection", &solid->face.reflection);
+    read_share(reader, "transparency", &solid->face.transmission);
+    read_int(reader, "number of lights per edge", 0, most_per_edge, &solid->lights.per_edge);
     leave(reader);
     fill_solid(solid);
 }
 
-static void read_floor(HdTokenReader *reader, HdSceneFile *input) {
+static void read_floor(Reader *reader, HdSceneFile *input) {
     static const char *const names[4] = {"corner 1", "corner 2", "corner 3", "corner 4"};
     HdFloor *floor = &input->scene.floor;
     floor->present = true;
@@ -124,13 +259,13 @@ static void read_floor(HdTokenReader *reader, HdSceneFile *input) {
     enter(reader, "floor", 0);
     for (int i = 0; i < 4; i++)
         read_point(reader, names[i], &floor->corners[i]);
-    hd_read_path(reader, "texture path", input->texture_path);
-    read_colour(reader, "tint", hd_read_share, &floor->material.colour);
-    hd_read_share(reader, "reflection", &floor->material.reflection);
+    read_path(reader, "texture path", input->texture_path);
+    read_colour(reader, "tint", read_share, &floor->material.colour);
+    read_share(reader, "reflection", &floor->material.reflection);
     leave(reader);
 }
 
-static void *allocate(HdTokenReader *reader, size_t count, size_t size) {
+static void *allocate(Reader *reader, size_t count, size_t size) {
     void *memory = calloc(count, size);
     if (memory == NULL && reader->status == HD_OK)
         reader->status =
@@ -138,7 +273,7 @@ static void *allocate(HdTokenReader *reader, size_t count, size_t size) {
     return memory;
 }
 
-static void read_solids(HdTokenReader *reader, const HdSolidKind *kinds, HdScene *scene) {
+static void read_solids(Reader *reader, const HdSolidKind *kinds, HdScene *scene) {
     scene->solids = allocate(reader, HD_CLASSIC_SOLIDS, sizeof *scene->solids);
     if (scene->solids == NULL)
         return;
@@ -147,9 +282,9 @@ static void read_solids(HdTokenReader *reader, const HdSolidKind *kinds, HdScene
         read_solid(reader, kinds[i], i + 1, &scene->solids[i]);
 }
 
-static void read_lights(HdTokenReader *reader, HdScene *scene) {
+static void read_lights(Reader *reader, HdScene *scene) {
     int count = 0;
-    hd_read_int(reader, "number of lights", 0, HD_CLASSIC_MAX_LIGHTS, &count);
+    read_int(reader, "number of lights", 0, HD_CLASSIC_MAX_LIGHTS, &count);
     scene->lights = allocate(reader, HD_CLASSIC_MAX_LIGHTS, sizeof *scene->lights);
     if (scene->lights == NULL)
         return;
@@ -157,14 +292,14 @@ static void read_lights(HdTokenReader *reader, HdScene *scene) {
     for (int i = 0; i < count; i++) {
         enter(reader, "light", i + 1);
         read_point(reader, "position", &scene->lights[i].position);
-        read_colour(reader, "colour", hd_read_number, &scene->lights[i].intensity);
+        read_colour(reader, "colour", read_number, &scene->lights[i].intensity);
         leave(reader);
     }
 }
 
-static void read_output_pattern(HdTokenReader *reader, char pattern[HD_MAX_PATH]) {
+static void read_output_pattern(Reader *reader, char pattern[HD_MAX_PATH]) {
     char prefix[HD_MAX_PATH];
-    hd_read_path(reader, "output path", pattern);
+    read_path(reader, "output path", pattern);
     if (reader->status != HD_OK)
         return;
     reader->status = hd_pattern_check(pattern, reader->error);
@@ -174,23 +309,23 @@ static void read_output_pattern(HdTokenReader *reader, char pattern[HD_MAX_PATH]
     }
 }
 
-static void read_input(HdTokenReader *reader, const HdSolidKind *kinds, HdSceneFile *input) {
+static void read_input(Reader *reader, const HdSolidKind *kinds, HdSceneFile *input) {
     HdScene *scene = &input->scene;
     scene->exposure = 1.0;
-    hd_read_int(reader, "number of frames", 1, HD_MAX_FRAMES, &scene->frame_count);
+    read_int(reader, "number of frames", 1, HD_MAX_FRAMES, &scene->frame_count);
     read_output_pattern(reader, input->output.path);
-    hd_read_int(reader, "width", 1, HD_MAX_IMAGE_SIDE, &scene->width);
-    hd_read_int(reader, "height", 1, HD_MAX_IMAGE_SIDE, &scene->height);
-    hd_read_number(reader, "field of view", &scene->field_of_view_degrees);
+    read_int(reader, "width", 1, HD_MAX_IMAGE_SIDE, &scene->width);
+    read_int(reader, "height", 1, HD_MAX_IMAGE_SIDE, &scene->height);
+    read_number(reader, "field of view", &scene->field_of_view_degrees);
     read_flight(reader, "eye", &scene->eye.cylinder);
     read_flight(reader, "target", &scene->target.cylinder);
     read_solids(reader, kinds, scene);
     read_floor(reader, input);
     read_lights(reader, scene);
-    hd_read_int(reader, "recursion depth", 0, HD_MAX_DEPTH, &scene->depth);
-    hd_read_int(reader, "square root of the number of rays per pixel", 1, HD_MAX_SAMPLES_PER_SIDE,
-                &scene->samples_per_side);
-    hd_read_end(reader);
+    read_int(reader, "recursion depth", 0, HD_MAX_DEPTH, &scene->depth);
+    read_int(reader, "square root of the number of rays per pixel", 1, HD_MAX_SAMPLES_PER_SIDE,
+             &scene->samples_per_side);
+    read_end(reader);
     if (reader->status != HD_OK)
         return;
     reader->status = hd_scene_validate(scene, reader->error);
@@ -243,7 +378,7 @@ HdStatus hd_classic_parse(HdSceneFile *input, const char *text, size_t size, con
         return hd_fail(error, HD_BAD_INPUT,
                        "%s: this looks like a scene file, which 'hedron render FILE' renders",
                        name);
-    HdTokenReader reader = {.text = text, .size = size, .line = 1, .name = name, .error = error};
+    Reader reader = {.text = text, .size = size, .line = 1, .name = name, .error = error};
     reader.hides_tokens = !hd_classic_may_be(text, size);
     read_input(&reader, variants[variant - 1], input);
     if (reader.status != HD_OK)

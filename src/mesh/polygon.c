@@ -38,7 +38,7 @@ static HdVec2 project(HdVec3 corner, HdVec3 normal) {
 
 /* Twice the area: positive where a, b, c run counterclockwise. */
 static double turn(HdVec2 a, HdVec2 b, HdVec2 c) {
-    return hd_cross2(hd_sub2(b, a), hd_sub2(c, a));
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
 /* Whether the triangles from the first corner cover the polygon. */

@@ -11,21 +11,14 @@
 #include <sys/stat.h>
 
 #include "base/hash.h"
+#include "base/minmax.h"
 #include "output/fingerprint.h"
 
 /* ---- segments ---- */
 
-/* Whole seconds, so that the times of the frames are those of a film made in one go. */
-static int length_of(int frames_per_second) {
-    int length = frames_per_second;
-    while (length < HD_LEAST_SEGMENT)
-        length += frames_per_second;
-    return length;
-}
-
 static uint64_t name_of(const HdSegments *segments, const HdOutputPlan *plan,
                         const HdOutput *output, const HdFrameList *frames, int index) {
-    const int begin = hd_segment_begin(segments, index);
+    const int begin = index * segments->length;
     const char *format = output->format->name;
     uint64_t hash = hd_hash_bytes(plan->fingerprint, format, strlen(format));
     hash = hd_frame_fingerprint(hash, plan->style.frames_per_second);
@@ -36,26 +29,27 @@ static uint64_t name_of(const HdSegments *segments, const HdOutputPlan *plan,
 
 static HdStatus look_at_files(HdSegments *segments, const HdOutputPlan *plan,
                               const HdOutput *output, const HdFrameList *frames, HdError *error) {
-    HdStatus status = HD_OK;
-    for (int i = 0; i < segments->count && status == HD_OK; i++) {
+    for (int i = 0; i < segments->count; i++) {
         char path[HD_MAX_PATH];
         struct stat found;
         segments->names[i] = name_of(segments, plan, output, frames, i);
-        status = hd_segment_path(segments, i, path, error);
-        segments->is_whole[i] = status == HD_OK && plan->resumes && lstat(path, &found) == 0 &&
+        HD_TRY(hd_segment_path(segments, i, path, error));
+        segments->is_whole[i] = plan->resumes && lstat(path, &found) == 0 &&
                                 S_ISREG(found.st_mode) && found.st_size > 0;
     }
-    return status;
+    return HD_OK;
 }
 
 HdStatus hd_segments_find(HdSegments *segments, const HdOutputPlan *plan, const HdOutput *output,
                           const HdFrameList *frames, HdError *error) {
     *segments = (HdSegments){.frame_count = frames->count, .length = frames->count, .count = 1};
-    HdStatus status = output->is_film ? hd_output_file(output, 0, segments->film, error) : HD_OK;
-    if (status != HD_OK || !output->is_film || !plan->has_fingerprint)
-        return status;
-    const int length = length_of(plan->style.frames_per_second);
-    if (frames->count <= length)
+    if (!output->is_film)
+        return HD_OK;
+    HD_TRY(hd_output_file(output, 0, segments->film, error));
+    /* Whole seconds, so that the times of the frames are those of a film made in one go. */
+    const int rate = plan->style.frames_per_second;
+    const int length = (HD_LEAST_SEGMENT + rate - 1) / rate * rate;
+    if (!plan->has_fingerprint || frames->count <= length)
         return HD_OK;
     segments->length = length;
     segments->count = (frames->count + length - 1) / length;
@@ -71,13 +65,8 @@ bool hd_segments_have(const HdSegments *segments, int item) {
     return segments->count > 1 && segments->is_whole[item / segments->length];
 }
 
-int hd_segment_begin(const HdSegments *segments, int index) {
-    return index * segments->length;
-}
-
 int hd_segment_frames(const HdSegments *segments, int index) {
-    const int rest = segments->frame_count - hd_segment_begin(segments, index);
-    return rest < segments->length ? rest : segments->length;
+    return hd_min(segments->frame_count - index * segments->length, segments->length);
 }
 
 HdStatus hd_segment_path(const HdSegments *segments, int index, char out[HD_MAX_PATH],
@@ -91,19 +80,14 @@ HdStatus hd_segment_path(const HdSegments *segments, int index, char out[HD_MAX_
     return HD_OK;
 }
 
-static bool is_segment(const char *name) {
-    int end = 0;
-    return sscanf(name, "%*[0-9]-%*16[0-9a-f]%n", &end) == 0 && end > 0 && name[end] == '\0';
-}
-
 static void remove_segment(void *context, const char *entry) {
     const char *path = context;
     const size_t folder = hd_folder_length(path), length = strlen(path + folder);
-    const size_t infix = strlen(HD_SEGMENT_INFIX);
     char found[HD_MAX_PATH];
+    int end = 0;
     if (strncmp(entry, path + folder, length) != 0 ||
-        strncmp(entry + length, HD_SEGMENT_INFIX, infix) != 0 ||
-        !is_segment(entry + length + infix))
+        sscanf(entry + length, HD_SEGMENT_INFIX "%*[0-9]-%*16[0-9a-f]%n", &end) != 0 || end == 0 ||
+        entry[length + (size_t)end] != '\0')
         return;
     if (snprintf(found, sizeof found, "%.*s%s", (int)folder, path, entry) < HD_MAX_PATH)
         remove(found);
@@ -130,7 +114,6 @@ typedef struct Ending {
     pthread_t thread;
     bool has_thread;
     HdVideo *video; /* NULL: nothing is ending */
-    HdDurability durability;
     int index;
     HdStatus status;
     HdError error;
@@ -146,19 +129,18 @@ struct HdFilm {
 
 /* Starts the segment, or the film where it has none. */
 static HdStatus open_video(HdFilm *film, int index, HdError *error) {
-    const HdSegments *segments = film->segments;
     HdVideoPlan plan = film->plan;
     char path[HD_MAX_PATH];
-    if (segments->count == 1)
-        return hd_video_open(&film->video, segments->film, &plan, error);
+    if (film->segments->count == 1)
+        return hd_video_open(&film->video, film->segments->film, &plan, error);
     plan.format = plan.format->segment_format;
-    HdStatus status = hd_segment_path(segments, index, path, error);
-    return status == HD_OK ? hd_video_open(&film->video, path, &plan, error) : status;
+    HD_TRY(hd_segment_path(film->segments, index, path, error));
+    return hd_video_open(&film->video, path, &plan, error);
 }
 
 /* The first segment from `index` on that is not whole; negative: there is none. */
 static int next_missing(const HdSegments *segments, int index) {
-    while (index < segments->count && hd_segments_have(segments, hd_segment_begin(segments, index)))
+    while (index < segments->count && hd_segments_have(segments, index * segments->length))
         index++;
     return index < segments->count ? index : -1;
 }
@@ -184,8 +166,8 @@ HdStatus hd_film_open(HdFilm **out, HdSegments *segments, const HdOutputPlan *pl
 }
 
 static void *end_video(void *data) {
-    Ending *ending = data;
-    ending->status = hd_video_close(ending->video, ending->durability, &ending->error);
+    HdFilm *film = data;
+    film->ending.status = hd_video_close(film->ending.video, film->durability, &film->ending.error);
     return NULL;
 }
 
@@ -208,43 +190,39 @@ static HdStatus wait_for_segment(HdFilm *film, HdError *error) {
    a thread it waits. */
 static HdStatus end_segment(HdFilm *film, int index, HdError *error) {
     Ending *ending = &film->ending;
-    const HdStatus status = wait_for_segment(film, error);
-    if (status != HD_OK)
-        return status;
-    *ending = (Ending){.video = film->video, .durability = film->durability, .index = index};
+    HD_TRY(wait_for_segment(film, error));
+    *ending = (Ending){.video = film->video, .index = index};
     film->video = NULL;
-    ending->has_thread = pthread_create(&ending->thread, NULL, end_video, ending) == 0;
+    ending->has_thread = pthread_create(&ending->thread, NULL, end_video, film) == 0;
     if (!ending->has_thread)
-        end_video(ending);
+        end_video(film);
     return HD_OK;
 }
 
 HdStatus hd_film_add(HdFilm *film, int item, const HdFrame *frame, HdError *error) {
     const HdSegments *segments = film->segments;
     const int index = item / segments->length;
-    const int last = hd_segment_begin(segments, index) + hd_segment_frames(segments, index) - 1;
-    HdStatus status = film->video == NULL ? open_video(film, index, error) : HD_OK;
-    if (status == HD_OK)
-        status = hd_video_add(film->video, frame, error);
-    if (status == HD_OK && item == last && segments->count > 1)
-        status = end_segment(film, index, error);
-    if (status == HD_OK && film->video == NULL && next_missing(segments, index + 1) < 0)
-        status = wait_for_segment(film, error);
-    return status;
+    const int last = index * segments->length + hd_segment_frames(segments, index) - 1;
+    if (film->video == NULL)
+        HD_TRY(open_video(film, index, error));
+    HD_TRY(hd_video_add(film->video, frame, error));
+    if (item == last && segments->count > 1)
+        HD_TRY(end_segment(film, index, error));
+    const bool is_last = film->video == NULL && next_missing(segments, index + 1) < 0;
+    return is_last ? wait_for_segment(film, error) : HD_OK;
 }
 
 static HdStatus join(HdFilm *film, HdError *error) {
     const HdSegments *segments = film->segments;
     HdVideoPlan plan = film->plan;
     plan.is_joined = true;
-    HdStatus status = hd_video_open(&film->video, segments->film, &plan, error);
-    for (int i = 0; i < segments->count && status == HD_OK; i++) {
+    HD_TRY(hd_video_open(&film->video, segments->film, &plan, error));
+    for (int i = 0; i < segments->count; i++) {
         char path[HD_MAX_PATH];
-        status = hd_segment_path(segments, i, path, error);
-        if (status == HD_OK)
-            status = hd_video_add_part(film->video, path, hd_segment_frames(segments, i), error);
+        HD_TRY(hd_segment_path(segments, i, path, error));
+        HD_TRY(hd_video_add_part(film->video, path, hd_segment_frames(segments, i), error));
     }
-    return status;
+    return HD_OK;
 }
 
 HdStatus hd_film_close(HdFilm *film, HdError *error) {

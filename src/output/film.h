@@ -37,8 +37,7 @@ HdStatus hd_segments_find(HdSegments *segments, const HdOutputPlan *plan, const 
 /* Whether the frame at that place of the list is in a segment that is whole. */
 bool hd_segments_have(const HdSegments *segments, int item);
 
-/* The place of its first frame, and how many it has. */
-int hd_segment_begin(const HdSegments *segments, int index);
+/* How many frames the segment has. */
 int hd_segment_frames(const HdSegments *segments, int index);
 
 /* Its file: "FILM.part-INDEX-NAME". */

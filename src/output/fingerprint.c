@@ -48,14 +48,6 @@ static void add_texture(uint64_t *hash, const HdTexture *texture) {
               (size_t)texture->width * 3 * sizeof *texture->texels);
 }
 
-static void add_mesh_material(uint64_t *hash, const HdMeshMaterial *material) {
-    const double emission[3] = {material->emission.x, material->emission.y, material->emission.z};
-    add(hash, emission, sizeof emission);
-    add_integer(hash, material->picture);
-    add_integer(hash, material->passes_as);
-    add_integer(hash, material->is_opaque_to_shadows);
-}
-
 /* The hierarchy follows from the rest. */
 static void add_mesh(uint64_t *hash, const HdMesh *mesh) {
     const int triangles = mesh->triangle_count;
@@ -68,8 +60,13 @@ static void add_mesh(uint64_t *hash, const HdMesh *mesh) {
     add_array(hash, mesh->material_of, triangles, sizeof *mesh->material_of);
     add_array(hash, mesh->group_of, triangles, sizeof *mesh->group_of);
     add_integer(hash, mesh->material_count);
-    for (int i = 0; i < mesh->material_count; i++)
-        add_mesh_material(hash, &mesh->materials[i]);
+    for (int i = 0; i < mesh->material_count; i++) {
+        const HdMeshMaterial *material = &mesh->materials[i];
+        add(hash, &material->emission, sizeof material->emission);
+        add_integer(hash, material->picture);
+        add_integer(hash, material->passes_as);
+        add_integer(hash, material->is_opaque_to_shadows);
+    }
 }
 
 static void add_content(uint64_t *hash, const HdScene *scene) {

@@ -2,10 +2,12 @@
 #define _POSIX_C_SOURCE 200809L
 #include "output/frame_store.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/minmax.h"
 #include "image/picture.h"
 #include "output/fingerprint.h"
 #include "system/atomic_file.h"
@@ -83,21 +85,16 @@ static void end(const HdFrameStore *store, HdSpan *span) {
     span->seconds = hd_monotonic_seconds() - store->plan.start - span->began;
 }
 
-/* Whether a film lacks the frame. */
-static bool is_lacking(const HdFrameStore *store, int item) {
-    bool lacks = false;
-    for (int i = 0; i < HD_MAX_OUTPUTS; i++)
-        lacks |= hd_resume_film_lacks(store->plan.resume, i, item);
-    return lacks;
-}
-
 /* ---- the stages' work ---- */
 
 static HdStatus convert(void *context, int item, HdError *error) {
     HdFrameStore *store = context;
     const HdOutputPlan *outputs = store->plan.outputs;
     Place *place = place_of(store, item);
-    if (was_finished(store, item) && !is_lacking(store, item))
+    bool is_lacking = !was_finished(store, item);
+    for (int i = 0; i < HD_MAX_OUTPUTS; i++)
+        is_lacking |= hd_resume_film_lacks(store->plan.resume, i, item);
+    if (!is_lacking)
         return HD_OK;
     if (was_finished(store, item)) /* which nobody traced */
         return hd_resume_load(outputs, number_of(store, item), &place->frame, error);
@@ -135,11 +132,10 @@ static HdStatus write_picture(const HdOutputPlan *outputs, int index, Place *pla
     };
     HdAtomicFile *file = &place->files[index];
     char path[HD_MAX_PATH];
-    HdStatus status = hd_output_file(&outputs->list[index], number, path, error);
-    if (status == HD_OK)
-        status = hd_picture_prepare(file, &place->frame, outputs->list[index].format,
-                                    &outputs->style.picture, &label, path, error);
-    return status == HD_OK ? hd_atomic_file_close(file, error) : status;
+    HD_TRY(hd_output_file(&outputs->list[index], number, path, error));
+    HD_TRY(hd_picture_prepare(file, &place->frame, outputs->list[index].format,
+                              &outputs->style.picture, &label, path, error));
+    return hd_atomic_file_close(file, error);
 }
 
 static HdStatus write_pictures(void *context, int item, HdError *error) {
@@ -164,10 +160,8 @@ static HdSpan span_of_films(const HdFrameStore *store, const Place *place) {
         const HdSpan *span = &place->films[i];
         if (store->films[i].film == NULL || span->began < 0.0)
             continue;
-        if (whole.began < 0.0 || span->began < whole.began)
-            whole.began = span->began;
-        if (span->began + span->seconds > ended)
-            ended = span->began + span->seconds;
+        whole.began = whole.began < 0.0 ? span->began : fmin(whole.began, span->began);
+        ended = fmax(ended, span->began + span->seconds);
     }
     if (whole.began >= 0.0)
         whole.seconds = ended - whole.began;
@@ -178,41 +172,14 @@ static HdSpan span_of_films(const HdFrameStore *store, const Place *place) {
    of the frames, so that a run that ends early leaves its first frames and no others; but several
    together, because a disk is waited for as long for one file as for many ---- */
 
-static bool is_durable(const HdFrameStore *store) {
-    return store->plan.outputs->durability == HD_DURABLE;
-}
-
-typedef HdStatus Step(HdFrameStore *store, Waiting *waiting, HdError *error);
-
-static HdStatus sync_files(HdFrameStore *store, Waiting *waiting, HdError *error) {
-    HdStatus status = HD_OK;
-    for (int i = 0; i < waiting->file_count && status == HD_OK && is_durable(store); i++)
-        status = hd_atomic_file_sync(&waiting->files[i], error);
-    return status;
-}
-
-static HdStatus name_files(HdFrameStore *store, Waiting *waiting, HdError *error) {
-    HdStatus status = HD_OK;
-    (void)store;
-    for (int i = 0; i < waiting->file_count && status == HD_OK; i++)
-        status = hd_atomic_file_publish(&waiting->files[i], error);
-    return status;
-}
-
-static HdStatus tell(HdFrameStore *store, Waiting *waiting, HdError *error) {
-    store->stored = waiting->stored.done;
-    return store->plan.stored(store->plan.context, &waiting->stored, error);
-}
-
-/* Does the step for the first `count` frames, and returns how many it was done for. Fills `error`
-   for the one that failed, and leaves it alone where none does. */
-static int go(HdFrameStore *store, Step *step, int count, HdError *error) {
-    HdError own;
+/* Does the step with the files of the first `count` frames, and returns for how many it was done.
+   Fills `error` for the one that failed, and leaves it alone where none does. */
+static int do_step(HdFrameStore *store, HdStatus (*step)(HdAtomicFile *, HdError *), int count,
+                   HdError *error) {
     for (int i = 0; i < count; i++)
-        if (step(store, &store->waiting[i], &own) != HD_OK) {
-            *error = own;
-            return i;
-        }
+        for (int k = 0; k < store->waiting[i].file_count; k++)
+            if (step(&store->waiting[i].files[k], error) != HD_OK)
+                return i;
     return count;
 }
 
@@ -221,26 +188,31 @@ static int go(HdFrameStore *store, Step *step, int count, HdError *error) {
 static HdStatus sync_folders(const HdFrameStore *store, const HdOutput *output, int count,
                              HdError *error) {
     char path[HD_MAX_PATH], last[HD_MAX_PATH] = "";
-    HdStatus status = HD_OK;
-    for (int i = 0; i < count && status == HD_OK; i++) {
-        status = hd_output_file(output, store->waiting[i].stored.number, path, error);
+    for (int i = 0; i < count; i++) {
+        HD_TRY(hd_output_file(output, store->waiting[i].stored.number, path, error));
         const size_t length = hd_folder_length(path);
-        if (status != HD_OK ||
-            (i > 0 && length == hd_folder_length(last) && memcmp(path, last, length) == 0))
+        if (i > 0 && length == hd_folder_length(last) && memcmp(path, last, length) == 0)
             continue;
-        status = hd_sync_folder(path, error);
+        HD_TRY(hd_sync_folder(path, error));
         memcpy(last, path, sizeof last);
     }
-    return status;
+    return HD_OK;
 }
 
 static HdStatus sync_names(const HdFrameStore *store, int count, HdError *error) {
     const HdOutputPlan *outputs = store->plan.outputs;
-    HdStatus status = HD_OK;
-    for (int i = 0; i < outputs->count && status == HD_OK; i++)
-        if (!outputs->list[i].is_film && is_durable(store))
-            status = sync_folders(store, &outputs->list[i], count, error);
-    return status;
+    for (int i = 0; i < outputs->count && outputs->durability == HD_DURABLE; i++)
+        if (!outputs->list[i].is_film)
+            HD_TRY(sync_folders(store, &outputs->list[i], count, error));
+    return HD_OK;
+}
+
+static HdStatus tell(HdFrameStore *store, int count, HdError *error) {
+    for (int i = 0; i < count; i++) {
+        store->stored = store->waiting[i].stored.done;
+        HD_TRY(store->plan.stored(store->plan.context, &store->waiting[i].stored, error));
+    }
+    return HD_OK;
 }
 
 static void drop_waiting(HdFrameStore *store) {
@@ -256,17 +228,17 @@ static void drop_waiting(HdFrameStore *store) {
    their names. */
 static HdStatus settle(void *context, HdError *error) {
     HdFrameStore *store = context;
-    HdError own = {.status = HD_OK}, unsynced;
-    int count = go(store, sync_files, store->waiting_count, &own);
-    count = go(store, name_files, count, &own);
-    if (sync_names(store, count, &unsynced) == HD_OK)
-        go(store, tell, count, &own);
-    else
-        own = unsynced;
+    HdError first = {.status = HD_OK}, own;
+    int count = store->waiting_count;
+    if (store->plan.outputs->durability == HD_DURABLE)
+        count = do_step(store, hd_atomic_file_sync, count, &first);
+    count = do_step(store, hd_atomic_file_publish, count, &first);
+    if (sync_names(store, count, &own) != HD_OK || tell(store, count, &own) != HD_OK)
+        first = own;
     drop_waiting(store);
-    if (own.status != HD_OK)
-        *error = own;
-    return own.status;
+    if (first.status != HD_OK)
+        *error = first;
+    return first.status;
 }
 
 /* Takes over the files that were written for the frame. */
@@ -286,9 +258,8 @@ static void keep_waiting(Waiting *waiting, Place *place) {
 static HdStatus publish(void *context, int item, HdError *error) {
     HdFrameStore *store = context;
     Place *place = place_of(store, item);
-    HdStatus status = store->waiting_count == store->place_count ? settle(store, error) : HD_OK;
-    if (status != HD_OK)
-        return status;
+    if (store->waiting_count == store->place_count)
+        HD_TRY(settle(store, error));
     Waiting *waiting = &store->waiting[store->waiting_count++];
     keep_waiting(waiting, place);
     waiting->stored = (HdStoredFrame){
@@ -311,15 +282,6 @@ static unsigned add_stage(HdFrameStore *store, HdStage stage) {
     return 1u << store->stage_count++;
 }
 
-static int least(int a, int b) {
-    return a < b ? a : b;
-}
-
-/* More than there are for the encoders. */
-static int spare_count(const HdFrameStorePlan *plan) {
-    return SPARE_FRAMES + FRAMES_OF_A_TRACER * (plan->tracers - 1);
-}
-
 static int picture_count(const HdFrameStorePlan *plan) {
     return plan->outputs->count - plan->outputs->film_count;
 }
@@ -328,33 +290,23 @@ static int picture_count(const HdFrameStorePlan *plan) {
 static int encoder_count(const HdFrameStorePlan *plan) {
     if (picture_count(plan) == 0)
         return 0;
-    return least(least(hd_processor_count(), MAX_ENCODERS), plan->resume->all->count);
-}
-
-/* Reading frames back, from pictures, takes longer than converting them. */
-static int converter_count(const HdFrameStorePlan *plan) {
-    return plan->resume->finished_count > 0 && picture_count(plan) > 0 ? encoder_count(plan) : 1;
-}
-
-static void add_films(HdFrameStore *store) {
-    const int converters = converter_count(&store->plan);
-    unsigned converted = 0;
-    for (int i = 0; i < HD_MAX_OUTPUTS; i++) {
-        if (store->films[i].film == NULL)
-            continue;
-        if (converted == 0)
-            converted = add_stage(
-                store, (HdStage){.work = convert, .context = store, .threads = converters});
-        add_stage(store, (HdStage){.work = add_to_film,
-                                   .context = &store->films[i],
-                                   .threads = 1,
-                                   .after = converted});
-    }
+    return hd_min(hd_min(hd_processor_count(), MAX_ENCODERS), plan->resume->all->count);
 }
 
 static void list_stages(HdFrameStore *store) {
-    add_films(store);
-    int encoders = encoder_count(&store->plan);
+    const int encoders = encoder_count(&store->plan);
+    unsigned converted = 0;
+    /* Reading frames back, from pictures, takes longer than converting them. */
+    const int readers = store->plan.resume->finished_count > 0 ? encoders : 1;
+    if (store->plan.outputs->film_count > 0)
+        converted = add_stage(
+            store, (HdStage){.work = convert, .context = store, .threads = hd_max(readers, 1)});
+    for (int i = 0; i < HD_MAX_OUTPUTS; i++)
+        if (store->films[i].film != NULL)
+            add_stage(store, (HdStage){.work = add_to_film,
+                                       .context = &store->films[i],
+                                       .threads = 1,
+                                       .after = converted});
     if (encoders > 0)
         add_stage(store, (HdStage){.work = write_pictures, .context = store, .threads = encoders});
     unsigned all = (1u << store->stage_count) - 1;
@@ -377,83 +329,64 @@ static size_t bytes_of_place(const HdFrameStorePlan *plan) {
 /* While a picture is closed it has one descriptor more. */
 static int count_places_by_descriptors(int pictures) {
     const int fitting = (hd_free_descriptors() - SPARE_DESCRIPTORS) / (2 * pictures + 1);
-    const int most = least(fitting, MOST_OPEN_PICTURES / pictures);
-    return most > 1 ? most : 1;
+    return hd_max(hd_min(fitting, MOST_OPEN_PICTURES / pictures), 1);
 }
 
 static int choose_place_count(const HdFrameStorePlan *plan) {
-    int wanted = least(encoder_count(plan) + spare_count(plan), plan->resume->all->count);
+    const int spare = SPARE_FRAMES + FRAMES_OF_A_TRACER * (plan->tracers - 1);
+    int wanted = hd_min(encoder_count(plan) + spare, plan->resume->all->count);
     if (picture_count(plan) > 0)
-        wanted = least(wanted, count_places_by_descriptors(picture_count(plan)));
-    size_t fitting = MAX_BYTES * (size_t)plan->tracers / bytes_of_place(plan);
-    if (fitting < 1)
-        return 1;
-    return fitting < (size_t)wanted ? (int)fitting : wanted;
+        wanted = hd_min(wanted, count_places_by_descriptors(picture_count(plan)));
+    const size_t fitting = MAX_BYTES * (size_t)plan->tracers / bytes_of_place(plan);
+    return hd_max((int)hd_min_size(fitting, (size_t)wanted), 1);
 }
 
 /* ---- the begin ---- */
 
-static HdStatus probe_picture(const HdOutput *output, int number, HdError *error) {
-    char path[HD_MAX_PATH];
-    HdAtomicFile file;
-    HdStatus status = hd_output_file(output, number, path, error);
-    if (status == HD_OK)
-        status = hd_atomic_file_reserve(&file, path, error);
-    if (status == HD_OK)
-        hd_atomic_file_discard(&file);
-    return status;
-}
-
 /* Whether the pictures of the first frame can be written; makes their folders. */
 static HdStatus probe_pictures(const HdFrameStorePlan *plan, HdError *error) {
-    const HdOutputPlan *outputs = plan->outputs;
-    HdStatus status = HD_OK;
-    if (plan->resume->missing.count == 0)
-        return HD_OK;
-    for (int i = 0; i < outputs->count && status == HD_OK; i++)
-        if (!outputs->list[i].is_film)
-            status = probe_picture(&outputs->list[i], plan->resume->missing.frames[0], error);
-    return status;
-}
-
-static HdStatus open_film(HdFrameStore *store, int index, HdError *error) {
-    const HdFrameStorePlan *plan = &store->plan;
-    Film *film = &store->films[index];
-    *film = (Film){.store = store, .index = index};
-    return hd_film_open(&film->film, &plan->resume->films[index], plan->outputs, plan->width,
-                        plan->height, error);
+    for (int i = 0; i < plan->outputs->count && plan->resume->missing.count > 0; i++) {
+        const HdOutput *output = &plan->outputs->list[i];
+        char path[HD_MAX_PATH];
+        HdAtomicFile file;
+        if (output->is_film)
+            continue;
+        HD_TRY(hd_output_file(output, plan->resume->missing.frames[0], path, error));
+        HD_TRY(hd_atomic_file_reserve(&file, path, error));
+        hd_atomic_file_discard(&file);
+    }
+    return HD_OK;
 }
 
 static HdStatus open_films(HdFrameStore *store, HdError *error) {
-    const HdOutputPlan *outputs = store->plan.outputs;
-    HdStatus status = HD_OK;
-    for (int i = 0; i < outputs->count && status == HD_OK; i++)
-        if (outputs->list[i].is_film)
-            status = open_film(store, i, error);
-    return status;
+    const HdFrameStorePlan *plan = &store->plan;
+    for (int i = 0; i < plan->outputs->count; i++) {
+        store->films[i] = (Film){.store = store, .index = i};
+        if (plan->outputs->list[i].is_film)
+            HD_TRY(hd_film_open(&store->films[i].film, &plan->resume->films[i], plan->outputs,
+                                plan->width, plan->height, error));
+    }
+    return HD_OK;
 }
 
 static HdStatus create_place(Place *place, const HdFrameStorePlan *plan, HdError *error) {
     for (int i = 0; i < HD_MAX_OUTPUTS; i++)
         place->files[i].lock = -1;
-    HdStatus status = hd_frame_create(&place->frame, plan->width, plan->height, error);
-    if (status == HD_OK && has_image(plan->outputs))
-        status = hd_frame_add_rgba(&place->frame, error);
-    if (status == HD_OK)
-        status = hd_frame_add_layers(&place->frame, plan->outputs->wish.layers, error);
-    return status;
+    HD_TRY(hd_frame_create(&place->frame, plan->width, plan->height, error));
+    if (has_image(plan->outputs))
+        HD_TRY(hd_frame_add_rgba(&place->frame, error));
+    return hd_frame_add_layers(&place->frame, plan->outputs->wish.layers, error);
 }
 
 static HdStatus create_places(HdFrameStore *store, HdError *error) {
-    int count = choose_place_count(&store->plan);
-    HdStatus status = HD_OK;
+    const int count = choose_place_count(&store->plan);
     store->places = calloc((size_t)count, sizeof *store->places);
     store->waiting = calloc((size_t)count, sizeof *store->waiting);
     if (store->places == NULL || store->waiting == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for %d frames", count);
-    for (; store->place_count < count && status == HD_OK; store->place_count++)
-        status = create_place(&store->places[store->place_count], &store->plan, error);
-    return status;
+    while (store->place_count < count)
+        HD_TRY(create_place(&store->places[store->place_count++], &store->plan, error));
+    return HD_OK;
 }
 
 /* Drops pictures that were written but not published. */
@@ -483,17 +416,14 @@ static void destroy(HdFrameStore *store) {
     free(store);
 }
 
-static HdStatus start_stages(HdFrameStore *store, HdError *error) {
+static HdStatus start(HdFrameStore *store, HdError *error) {
     const HdResume *resume = store->plan.resume;
+    HD_TRY(probe_pictures(&store->plan, error));
+    HD_TRY(open_films(store, error));
+    HD_TRY(create_places(store, error));
     list_stages(store);
-    HdStatus status = create_places(store, error);
-    if (status == HD_OK)
-        status =
-            hd_stages_start(&store->stages, store->list, store->stage_count, resume->all->count,
-                            resume->is_finished, store->place_count, error);
-    if (status != HD_OK)
-        free_places(store);
-    return status;
+    return hd_stages_start(&store->stages, store->list, store->stage_count, resume->all->count,
+                           resume->is_finished, store->place_count, error);
 }
 
 HdStatus hd_frame_store_start(HdFrameStore **out, const HdFrameStorePlan *plan, HdError *error) {
@@ -503,15 +433,13 @@ HdStatus hd_frame_store_start(HdFrameStore **out, const HdFrameStorePlan *plan, 
         return hd_fail(error, HD_FAILED, "out of memory: no room to store frames");
     store->plan = *plan;
     hd_stale_files_remove(plan->outputs, plan->resume->all);
-    HdStatus status = probe_pictures(plan, error);
-    if (status == HD_OK)
-        status = open_films(store, error);
-    if (status == HD_OK)
-        status = start_stages(store, error);
-    if (status == HD_OK)
+    const HdStatus status = start(store, error);
+    if (status == HD_OK) {
         *out = store;
-    else
+    } else {
+        free_places(store);
         destroy(store);
+    }
     return status;
 }
 
@@ -534,30 +462,22 @@ HdFrame *hd_frame_store_frame(HdFrameStore *store, int place, int tracer, HdFram
 
 /* A film that fails takes those after it with it; those before it stay. */
 static HdStatus close_films(HdFrameStore *store, HdError *error) {
-    HdStatus status = HD_OK;
-    for (int i = 0; i < HD_MAX_OUTPUTS && status == HD_OK; i++) {
-        if (store->films[i].film == NULL)
-            continue;
-        status = hd_film_close(store->films[i].film, error);
+    for (int i = 0; i < HD_MAX_OUTPUTS; i++) {
+        HdFilm *film = store->films[i].film;
         store->films[i].film = NULL;
+        if (film != NULL)
+            HD_TRY(hd_film_close(film, error));
     }
-    return status;
-}
-
-/* Of the frames that were stored those that another run would not render again. */
-static int kept_count(const HdFrameStore *store) {
-    const HdOutputPlan *outputs = store->plan.outputs;
-    int kept = 0;
-    if (!outputs->can_resume || !outputs->has_fingerprint)
-        return 0;
-    for (int i = 0; i < store->stored; i++)
-        kept += hd_resume_keeps(store->plan.resume, outputs, i);
-    return kept;
+    return HD_OK;
 }
 
 static void tell_interrupted(const HdFrameStore *store, HdError *error) {
-    const int kept = kept_count(store);
+    const HdOutputPlan *outputs = store->plan.outputs;
+    const bool can_resume = outputs->can_resume && outputs->has_fingerprint;
+    int kept = 0; /* of the frames that were stored those that another run would not render again */
     char more[80] = "";
+    for (int i = 0; i < store->stored && can_resume; i++)
+        kept += hd_resume_keeps(store->plan.resume, outputs, i);
     if (kept > 0)
         snprintf(more, sizeof more, "; the same command goes on, with %d of them finished", kept);
     hd_fail(error, HD_INTERRUPTED, "interrupted after %d of %d frames%s", store->stored,
@@ -566,12 +486,9 @@ static void tell_interrupted(const HdFrameStore *store, HdError *error) {
 
 /* What fails in the store comes before what its caller met: its frames are earlier ones. */
 HdStatus hd_frame_store_end(HdFrameStore *store, HdStatus traced, HdError *error) {
-    HdError own;
-    HdStatus status = hd_stages_end(store->stages, &own);
+    HdStatus status = hd_stages_end(store->stages, error);
     free_places(store);
-    if (status != HD_OK)
-        *error = own;
-    else
+    if (status == HD_OK)
         status = traced;
     if (status == HD_INTERRUPTED) {
         drop_films(store);

@@ -31,9 +31,9 @@ static HdStatus settle_output(HdOutput *output, const char *name, const HdPictur
                        "'%s' asks for numbered films: a film has no number (%%d or #) in its name, "
                        "and pictures end in " HD_PICTURE_ENDINGS,
                        name);
-    const HdStatus status = hd_format_check_style(name, style, error);
-    if (output->is_film || status != HD_OK)
-        return status;
+    HD_TRY(hd_format_check_style(name, style, error));
+    if (output->is_film)
+        return HD_OK;
     if (output->is_numbered)
         return hd_pattern_check(name, error);
     if (frame_count == 1)
@@ -58,44 +58,42 @@ HdStatus hd_output_name(const HdOutput *output, int number, char out[HD_MAX_PATH
 
 HdStatus hd_output_file(const HdOutput *output, int number, char out[HD_MAX_PATH], HdError *error) {
     char expanded[HD_MAX_PATH];
-    HdStatus status = hd_output_name(output, number, expanded, error);
-    return status == HD_OK ? hd_path_expand_home(expanded, out, error) : status;
+    HD_TRY(hd_output_name(output, number, expanded, error));
+    return hd_path_expand_home(expanded, out, error);
 }
 
 /* Patterns are compared by the name of a late frame, for "#" and "##" differ only before that. */
 static HdStatus check_different(const HdOutput *output, const HdOutput *other, int frame_count,
                                 HdError *error) {
     char file[HD_MAX_PATH], other_file[HD_MAX_PATH];
-    HdStatus status = hd_output_file(output, frame_count - 1, file, error);
-    if (status == HD_OK)
-        status = hd_output_file(other, frame_count - 1, other_file, error);
-    if (status != HD_OK || !hd_path_is_same(file, other_file))
-        return status;
+    HD_TRY(hd_output_file(output, frame_count - 1, file, error));
+    HD_TRY(hd_output_file(other, frame_count - 1, other_file, error));
+    if (!hd_path_is_same(file, other_file))
+        return HD_OK;
     if (strcmp(output->name, other->name) == 0)
         return hd_fail(error, HD_BAD_INPUT, "the output '%s' is there twice", output->name);
     return hd_fail(error, HD_BAD_INPUT, "the outputs '%.4000s' and '%.4000s' are the same file",
                    other->name, output->name);
 }
 
-/* Pictures must be rendered anyway but numbered ones with fingerprints. */
 static void sum_up(HdOutputPlan *plan) {
-    const int bits = plan->style.picture.bits;
-    int sequences = 0;
+    plan->can_resume = true;
     for (int i = 0; i < plan->count; i++) {
         const HdOutput *output = &plan->list[i];
+        const HdFormat *format = output->format;
+        const bool bears_fingerprints = format->load != NULL;
         plan->film_count += output->is_film;
-        const bool bears_fingerprints = output->format->load != NULL;
         plan->bears_fingerprints |= bears_fingerprints;
-        plan->wish.radiance |= !output->is_film && bits > output->format->most_encoded_bits;
-        plan->wish.layers |= output->format->has_layers ? HD_LAYER_BIT(HD_LAYER_ALPHA) : 0;
-        sequences += bears_fingerprints && output->is_numbered;
+        plan->wish.radiance |=
+            !output->is_film && plan->style.picture.bits > format->most_encoded_bits;
+        plan->wish.layers |= format->has_layers ? HD_LAYER_BIT(HD_LAYER_ALPHA) : 0;
+        /* Pictures must be rendered anyway but numbered ones with fingerprints. */
+        plan->can_resume &= output->is_film || (bears_fingerprints && output->is_numbered);
     }
-    plan->can_resume = sequences + plan->film_count == plan->count;
 }
 
 HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int count,
                            const HdOutputStyle *style, int frame_count, HdError *error) {
-    HdStatus status = HD_OK;
     *plan = (HdOutputPlan){
         .count = count,
         .style = *style,
@@ -104,14 +102,13 @@ HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int cou
         .options = "",
         .durability = HD_DURABLE,
     };
-    for (int i = 0; i < count && status == HD_OK; i++) {
-        status = settle_output(&plan->list[i], names[i], &style->picture, frame_count, error);
-        for (int j = 0; j < i && status == HD_OK; j++)
-            status = check_different(&plan->list[i], &plan->list[j], frame_count, error);
+    for (int i = 0; i < count; i++) {
+        HD_TRY(settle_output(&plan->list[i], names[i], &style->picture, frame_count, error));
+        for (int j = 0; j < i; j++)
+            HD_TRY(check_different(&plan->list[i], &plan->list[j], frame_count, error));
     }
-    if (status == HD_OK)
-        sum_up(plan);
-    return status;
+    sum_up(plan);
+    return HD_OK;
 }
 
 HdStatus hd_outputs_add_layers(HdOutputPlan *plan, unsigned layers, bool is_surveyed,
@@ -140,39 +137,23 @@ void hd_outputs_set_fingerprint(HdOutputPlan *plan, uint64_t fingerprint, bool r
 /* A number that differs from 0 in its first digit, however many digits 0 has. */
 enum { ALL_ONES = 1111111111, MAX_DIGITS = 10 };
 
-static size_t common_length(const char *a, const char *b) {
-    size_t length = 0;
-    while (a[length] != '\0' && a[length] == b[length])
-        length++;
-    return length;
-}
-
-/* `out` gets `length` bytes. */
-static void cut_out(char out[HD_MAX_PATH], const char *text, size_t length) {
-    memcpy(out, text, length);
-    out[length] = '\0';
-}
-
 HdStatus hd_frame_names_find(HdFrameNames *names, const HdOutput *output, const HdFrameList *frames,
                              HdError *error) {
     char zero[HD_MAX_PATH], ones[HD_MAX_PATH];
+    size_t number = 0;
     names->frames = frames;
-    HdStatus status = hd_output_file(output, 0, zero, error);
-    if (status == HD_OK)
-        status = hd_output_file(output, ALL_ONES, ones, error);
-    if (status != HD_OK)
-        return status;
-    const size_t number = common_length(zero, ones);
+    HD_TRY(hd_output_file(output, 0, zero, error));
+    HD_TRY(hd_output_file(output, ALL_ONES, ones, error));
+    while (zero[number] != '\0' && zero[number] == ones[number])
+        number++;
     const char *behind = output->is_numbered ? ones + number + MAX_DIGITS : ones + number;
     names->digits = (int)(strlen(zero) - number - strlen(behind));
-    size_t entry = number;
-    while (entry > 0 && zero[entry - 1] != '/')
-        entry--;
-    const size_t suffix = strcspn(behind, "/");
-    cut_out(names->folder, zero, entry);
-    cut_out(names->prefix, zero + entry, number - entry);
-    cut_out(names->suffix, behind, suffix);
-    cut_out(names->rest, behind + suffix, strlen(behind + suffix));
+    zero[number] = '\0';
+    const size_t folder = hd_folder_length(zero), suffix = strcspn(behind, "/");
+    snprintf(names->folder, HD_MAX_PATH, "%.*s", (int)folder, zero);
+    snprintf(names->prefix, HD_MAX_PATH, "%s", zero + folder);
+    snprintf(names->suffix, HD_MAX_PATH, "%.*s", (int)suffix, behind);
+    snprintf(names->rest, HD_MAX_PATH, "%s", behind + suffix);
     return HD_OK;
 }
 

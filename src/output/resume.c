@@ -26,6 +26,13 @@ static bool read_whole(const HdOutputPlan *plan, const HdOutput *output, int num
            hd_png_is_whole(*bytes, *size, hd_frame_fingerprint(plan->fingerprint, number));
 }
 
+static const HdOutput *first_picture(const HdOutputPlan *plan) {
+    const HdOutput *output = plan->list;
+    while (output->is_film)
+        output++;
+    return output;
+}
+
 bool hd_resume_film_lacks(const HdResume *resume, int output, int item) {
     const HdSegments *film = &resume->films[output];
     return film->film[0] != '\0' && !hd_segments_have(film, item);
@@ -42,14 +49,12 @@ bool hd_resume_keeps(const HdResume *resume, const HdOutputPlan *plan, int item)
 }
 
 static bool is_finished(const HdResume *resume, const HdOutputPlan *plan, int item) {
-    const int number = resume->all->frames[item];
     bool whole = hd_resume_keeps(resume, plan, item);
     for (int i = 0; i < plan->count && whole; i++) {
         unsigned char *bytes = NULL;
         size_t size;
-        if (plan->list[i].is_film)
-            continue;
-        whole = read_whole(plan, &plan->list[i], number, &bytes, &size);
+        whole = plan->list[i].is_film ||
+                read_whole(plan, &plan->list[i], resume->all->frames[item], &bytes, &size);
         free(bytes);
     }
     return whole;
@@ -72,10 +77,7 @@ static void note_presence(void *context, const char *entry) {
 static void mark_present(HdResume *resume, const HdOutputPlan *plan) {
     Presence presence = {.is_there = resume->is_finished};
     HdError ignored;
-    const HdOutput *output = plan->list;
-    while (output->is_film)
-        output++;
-    if (hd_frame_names_find(&presence.names, output, resume->all, &ignored) == HD_OK)
+    if (hd_frame_names_find(&presence.names, first_picture(plan), resume->all, &ignored) == HD_OK)
         hd_path_visit(presence.names.folder, note_presence, &presence);
 }
 
@@ -85,7 +87,6 @@ static HdStatus look_at_frames(HdResume *resume, const HdOutputPlan *plan, HdErr
     else if (plan->resumes)
         memset(resume->is_finished, true, (size_t)resume->all->count);
     for (int i = 0; i < resume->all->count; i++) {
-        const int number = resume->all->frames[i];
         if (hd_interrupt_signal() != 0)
             return hd_fail(error, HD_INTERRUPTED, "interrupted after 0 of %d frames",
                            resume->all->count);
@@ -93,7 +94,7 @@ static HdStatus look_at_frames(HdResume *resume, const HdOutputPlan *plan, HdErr
         if (resume->is_finished[i])
             resume->finished_count++;
         else
-            resume->missing.frames[resume->missing.count++] = number;
+            resume->missing.frames[resume->missing.count++] = resume->all->frames[i];
         if (resume->missing.count == 0)
             resume->first_missing = i + 1;
     }
@@ -108,18 +109,15 @@ HdStatus hd_resume_find(HdResume *resume, const HdOutputPlan *plan, const HdFram
     resume->is_finished = calloc(count, sizeof *resume->is_finished);
     if (resume->missing.frames == NULL || resume->is_finished == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for a list of %zu frames", count);
-    HdStatus status = HD_OK;
-    for (int i = 0; i < plan->count && status == HD_OK; i++)
-        status = hd_segments_find(&resume->films[i], plan, &plan->list[i], frames, error);
-    return status == HD_OK ? look_at_frames(resume, plan, error) : status;
+    for (int i = 0; i < plan->count; i++)
+        HD_TRY(hd_segments_find(&resume->films[i], plan, &plan->list[i], frames, error));
+    return look_at_frames(resume, plan, error);
 }
 
 HdStatus hd_resume_load(const HdOutputPlan *plan, int number, HdFrame *frame, HdError *error) {
     unsigned char *bytes;
     size_t size;
-    const HdOutput *output = plan->list;
-    while (output->is_film)
-        output++;
+    const HdOutput *output = first_picture(plan);
     HdStatus status = HD_FAILED;
     if (read_whole(plan, output, number, &bytes, &size))
         status = output->format->load(frame, bytes, size, output->name, error);
@@ -150,20 +148,17 @@ typedef struct Search {
     bool is_done; /* nothing that is to be waited for was found */
 } Search;
 
-static bool is_of_segment(const Search *search, const char *entry) {
-    const size_t film = strlen(search->names.prefix);
-    return search->is_film && strncmp(entry, search->names.prefix, film) == 0 &&
-           strncmp(entry + film, HD_SEGMENT_INFIX, strlen(HD_SEGMENT_INFIX)) == 0;
-}
-
 static void remove_if_stale(void *context, const char *entry) {
     Search *search = context;
     const HdFrameNames *names = &search->names;
-    const size_t length = hd_temporary_name_length(entry);
+    const size_t length = hd_temporary_name_length(entry), film = strlen(names->prefix);
+    const bool is_of_segment =
+        search->is_film && strncmp(entry, names->prefix, film) == 0 &&
+        strncmp(entry + film, HD_SEGMENT_INFIX, strlen(HD_SEGMENT_INFIX)) == 0;
     char path[HD_MAX_PATH];
     if (length == 0 ||
-        (hd_frame_names_place(names, entry, length, length == HD_TEMPORARY_MOST_KEPT) < 0 &&
-         !is_of_segment(search, entry)))
+        (!is_of_segment &&
+         hd_frame_names_place(names, entry, length, length == HD_TEMPORARY_MOST_KEPT) < 0))
         return;
     if (snprintf(path, sizeof path, "%s%s", names->folder, entry) < HD_MAX_PATH)
         search->is_done &= hd_temporary_remove_stale(path);

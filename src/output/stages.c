@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/minmax.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
 
@@ -47,10 +48,6 @@ struct HdStages {
     int worker_count;
 };
 
-static int least(int a, int b) {
-    return a < b ? a : b;
-}
-
 static Slot *slot_of(const HdStages *stages, int item) {
     return &stages->slots[item % stages->room];
 }
@@ -61,7 +58,7 @@ static bool is_given(const HdStages *stages, int item) {
 
 /* The end of the items that are wanted. */
 static int wanted_end(const HdStages *stages) {
-    return least(stages->item_count, stages->limit);
+    return hd_min(stages->item_count, stages->limit);
 }
 
 static int first_not_given(HdStages *stages) {
@@ -74,9 +71,11 @@ static int first_not_given(HdStages *stages) {
    of those that are there. Negative: none. */
 static int find_work(const HdStages *stages, int stage) {
     const HdStage *what = &stages->list[stage];
-    int first = stages->next[stage];
-    int end = least(stages->gone + stages->room, wanted_end(stages));
-    for (int item = first; item < (what->threads == 1 ? least(end, first + 1) : end); item++) {
+    const int first = stages->next[stage];
+    int end = hd_min(stages->gone + stages->room, wanted_end(stages));
+    if (what->threads == 1)
+        end = hd_min(end, first + 1);
+    for (int item = first; item < end; item++) {
         const Slot *slot = slot_of(stages, item);
         if (is_given(stages, item) && (slot->taken >> stage & 1) == 0 &&
             (slot->done & what->after) == what->after)
@@ -135,52 +134,55 @@ static void note_success(HdStages *stages, int stage, int item) {
     }
 }
 
-/* Called with the mutex, which is not held during the work. */
-static bool work(HdStages *stages, const HdStage *stage, int number, int item) {
-    HdError error;
-    take_work(stages, number, item);
-    pthread_mutex_unlock(&stages->mutex);
-    HdStatus status = stage->work(stage->context, item, &error);
-    pthread_mutex_lock(&stages->mutex);
-    if (status == HD_OK)
-        note_success(stages, number, item);
-    else
-        note_failure(stages, item, &error);
-    return status == HD_OK;
-}
-
-/* The same. */
-static void settle(HdStages *stages, const HdStage *stage, int last_item) {
+/* Works on the item, or settles after it. Called with the mutex, which is not held meanwhile. */
+static bool work(HdStages *stages, int number, int item, bool settles) {
+    const HdStage *stage = &stages->list[number];
     HdError error;
     pthread_mutex_unlock(&stages->mutex);
-    HdStatus status = stage->settle(stage->context, &error);
+    const HdStatus status =
+        settles ? stage->settle(stage->context, &error) : stage->work(stage->context, item, &error);
     pthread_mutex_lock(&stages->mutex);
     if (status != HD_OK)
-        note_failure(stages, last_item, &error);
+        note_failure(stages, item, &error);
+    else if (!settles)
+        note_success(stages, number, item);
+    return status == HD_OK;
 }
 
 static void *worker_main(void *argument) {
     const Worker *worker = argument;
     HdStages *stages = worker->stages;
-    const HdStage *stage = &stages->list[worker->stage];
+    const int stage = worker->stage;
     int unsettled = -1; /* the last item that may have been put off; negative: none */
     pthread_mutex_lock(&stages->mutex);
     for (;;) {
-        const bool over = is_over(stages, worker->stage);
-        const int item = over ? -1 : find_work(stages, worker->stage);
+        const bool over = is_over(stages, stage);
+        const int item = over ? -1 : find_work(stages, stage);
         if (item >= 0) {
-            unsettled = work(stages, stage, worker->stage, item) ? item : -1;
-        } else if (unsettled >= 0 && stage->settle != NULL) {
-            settle(stages, stage, unsettled);
+            take_work(stages, stage, item);
+            unsettled = work(stages, stage, item, false) ? item : -1;
+        } else if (unsettled >= 0 && stages->list[stage].settle != NULL) {
+            work(stages, stage, unsettled, true);
             unsettled = -1;
         } else if (over) {
             break;
         } else {
-            pthread_cond_wait(&stages->work_made[worker->stage], &stages->mutex);
+            pthread_cond_wait(&stages->work_made[stage], &stages->mutex);
         }
     }
     pthread_mutex_unlock(&stages->mutex);
     return NULL;
+}
+
+static void destroy(HdStages *stages) {
+    for (int i = 0; i < stages->count; i++)
+        pthread_cond_destroy(&stages->work_made[i]);
+    pthread_cond_destroy(&stages->room_made);
+    pthread_mutex_destroy(&stages->mutex);
+    free(stages->workers);
+    free(stages->slots);
+    free(stages->states);
+    free(stages);
 }
 
 static HdStages *create(const HdStage *list, int count, int item_count, const bool *is_ready,
@@ -196,7 +198,7 @@ static HdStages *create(const HdStage *list, int count, int item_count, const bo
     stages->workers = calloc((size_t)threads, sizeof *stages->workers);
     stages->count = count;
     stages->item_count = item_count;
-    for (int i = 0; i < item_count && is_ready != NULL && stages->states != NULL; i++)
+    for (int i = 0; i < item_count && stages->states != NULL; i++)
         stages->states[i] = is_ready[i] ? GIVEN : FREE;
     stages->room = room;
     stages->limit = INT_MAX;
@@ -205,18 +207,10 @@ static HdStages *create(const HdStage *list, int count, int item_count, const bo
     pthread_cond_init(&stages->room_made, NULL);
     for (int i = 0; i < count; i++)
         pthread_cond_init(&stages->work_made[i], NULL);
-    return stages;
-}
-
-static void destroy(HdStages *stages) {
-    for (int i = 0; i < stages->count; i++)
-        pthread_cond_destroy(&stages->work_made[i]);
-    pthread_cond_destroy(&stages->room_made);
-    pthread_mutex_destroy(&stages->mutex);
-    free(stages->workers);
-    free(stages->slots);
-    free(stages->states);
-    free(stages);
+    if (stages->slots != NULL && stages->states != NULL && stages->workers != NULL)
+        return stages;
+    destroy(stages);
+    return NULL;
 }
 
 static void join_all(HdStages *stages) {
@@ -229,60 +223,6 @@ static void join_all(HdStages *stages) {
         pthread_join(stages->workers[i].thread, NULL);
 }
 
-/* Returns 0 or what went wrong, as errno would. */
-static int start_worker(HdStages *stages, int stage) {
-    Worker *worker = &stages->workers[stages->worker_count];
-    *worker = (Worker){.stages = stages, .stage = stage};
-    int reason = hd_start_thread(&worker->thread, worker_main, worker);
-    if (reason == 0)
-        stages->worker_count++;
-    return reason;
-}
-
-/* Every stage has one thread already, and could do with it. */
-static void start_more(HdStages *stages) {
-    int reason = 0, wanted = 0;
-    for (int i = 0; i < stages->count; i++) {
-        wanted += stages->list[i].threads;
-        for (int j = 1; j < stages->list[i].threads && reason == 0; j++)
-            reason = start_worker(stages, i);
-    }
-    if (reason != 0)
-        hd_fallback_note("the system refused threads for the outputs (%s): %d of %d do it",
-                         strerror(reason), stages->worker_count, wanted);
-}
-
-HdStatus hd_stages_start(HdStages **out, const HdStage *list, int count, int item_count,
-                         const bool *is_ready, int room, HdError *error) {
-    HdStages *stages = create(list, count, item_count, is_ready, room);
-    int reason = 0;
-    *out = NULL;
-    if (stages == NULL || stages->slots == NULL || stages->states == NULL ||
-        stages->workers == NULL) {
-        if (stages != NULL)
-            destroy(stages);
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the stages of a run");
-    }
-    for (int i = 0; i < count && reason == 0; i++)
-        reason = start_worker(stages, i);
-    if (reason == 0) {
-        start_more(stages);
-        *out = stages;
-        return HD_OK;
-    }
-    int started = stages->worker_count;
-    pthread_mutex_lock(&stages->mutex);
-    stages->limit = 0; /* not even what is ready is wanted */
-    pthread_mutex_unlock(&stages->mutex);
-    join_all(stages);
-    destroy(stages);
-    return hd_fail(
-        error, HD_FAILED,
-        "cannot start thread %d of at least %d for the outputs: %s; --threads leaves more of "
-        "them to the outputs",
-        started + 1, count, strerror(reason));
-}
-
 /* The first item that is free; the end where none is. */
 static int find_free(HdStages *stages) {
     const int end = wanted_end(stages);
@@ -291,18 +231,14 @@ static int find_free(HdStages *stages) {
     return stages->first_free;
 }
 
-/* No more than there is room for need be counted. */
-static int count_free(HdStages *stages) {
-    int count = 0, end = wanted_end(stages);
-    for (int item = find_free(stages); item < end && count < stages->room; item++)
-        count += stages->states[item] == FREE;
-    return count;
-}
-
-static bool can_take(HdStages *stages, const HdTaker *taker, int item) {
-    if (item >= wanted_end(stages) || item >= stages->gone + stages->room + taker->ahead)
+static bool can_take(const HdStages *stages, const HdTaker *taker, int item) {
+    const int end = wanted_end(stages);
+    int left = 0; /* no more than there is room for need be counted */
+    if (item >= end || item >= stages->gone + stages->room + taker->ahead)
         return false;
-    return taker->wants == NULL || taker->wants(taker->context, count_free(stages));
+    for (int i = item; i < end && left < stages->room; i++)
+        left += stages->states[i] == FREE;
+    return taker->wants == NULL || taker->wants(taker->context, left);
 }
 
 int hd_stages_take(HdStages *stages, const HdTaker *taker, bool waits) {
@@ -343,7 +279,7 @@ void hd_stages_give(HdStages *stages, int item) {
 void hd_stages_give_back(HdStages *stages, int item) {
     pthread_mutex_lock(&stages->mutex);
     stages->states[item] = FREE;
-    stages->first_free = least(stages->first_free, item);
+    stages->first_free = hd_min(stages->first_free, item);
     pthread_cond_broadcast(&stages->room_made);
     pthread_mutex_unlock(&stages->mutex);
 }
@@ -374,4 +310,48 @@ HdStatus hd_stages_end(HdStages *stages, HdError *error) {
         *error = stages->error;
     destroy(stages);
     return status;
+}
+
+/* Returns 0 or what went wrong, as errno would. */
+static int start_worker(HdStages *stages, int stage) {
+    Worker *worker = &stages->workers[stages->worker_count];
+    *worker = (Worker){.stages = stages, .stage = stage};
+    const int reason = hd_start_thread(&worker->thread, worker_main, worker);
+    stages->worker_count += reason == 0;
+    return reason;
+}
+
+/* Every stage has one thread already, and could do with it. */
+static void start_more(HdStages *stages) {
+    int reason = 0, wanted = 0;
+    for (int i = 0; i < stages->count; i++) {
+        wanted += stages->list[i].threads;
+        for (int j = 1; j < stages->list[i].threads && reason == 0; j++)
+            reason = start_worker(stages, i);
+    }
+    if (reason != 0)
+        hd_fallback_note("the system refused threads for the outputs (%s): %d of %d do it",
+                         strerror(reason), stages->worker_count, wanted);
+}
+
+HdStatus hd_stages_start(HdStages **out, const HdStage *list, int count, int item_count,
+                         const bool *is_ready, int room, HdError *error) {
+    HdStages *stages = create(list, count, item_count, is_ready, room);
+    int reason = 0;
+    *out = NULL;
+    if (stages == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the stages of a run");
+    for (int i = 0; i < count && reason == 0; i++)
+        reason = start_worker(stages, i);
+    if (reason == 0) {
+        start_more(stages);
+        *out = stages;
+        return HD_OK;
+    }
+    hd_fail(error, HD_FAILED,
+            "cannot start thread %d of at least %d for the outputs: %s; --threads leaves more of "
+            "them to the outputs",
+            stages->worker_count + 1, count, strerror(reason));
+    hd_stages_fail(stages, 0, error); /* not even what is ready is wanted */
+    return hd_stages_end(stages, error);
 }

@@ -35,7 +35,7 @@ typedef struct HdTaker {
 
 /* Starts the threads of 1 to HD_MAX_STAGES stages for the items 0 to item_count - 1. At most
    `room` items, 1 or more, are under way at a time. Nobody needs to make those that `is_ready`
-   says: the stages take them as if they had been given. NULL: none is ready. */
+   says: the stages take them as if they had been given. */
 HdStatus hd_stages_start(HdStages **stages, const HdStage *list, int count, int item_count,
                          const bool *is_ready, int room, HdError *error);
 

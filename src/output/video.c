@@ -30,16 +30,6 @@ struct HdVideo {
 
 enum { MAX_ARGUMENTS = 64, MAX_EXCUSE = 600 };
 
-typedef struct Arguments {
-    size_t count;
-    const char *words[MAX_ARGUMENTS + 1]; /* NULL after the last */
-} Arguments;
-
-static void append(Arguments *arguments, const char *const *words) {
-    while (*words != NULL && arguments->count < MAX_ARGUMENTS)
-        arguments->words[arguments->count++] = *words++;
-}
-
 static const uint8_t join_head[] = "ffconcat version 1.0\n";
 static const char *const join_input[] = {
     "-f", "concat", "-safe", "0", "-protocol_whitelist", "file,pipe", "-i", "pipe:0", NULL};
@@ -67,13 +57,16 @@ static HdStatus start_ffmpeg(HdVideo *video, const char *ffmpeg, HdError *error)
         "-f", "rawvideo", "-pixel_format", "rgba", "-video_size", size, "-framerate", rate,
         "-i", "pipe:0", NULL};
     /* clang-format on */
-    const char *const end[] = {target, NULL};
-    Arguments arguments = {0};
-    append(&arguments, start);
-    append(&arguments, video->plan.is_joined ? join_input : frames);
-    append(&arguments, output_arguments(&video->plan));
-    append(&arguments, end);
-    return hd_child_start(&video->ffmpeg, arguments.words, true, video->file.lock, error);
+    const char *const *const parts[] = {start, video->plan.is_joined ? join_input : frames,
+                                        output_arguments(&video->plan)};
+    const char *arguments[MAX_ARGUMENTS + 2];
+    size_t count = 0;
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        for (const char *const *word = parts[i]; *word != NULL && count < MAX_ARGUMENTS; word++)
+            arguments[count++] = *word;
+    arguments[count] = target;
+    arguments[count + 1] = NULL;
+    return hd_child_start(&video->ffmpeg, arguments, true, video->file.lock, error);
 }
 
 static HdStatus read_patience(int *milliseconds, HdError *error) {
@@ -94,19 +87,15 @@ static HdStatus read_patience(int *milliseconds, HdError *error) {
 /* FFmpeg is given a name that exists: so it is taken against other processes. */
 static HdStatus open_film(HdVideo *video, const char *path, HdError *error) {
     char ffmpeg[HD_MAX_PATH];
-    HdStatus status = read_patience(&video->patience_ms, error);
-    if (status == HD_OK)
-        status = hd_child_find("ffmpeg", ffmpeg, error);
-    if (status == HD_OK)
-        status = hd_child_find("ffprobe", video->ffprobe, error);
-    if (status == HD_OK)
-        status = hd_atomic_file_reserve(&video->file, path, error);
-    if (status == HD_OK)
-        status = start_ffmpeg(video, ffmpeg, error);
+    HD_TRY(read_patience(&video->patience_ms, error));
+    HD_TRY(hd_child_find("ffmpeg", ffmpeg, error));
+    HD_TRY(hd_child_find("ffprobe", video->ffprobe, error));
+    HD_TRY(hd_atomic_file_reserve(&video->file, path, error));
+    HD_TRY(start_ffmpeg(video, ffmpeg, error));
     /* Where FFmpeg does not take it, it does not take the first part either. */
-    if (status == HD_OK && video->plan.is_joined)
+    if (video->plan.is_joined)
         hd_child_send(&video->ffmpeg, join_head, sizeof join_head - 1, video->patience_ms);
-    return status;
+    return HD_OK;
 }
 
 HdStatus hd_video_open(HdVideo **out, const char *path, const HdVideoPlan *plan, HdError *error) {
@@ -171,17 +160,9 @@ static HdStatus send(HdVideo *video, const void *bytes, size_t size, HdError *er
 }
 
 HdStatus hd_video_add(HdVideo *video, const HdFrame *frame, HdError *error) {
-    if (frame->width != video->plan.width || frame->height != video->plan.height)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "a frame of %d x %d pixels for the film %s, expected %d x %d", frame->width,
-                       frame->height, video->file.path, video->plan.width, video->plan.height);
-    if (video->ffmpeg.pid == 0)
-        return hd_fail(error, HD_FAILED, "the film %s failed at frame %ld, it takes no more frames",
-                       video->file.path, video->frames);
-    const HdStatus status =
-        send(video, frame->rgba, (size_t)frame->width * (size_t)frame->height * 4, error);
-    video->frames += status == HD_OK;
-    return status;
+    HD_TRY(send(video, frame->rgba, (size_t)frame->width * (size_t)frame->height * 4, error));
+    video->frames++;
+    return HD_OK;
 }
 
 /* In single quotes, which FFmpeg reads as a shell does. The times are told, since each film knows
@@ -216,12 +197,6 @@ HdStatus hd_video_add_part(HdVideo *video, const char *path, int frames, HdError
 
 static HdStatus end_ffmpeg(HdVideo *video, HdError *error) {
     char how[64];
-    if (video->ffmpeg.pid == 0)
-        return hd_fail(error, HD_FAILED, "the film %s failed at frame %ld", video->file.path,
-                       video->frames);
-    if (video->frames == 0)
-        return hd_fail(error, HD_FAILED, "the film %s has no frames, expected at least 1",
-                       video->file.path);
     if (hd_child_end(&video->ffmpeg, video->patience_ms, how))
         return HD_OK;
     if (hd_interrupt_signal() != 0)
@@ -232,17 +207,9 @@ static HdStatus end_ffmpeg(HdVideo *video, HdError *error) {
                    how, hd_child_said(&video->ffmpeg));
 }
 
-/* What FFmpeg said although it ended with code 0, with room for it: a full disk, say. */
-static const char *excuse(HdVideo *video, char words[MAX_EXCUSE]) {
-    if (video->ffmpeg.said_length == 0)
-        return "";
-    snprintf(words, MAX_EXCUSE, "; FFmpeg had said: %.500s", hd_child_said(&video->ffmpeg));
-    return words;
-}
-
 /* FFmpeg ends with code 0 even where its input was cut short, so only the file itself tells. */
 static HdStatus count_frames(HdVideo *video, HdError *error) {
-    char target[HD_MAX_PATH + 8], how[64], words[MAX_EXCUSE], *end;
+    char target[HD_MAX_PATH + 8], how[64], excuse[MAX_EXCUSE] = "", *end;
     HdChild ffprobe;
     snprintf(target, sizeof target, "file:%s", video->file.temporary);
     /* clang-format off */
@@ -250,24 +217,25 @@ static HdStatus count_frames(HdVideo *video, HdError *error) {
         video->ffprobe, "-v", "error", "-select_streams", "v:0", "-count_packets",
         "-show_entries", "stream=nb_read_packets", "-of", "csv=p=0", target, NULL};
     /* clang-format on */
-    HdStatus status = hd_child_start(&ffprobe, arguments, false, -1, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_child_start(&ffprobe, arguments, false, -1, error));
     bool done = hd_child_end(&ffprobe, video->patience_ms, how);
     if (!done && hd_interrupt_signal() != 0)
         return fail_interrupted(video, "ffprobe", error);
     if (ffprobe.is_stuck)
         return fail_stuck(video, "ffprobe", "while it counted the frames", &ffprobe, error);
+    /* What FFmpeg said although it ended with code 0: a full disk, say. */
+    if (video->ffmpeg.said_length > 0)
+        snprintf(excuse, MAX_EXCUSE, "; FFmpeg had said: %.500s", hd_child_said(&video->ffmpeg));
     const char *answer = hd_child_said(&ffprobe);
     long found = strtol(answer, &end, 10);
     if (!done || *end != '\0')
         return hd_fail(error, HD_FAILED,
                        "ffprobe could not count the frames of %s (%s), expected %ld; it said: "
                        "%.500s%s",
-                       video->file.path, how, video->frames, answer, excuse(video, words));
+                       video->file.path, how, video->frames, answer, excuse);
     if (found != video->frames)
         return hd_fail(error, HD_FAILED, "FFmpeg wrote %ld frames to %s, expected %ld%s", found,
-                       video->file.path, video->frames, excuse(video, words));
+                       video->file.path, video->frames, excuse);
     return HD_OK;
 }
 

@@ -32,15 +32,16 @@ HdStatus hd_video_open(HdVideo **video, const char *path, const HdVideoPlan *pla
 /* Names the next film, and how many frames it has. */
 HdStatus hd_video_add_part(HdVideo *video, const char *path, int frames, HdError *error);
 
-/* Hands over `rgba` of one frame; blocks while FFmpeg is busy, but at most for 600 s, or what
-   HEDRON_FFMPEG_PATIENCE says, while it takes nothing and says nothing. An FFmpeg that ended early
-   is an error that quotes the end of what it said, never a signal. */
+/* Hands over `rgba` of one frame of the plan's size, unless one failed before; blocks while FFmpeg
+   is busy, but at most for 600 s, or what HEDRON_FFMPEG_PATIENCE says, while it takes nothing and
+   says nothing. An FFmpeg that ended early is an error that quotes the end of what it said, never a
+   signal. */
 HdStatus hd_video_add(HdVideo *video, const HdFrame *frame, HdError *error);
 
-/* Ends the film: waits for FFmpeg, with the same patience, checks its exit code, counts the frames
-   of the file with ffprobe against the frames added, renames the file to its final name; with
-   HD_DURABLE it is on the disk before, and its name afterwards. Frees `video` in every case; on
-   failure no file is left. */
+/* Ends a film that has frames, none of which failed: waits for FFmpeg, with the same patience,
+   checks its exit code, counts the frames of the file with ffprobe against the frames added,
+   renames the file to its final name; with HD_DURABLE it is on the disk before, and its name
+   afterwards. Frees `video` in every case; on failure no file is left. */
 HdStatus hd_video_close(HdVideo *video, HdDurability durability, HdError *error);
 
 /* Stops FFmpeg, removes the temporary file, frees `video`. */

@@ -40,51 +40,36 @@ static const char *folder_of(const char *path, char folder[HD_MAX_PATH]) {
    numbered has countless ones, but it asks for each but once. */
 enum { MAX_FOLDERS = 64 };
 
+/* SYNCED: and so are those above it. */
+typedef enum Knowledge { UNKNOWN, THERE, SYNCED } Knowledge;
+
 /* A folder that this run wrote to: where it goes away it is missed, instead of made anew without
    what was in it. */
 typedef struct Folder {
-    uint64_t hash;  /* of its name; 0: none */
-    bool is_synced; /* and so are those above it */
+    uint64_t hash; /* of its name */
+    Knowledge knowledge;
 } Folder;
 
 /* Beyond the room the oldest are forgotten. */
 static struct {
     pthread_mutex_t mutex;
-    int next;
+    unsigned next;
     Folder list[MAX_FOLDERS];
 } known = {.mutex = PTHREAD_MUTEX_INITIALIZER};
 
-static Folder *find_folder(uint64_t hash) {
-    for (int i = 0; i < MAX_FOLDERS; i++)
-        if (known.list[i].hash == hash)
-            return &known.list[i];
-    return NULL;
-}
-
-static uint64_t folder_hash(const char *path) {
-    return hd_hash_bytes(HD_HASH_START, path, hd_folder_length(path));
-}
-
-/* What is known of the folder of the file `path`; all zero: nothing. */
-static Folder folder_known(const char *path) {
+/* Returns what was known of the folder of the file `path`, and keeps `more` where that says more.
+ */
+static Knowledge learn_folder(const char *path, Knowledge more) {
+    const uint64_t hash = hd_hash_bytes(HD_HASH_START, path, hd_folder_length(path));
+    unsigned i = 0;
     pthread_mutex_lock(&known.mutex);
-    const Folder *found = find_folder(folder_hash(path));
-    const Folder folder = found != NULL ? *found : (Folder){0};
+    while (i < MAX_FOLDERS && (known.list[i].knowledge == UNKNOWN || known.list[i].hash != hash))
+        i++;
+    const Knowledge before = i < MAX_FOLDERS ? known.list[i].knowledge : UNKNOWN;
+    if (more > before)
+        known.list[i < MAX_FOLDERS ? i : known.next++ % MAX_FOLDERS] = (Folder){hash, more};
     pthread_mutex_unlock(&known.mutex);
-    return folder;
-}
-
-static void know_folder(const char *path, bool is_synced) {
-    const uint64_t hash = folder_hash(path);
-    pthread_mutex_lock(&known.mutex);
-    Folder *found = find_folder(hash);
-    if (found == NULL) {
-        found = &known.list[known.next];
-        *found = (Folder){.hash = hash};
-        known.next = (known.next + 1) % MAX_FOLDERS;
-    }
-    found->is_synced |= is_synced;
-    pthread_mutex_unlock(&known.mutex);
+    return before;
 }
 
 void hd_known_folders_forget(void) {
@@ -95,13 +80,11 @@ void hd_known_folders_forget(void) {
 
 /* ---- the disk ---- */
 
+#define CANNOT_SYNC "cannot write %s to the disk: %s"
+
 /* Neither pipes nor the folders of some file systems can be synced. */
 static bool has_disk(int reason) {
     return reason != EINVAL && reason != ENOTSUP && reason != ENOSYS && reason != EROFS;
-}
-
-static HdStatus fail_to_sync(const char *path, int reason, HdError *error) {
-    return hd_fail(error, HD_FAILED, "cannot write %s to the disk: %s", path, strerror(reason));
 }
 
 HdStatus hd_sync_file(int descriptor, const char *path, HdError *error) {
@@ -109,35 +92,34 @@ HdStatus hd_sync_file(int descriptor, const char *path, HdError *error) {
     do
         code = fsync(descriptor);
     while (code != 0 && errno == EINTR);
-    return code == 0 || !has_disk(errno) ? HD_OK : fail_to_sync(path, errno, error);
+    if (code == 0 || !has_disk(errno))
+        return HD_OK;
+    return hd_fail(error, HD_FAILED, CANNOT_SYNC, path, strerror(errno));
 }
 
 static HdStatus sync_one(const char *folder, HdError *error) {
     int descriptor = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0 && errno == EACCES)
+        return HD_OK;
     if (descriptor < 0)
-        return errno == EACCES ? HD_OK : fail_to_sync(folder, errno, error);
+        return hd_fail(error, HD_FAILED, CANNOT_SYNC, folder, strerror(errno));
     const HdStatus status = hd_sync_file(descriptor, folder, error);
     close(descriptor);
     return status;
 }
 
-static bool is_top(const char *folder) {
-    return strcmp(folder, "/") == 0 || strcmp(folder, ".") == 0;
-}
-
 HdStatus hd_sync_folder(const char *path, HdError *error) {
     char file[HD_MAX_PATH], folder[HD_MAX_PATH];
-    HdStatus status = HD_OK;
-    bool was_synced = false;
+    bool is_last = false;
     snprintf(file, sizeof file, "%s", path);
-    while (status == HD_OK && !was_synced) {
-        was_synced = is_top(folder_of(file, folder)) || folder_known(file).is_synced;
-        status = sync_one(folder, error);
-        if (status == HD_OK)
-            know_folder(file, true);
+    while (!is_last) {
+        folder_of(file, folder);
+        HD_TRY(sync_one(folder, error));
+        is_last = learn_folder(file, SYNCED) == SYNCED || strcmp(folder, "/") == 0 ||
+                  strcmp(folder, ".") == 0;
         memcpy(file, folder, sizeof file);
     }
-    return status;
+    return HD_OK;
 }
 
 /* ---- names ---- */
@@ -185,23 +167,14 @@ static HdStatus check_length(const char *path, HdError *error) {
     return HD_OK;
 }
 
-/* Moves `*text` past a number; false where there is none. */
-static bool skip_digits(const char **text) {
-    const size_t count = strspn(*text, "0123456789");
-    *text += count;
-    return count > 0;
-}
-
 size_t hd_temporary_name_length(const char *name) {
     const char *found = NULL;
+    int end = 0;
     for (const char *next = strstr(name, MARK); next != NULL; next = strstr(next + 1, MARK))
         found = next;
-    if (found == NULL)
+    if (found == NULL || sscanf(found, MARK "%*[0-9]-%*[0-9]%n", &end) != 0 || end == 0)
         return 0;
-    const char *text = found + strlen(MARK);
-    if (!skip_digits(&text) || *text++ != '-' || !skip_digits(&text) || *text != '\0')
-        return 0;
-    return (size_t)(found - name);
+    return found[end] == '\0' ? (size_t)(found - name) : 0;
 }
 
 /* ---- what killed programs left ---- */
@@ -216,15 +189,14 @@ static bool writer_is_gone(const char *temporary) {
 bool hd_temporary_remove_stale(const char *temporary) {
     struct stat found, named;
     bool is_done = true;
-    int descriptor = open(temporary, O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    const int descriptor = open(temporary, O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (descriptor < 0)
         return true;
-    if (fstat(descriptor, &found) != 0 || !S_ISREG(found.st_mode))
-        is_done = true;
-    else if (flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+    const bool is_file = fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode);
+    if (is_file && flock(descriptor, LOCK_EX | LOCK_NB) != 0)
         is_done = errno != EWOULDBLOCK || !writer_is_gone(temporary);
     /* Another process may have removed it and given its name to a file of its own meanwhile. */
-    else if (lstat(temporary, &named) == 0 && named.st_dev == found.st_dev &&
+    else if (is_file && lstat(temporary, &named) == 0 && named.st_dev == found.st_dev &&
              named.st_ino == found.st_ino)
         unlink(temporary);
     close(descriptor);
@@ -233,22 +205,17 @@ bool hd_temporary_remove_stale(const char *temporary) {
 
 /* ---- a file ---- */
 
-/* Of a folder that was there, or of a temporary file. */
-static HdStatus fail_without(const char *path, const char *temporary, HdError *error) {
+/* The folder, which was there, or the temporary file is gone. */
+static HdStatus fail_without(const HdAtomicFile *file, HdError *error) {
     char folder[HD_MAX_PATH];
-    const int length = (int)hd_folder_length(path);
-    snprintf(folder, sizeof folder, "%.*s", length > 0 ? length : 1, length > 0 ? path : ".");
+    const int length = (int)hd_folder_length(file->path);
+    snprintf(folder, sizeof folder, "%.*s", length > 0 ? length : 1, length > 0 ? file->path : ".");
     if (access(folder, F_OK) != 0)
         return hd_fail(error, HD_FAILED,
-                       "cannot write %s: its folder %s is gone; it was there before", path, folder);
-    return hd_fail(error, HD_FAILED, "cannot write %s: somebody removed %s", path, temporary);
-}
-
-static HdStatus fail_to_create(const HdAtomicFile *file, int reason, HdError *error) {
-    if (reason == ENOENT && folder_known(file->path).hash != 0)
-        return fail_without(file->path, file->temporary, error);
-    return hd_fail(error, HD_FAILED, "cannot write %s: cannot create %s: %s", file->path,
-                   file->temporary, strerror(reason));
+                       "cannot write %s: its folder %s is gone; it was there before", file->path,
+                       folder);
+    return hd_fail(error, HD_FAILED, "cannot write %s: somebody removed %s", file->path,
+                   file->temporary);
 }
 
 /* Between its making and its locking the file looks like one that was left behind. Where a file
@@ -264,12 +231,14 @@ static bool lock(int descriptor) {
    containers that share a folder repeat them. */
 static HdStatus create(HdAtomicFile *file, unsigned mode, HdError *error) {
     for (int attempt = 0; attempt < MAX_ATTEMPTS; attempt++) {
-        const HdStatus status = temporary_name(file->path, attempt, file->temporary, error);
-        if (status != HD_OK)
-            return status;
+        HD_TRY(temporary_name(file->path, attempt, file->temporary, error));
         const int descriptor = open(file->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-        if (descriptor < 0 && errno != EEXIST)
-            return fail_to_create(file, errno, error);
+        const int reason = errno;
+        if (descriptor < 0 && reason == ENOENT && learn_folder(file->path, UNKNOWN) != UNKNOWN)
+            return fail_without(file, error);
+        if (descriptor < 0 && reason != EEXIST)
+            return hd_fail(error, HD_FAILED, "cannot write %s: cannot create %s: %s", file->path,
+                           file->temporary, strerror(reason));
         if (descriptor >= 0 && lock(descriptor)) {
             file->lock = descriptor;
             return HD_OK;
@@ -284,20 +253,15 @@ static HdStatus create(HdAtomicFile *file, unsigned mode, HdError *error) {
 static HdStatus reserve(HdAtomicFile *file, const char *path, unsigned mode, HdError *error) {
     file->stream = NULL;
     file->lock = -1;
-    HdStatus status = check_target(path, error);
-    if (status == HD_OK && folder_known(path).hash == 0)
-        status = hd_path_make_parents(path, 0777, error);
-    if (status == HD_OK)
-        status = check_length(path, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(check_target(path, error));
+    if (learn_folder(path, UNKNOWN) == UNKNOWN)
+        HD_TRY(hd_path_make_parents(path, 0777, error));
+    HD_TRY(check_length(path, error));
     memcpy(file->path, path, strlen(path) + 1);
-    status = create(file, mode, error);
-    if (status == HD_OK) {
-        hd_leftovers_add_file(file->temporary);
-        know_folder(path, false);
-    }
-    return status;
+    HD_TRY(create(file, mode, error));
+    hd_leftovers_add_file(file->temporary);
+    learn_folder(path, THERE);
+    return HD_OK;
 }
 
 HdStatus hd_atomic_file_reserve(HdAtomicFile *file, const char *path, HdError *error) {
@@ -305,9 +269,7 @@ HdStatus hd_atomic_file_reserve(HdAtomicFile *file, const char *path, HdError *e
 }
 
 static HdStatus open_file(HdAtomicFile *file, const char *path, unsigned mode, HdError *error) {
-    HdStatus status = reserve(file, path, mode, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(reserve(file, path, mode, error));
     file->stream = fdopen(file->lock, "wb");
     if (file->stream != NULL) {
         file->lock = -1;
@@ -328,11 +290,13 @@ HdStatus hd_atomic_file_open_private(HdAtomicFile *file, const char *path, HdErr
 
 HdStatus hd_atomic_file_check(const HdAtomicFile *file, HdError *error) {
     if (access(file->temporary, F_OK) != 0 && errno == ENOENT)
-        return fail_without(file->path, file->temporary, error);
+        return fail_without(file, error);
     return HD_OK;
 }
 
-static void unlock(HdAtomicFile *file) {
+/* The temporary name is gone. */
+static void leave(HdAtomicFile *file) {
+    hd_leftovers_forget_file(file->temporary);
     if (file->lock >= 0)
         close(file->lock);
     file->lock = -1;
@@ -340,20 +304,16 @@ static void unlock(HdAtomicFile *file) {
 
 static void drop(HdAtomicFile *file) {
     unlink(file->temporary);
-    hd_leftovers_forget_file(file->temporary);
-    unlock(file);
-}
-
-/* The stream remembers a write that failed, but not why: one more byte mostly tells. */
-static int find_reason(const HdAtomicFile *file) {
-    return write(fileno(file->stream), "", 1) < 0 ? errno : EIO;
+    leave(file);
 }
 
 HdStatus hd_atomic_file_close(HdAtomicFile *file, HdError *error) {
     if (file->stream == NULL)
         return HD_OK;
-    /* Closing may succeed after a write that failed. */
-    int reason = ferror(file->stream) ? find_reason(file) : 0;
+    int reason = 0;
+    /* The stream remembers a write that failed, but not why: one more byte mostly tells. */
+    if (ferror(file->stream))
+        reason = write(fileno(file->stream), "", 1) < 0 ? errno : EIO;
     file->lock = fcntl(fileno(file->stream), F_DUPFD_CLOEXEC, 0);
     if (file->lock < 0 && reason == 0)
         reason = errno;
@@ -370,7 +330,7 @@ HdStatus hd_atomic_file_close(HdAtomicFile *file, HdError *error) {
 static HdStatus sync_named(const HdAtomicFile *file, HdError *error) {
     const int descriptor = open(file->temporary, O_RDONLY | O_CLOEXEC);
     if (descriptor < 0 && errno == ENOENT)
-        return fail_without(file->path, file->temporary, error);
+        return fail_without(file, error);
     const HdStatus status =
         hd_sync_file(descriptor >= 0 ? descriptor : file->lock, file->path, error);
     if (descriptor >= 0)
@@ -379,7 +339,7 @@ static HdStatus sync_named(const HdAtomicFile *file, HdError *error) {
 }
 
 HdStatus hd_atomic_file_sync(HdAtomicFile *file, HdError *error) {
-    HdStatus status = sync_named(file, error);
+    const HdStatus status = sync_named(file, error);
     if (status != HD_OK)
         drop(file);
     return status;
@@ -387,27 +347,23 @@ HdStatus hd_atomic_file_sync(HdAtomicFile *file, HdError *error) {
 
 HdStatus hd_atomic_file_publish(HdAtomicFile *file, HdError *error) {
     if (rename(file->temporary, file->path) == 0) {
-        hd_leftovers_forget_file(file->temporary);
-        unlock(file);
+        leave(file);
         return HD_OK;
     }
     const int reason = errno;
     drop(file);
     if (reason == ENOENT)
-        return fail_without(file->path, file->temporary, error);
+        return fail_without(file, error);
     return hd_fail(error, HD_FAILED, "cannot rename %s to %s: %s", file->temporary, file->path,
                    strerror(reason));
 }
 
 HdStatus hd_atomic_file_commit(HdAtomicFile *file, HdDurability durability, HdError *error) {
-    HdStatus status = hd_atomic_file_close(file, error);
-    if (status == HD_OK && durability == HD_DURABLE)
-        status = hd_atomic_file_sync(file, error);
-    if (status == HD_OK)
-        status = hd_atomic_file_publish(file, error);
-    if (status == HD_OK && durability == HD_DURABLE)
-        status = hd_sync_folder(file->path, error);
-    return status;
+    HD_TRY(hd_atomic_file_close(file, error));
+    if (durability == HD_DURABLE)
+        HD_TRY(hd_atomic_file_sync(file, error));
+    HD_TRY(hd_atomic_file_publish(file, error));
+    return durability == HD_DURABLE ? hd_sync_folder(file->path, error) : HD_OK;
 }
 
 void hd_atomic_file_discard(HdAtomicFile *file) {

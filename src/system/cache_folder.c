@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -46,21 +47,20 @@ HdStatus hd_cache_folder(char folder[HD_MAX_PATH], HdError *error) {
     }
     if (caches != NULL && caches[0] == '/')
         return join(folder, caches, "hedron", error);
-    if (home != NULL && home[0] == '/')
-        return access(home, F_OK) == 0
-                   ? join(folder, home, ".cache/hedron", error)
-                   : hd_fail(error, HD_UNAVAILABLE, "there is no home folder %s", home);
-    return hd_fail(error, HD_UNAVAILABLE,
-                   "there is no cache folder, for neither HEDRON_CACHE, XDG_CACHE_HOME nor HOME "
-                   "names one");
+    if (home == NULL || home[0] != '/')
+        return hd_fail(
+            error, HD_UNAVAILABLE,
+            "there is no cache folder, for neither HEDRON_CACHE, XDG_CACHE_HOME nor HOME "
+            "names one");
+    if (access(home, F_OK) != 0)
+        return hd_fail(error, HD_UNAVAILABLE, "there is no home folder %s", home);
+    return join(folder, home, ".cache/hedron", error);
 }
 
 static HdStatus entry_path(char path[HD_MAX_PATH], char folder[HD_MAX_PATH], const char *kind,
                            const char *key, HdError *error) {
     char name[HD_CACHE_MAX_KIND + 32];
-    HdStatus status = hd_cache_folder(folder, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_cache_folder(folder, error));
     snprintf(name, sizeof name, "%.*s-%016" PRIx64 ENDING, (int)HD_CACHE_MAX_KIND, kind,
              hd_hash_bytes(HD_HASH_START, key, strlen(key)));
     return join(path, folder, name, error);
@@ -90,25 +90,18 @@ static HdStatus check_folder(const char *folder, HdError *error) {
                          : hd_fail(error, HD_FAILED, "cannot use the folder %s: %s", folder, fault);
 }
 
-static const char *find_stat_fault(const struct stat *found) {
-    if (!S_ISREG(found->st_mode))
-        return "it is not a regular file";
-    const char *fault = find_owner_fault(found);
-    if (fault != NULL)
-        return fault;
-    if (found->st_size < CHECKSUM_BYTES || found->st_size > HD_CACHE_MAX_ENTRY_BYTES)
-        return "its size is wrong";
-    return NULL;
-}
-
 /* Returns what is wrong, or NULL; `*file` is the caller's to free in any case. */
 static const char *read_file(int descriptor, unsigned char **file, size_t *size) {
     struct stat found;
     if (fstat(descriptor, &found) != 0)
         return "it cannot be looked at";
-    const char *fault = find_stat_fault(&found);
+    if (!S_ISREG(found.st_mode))
+        return "it is not a regular file";
+    const char *fault = find_owner_fault(&found);
     if (fault != NULL)
         return fault;
+    if (found.st_size < CHECKSUM_BYTES || found.st_size > HD_CACHE_MAX_ENTRY_BYTES)
+        return "its size is wrong";
     *size = (size_t)found.st_size;
     *file = malloc(*size);
     if (*file == NULL)
@@ -117,22 +110,20 @@ static const char *read_file(int descriptor, unsigned char **file, size_t *size)
     return done == (ssize_t)*size ? NULL : "it cannot be read";
 }
 
-static const char *find_fault(const unsigned char *file, size_t size, const char *key) {
+/* Moves the payload to the front. Returns what is wrong, or NULL. */
+static const char *keep_payload(unsigned char *file, size_t *size, const char *key) {
     const size_t key_bytes = strlen(key) + 1;
+    const unsigned char *content = file + CHECKSUM_BYTES;
     uint64_t checksum;
     memcpy(&checksum, file, CHECKSUM_BYTES);
-    if (checksum != hd_hash_bytes(HD_HASH_START, file + CHECKSUM_BYTES, size - CHECKSUM_BYTES))
+    *size -= CHECKSUM_BYTES;
+    if (checksum != hd_hash_bytes(HD_HASH_START, content, *size))
         return "its checksum is wrong";
-    if (size - CHECKSUM_BYTES < key_bytes || memcmp(file + CHECKSUM_BYTES, key, key_bytes) != 0)
+    if (*size < key_bytes || memcmp(content, key, key_bytes) != 0)
         return "it is of another key";
+    *size -= key_bytes;
+    memmove(file, content + key_bytes, *size);
     return NULL;
-}
-
-/* Moves the payload to the front. */
-static void keep_payload(unsigned char *file, size_t *size, const char *key) {
-    const size_t skipped = CHECKSUM_BYTES + strlen(key) + 1;
-    *size -= skipped;
-    memmove(file, file + skipped, *size);
 }
 
 HdStatus hd_cache_get(const char *kind, const char *key, unsigned char **bytes, size_t *size,
@@ -140,29 +131,24 @@ HdStatus hd_cache_get(const char *kind, const char *key, unsigned char **bytes, 
     char path[HD_MAX_PATH], folder[HD_MAX_PATH];
     *bytes = NULL;
     *size = 0;
-    HdStatus status = entry_path(path, folder, kind, key, error);
-    if (status == HD_OK)
-        status = check_folder(folder, error);
-    if (status != HD_OK)
-        return status;
-    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+    HD_TRY(entry_path(path, folder, kind, key, error));
+    HD_TRY(check_folder(folder, error));
+    const int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
     if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR))
         return hd_fail(error, HD_UNAVAILABLE, "%s has no entry for it", folder);
     if (descriptor < 0)
         return hd_fail(error, HD_FAILED, "%s cannot be used: %s", path, strerror(errno));
     const char *fault = read_file(descriptor, bytes, size);
     if (fault == NULL)
-        fault = find_fault(*bytes, *size, key);
-    if (fault == NULL) {
-        keep_payload(*bytes, size, key);
+        fault = keep_payload(*bytes, size, key);
+    if (fault == NULL)
         futimens(descriptor, NULL); /* it was used just now */
-    } else {
-        free(*bytes);
-        *bytes = NULL;
-        status = hd_fail(error, HD_FAILED, "%s cannot be used: %s", path, fault);
-    }
     close(descriptor);
-    return status;
+    if (fault == NULL)
+        return HD_OK;
+    free(*bytes);
+    *bytes = NULL;
+    return hd_fail(error, HD_FAILED, "%s cannot be used: %s", path, fault);
 }
 
 /* ---- limits ---- */
@@ -179,12 +165,10 @@ typedef struct Usage {
 
 static void add_entry(Usage *usage, const char *name, const struct stat *found) {
     const int64_t used = (int64_t)found->st_mtim.tv_sec * 1000000000 + found->st_mtim.tv_nsec;
-    if (strlen(name) >= sizeof usage->oldest)
-        return;
     usage->bytes += (int64_t)found->st_size;
     if (used <= usage->stuck || (usage->oldest[0] != '\0' && used >= usage->used))
         return;
-    memcpy(usage->oldest, name, strlen(name) + 1);
+    snprintf(usage->oldest, sizeof usage->oldest, "%s", name);
     usage->used = used;
 }
 
@@ -199,25 +183,21 @@ static void look_at(Usage *usage, int folder, const char *name) {
         unlinkat(folder, name, 0);
 }
 
-static Usage usage_of(DIR *stream, int64_t stuck) {
-    Usage usage = {.stuck = stuck};
-    rewinddir(stream);
-    for (const struct dirent *found = readdir(stream); found != NULL; found = readdir(stream))
-        look_at(&usage, dirfd(stream), found->d_name);
-    return usage;
-}
-
 void hd_cache_limit(const char *folder, int64_t most) {
     DIR *stream = opendir(folder);
-    if (stream == NULL)
-        return;
-    Usage usage = usage_of(stream, 0);
-    while (usage.bytes > most && usage.oldest[0] != '\0') {
-        if (unlinkat(dirfd(stream), usage.oldest, 0) != 0 && errno != ENOENT)
+    Usage usage = {0};
+    bool is_over = stream != NULL;
+    while (is_over) {
+        usage = (Usage){.stuck = usage.stuck};
+        rewinddir(stream);
+        for (const struct dirent *found = readdir(stream); found != NULL; found = readdir(stream))
+            look_at(&usage, dirfd(stream), found->d_name);
+        is_over = usage.bytes > most && usage.oldest[0] != '\0';
+        if (is_over && unlinkat(dirfd(stream), usage.oldest, 0) != 0 && errno != ENOENT)
             usage.stuck = usage.used;
-        usage = usage_of(stream, usage.stuck);
     }
-    closedir(stream);
+    if (stream != NULL)
+        closedir(stream);
 }
 
 /* ---- writing ---- */
@@ -241,9 +221,7 @@ static HdStatus write_entry(const char *path, const char *key, const void *bytes
     const uint64_t checksum =
         hd_hash_bytes(hd_hash_bytes(HD_HASH_START, key, key_bytes), bytes, size);
     HdAtomicFile file;
-    HdStatus status = hd_atomic_file_open_private(&file, path, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(hd_atomic_file_open_private(&file, path, error));
     fwrite(&checksum, 1, CHECKSUM_BYTES, file.stream); /* committing finds what fails */
     fwrite(key, 1, key_bytes, file.stream);
     fwrite(bytes, 1, size, file.stream);
@@ -253,20 +231,15 @@ static HdStatus write_entry(const char *path, const char *key, const void *bytes
 HdStatus hd_cache_put(const char *kind, const char *key, const void *bytes, size_t size,
                       HdError *error) {
     char path[HD_MAX_PATH], folder[HD_MAX_PATH];
-    HdStatus status = entry_path(path, folder, kind, key, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(entry_path(path, folder, kind, key, error));
     if (size > HD_CACHE_MAX_ENTRY_BYTES - CHECKSUM_BYTES - strlen(key) - 1)
         return hd_fail(error, HD_FAILED, "an entry of %zu bytes is too large for the cache: %d",
                        size, (int)HD_CACHE_MAX_ENTRY_BYTES);
-    status = make_folder(folder, error);
-    if (status == HD_OK)
-        status = check_folder(folder, error);
-    if (status == HD_OK)
-        status = write_entry(path, key, bytes, size, error);
-    if (status == HD_OK)
-        hd_cache_limit(folder, HD_CACHE_MAX_BYTES);
-    return status;
+    HD_TRY(make_folder(folder, error));
+    HD_TRY(check_folder(folder, error));
+    HD_TRY(write_entry(path, key, bytes, size, error));
+    hd_cache_limit(folder, HD_CACHE_MAX_BYTES);
+    return HD_OK;
 }
 
 /* ---- texts ---- */
@@ -275,19 +248,17 @@ HdStatus hd_cache_get_text(const char *kind, const char *key, char *text, size_t
                            HdError *error) {
     unsigned char *bytes;
     size_t size;
-    HdStatus status = hd_cache_get(kind, key, &bytes, &size, error);
+    const HdStatus status = hd_cache_get(kind, key, &bytes, &size, error);
     text[0] = '\0';
     if (bytes == NULL)
         return status;
-    if (size >= capacity || memchr(bytes, '\0', size) != NULL) {
-        status =
-            hd_fail(error, HD_FAILED, "the cached text of %zu bytes is not one of %s", size, kind);
-    } else {
-        memcpy(text, bytes, size);
-        text[size] = '\0';
-    }
+    const bool is_text = size < capacity && memchr(bytes, '\0', size) == NULL;
+    if (is_text)
+        snprintf(text, capacity, "%.*s", (int)size, (const char *)bytes);
     free(bytes);
-    return status;
+    if (is_text)
+        return HD_OK;
+    return hd_fail(error, HD_FAILED, "the cached text of %zu bytes is not one of %s", size, kind);
 }
 
 HdStatus hd_cache_put_text(const char *kind, const char *key, const char *text, HdError *error) {

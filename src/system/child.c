@@ -29,13 +29,9 @@ enum { GLANCE_MS = 200, SHORT_GLANCE_MS = 10 };
 /* Real-time ones included; where there are fewer, nothing is known of the rest. */
 enum { LAST_SIGNAL = 64 };
 
-static bool is_program(const char *path) {
-    struct stat found;
-    return stat(path, &found) == 0 && S_ISREG(found.st_mode) && access(path, X_OK) == 0;
-}
-
 HdStatus hd_child_find(const char *name, char out[HD_MAX_PATH], HdError *error) {
     const char *folders = getenv("PATH");
+    struct stat found;
     if (folders == NULL)
         folders = "/usr/local/bin:/usr/bin:/bin";
     for (const char *folder = folders;; folder++) {
@@ -43,7 +39,8 @@ HdStatus hd_child_find(const char *name, char out[HD_MAX_PATH], HdError *error) 
         /* An empty item stands for the current folder. */
         int used = length == 0 ? snprintf(out, HD_MAX_PATH, "./%s", name)
                                : snprintf(out, HD_MAX_PATH, "%.*s/%s", length, folder, name);
-        if (used > 0 && used < HD_MAX_PATH && is_program(out))
+        if (used < HD_MAX_PATH && stat(out, &found) == 0 && S_ISREG(found.st_mode) &&
+            access(out, X_OK) == 0)
             return HD_OK;
         folder += length;
         if (*folder == '\0')
@@ -103,25 +100,17 @@ static bool set_signals(void) {
     return sigprocmask(SIG_SETMASK, &none, NULL) == 0;
 }
 
-/* Our end may come before we ask for this. Where the system cannot do so, the lock tells that the
-   program lives. */
-static void die_with(pid_t parent) {
+static _Noreturn void become(const Order *order, int report, pid_t parent) {
 #ifdef __linux__
+    /* Where the system cannot do so, the lock tells that the program lives. */
     prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
-    if (getppid() != parent)
+    if (getppid() != parent) /* whose end came before that */
         _exit(1);
-}
-
-/* Under a number that no standard stream takes. */
-static bool keep_open(int descriptor) {
-    return descriptor < 0 || fcntl(descriptor, F_DUPFD, STDERR_FILENO + 1) >= 0;
-}
-
-static _Noreturn void become(const Order *order, int report, pid_t parent) {
-    die_with(parent);
-    if (setpgid(0, 0) == 0 && keep_open(order->lock) && set_streams(order->input, order->output) &&
-        set_signals())
+    /* The lock gets a number that no standard stream takes. */
+    if (setpgid(0, 0) == 0 &&
+        (order->lock < 0 || fcntl(order->lock, F_DUPFD, STDERR_FILENO + 1) >= 0) &&
+        set_streams(order->input, order->output) && set_signals())
         /* the words are not changed, whatever the prototype says */
         execve(order->arguments[0], (char *const *)order->arguments, environ);
     const int reason = errno;
@@ -133,17 +122,11 @@ static _Noreturn void become(const Order *order, int report, pid_t parent) {
 /* ---- */
 
 /* The channel closes by itself once the child is another program; else it tells why it is not. */
-static int read_report(int report) {
+static int read_report(int report, pid_t child) {
     int reason = 0;
-    ssize_t count;
-    do
-        count = read(report, &reason, sizeof reason);
-    while (count < 0 && errno == EINTR);
-    return count == (ssize_t)sizeof reason ? reason : 0;
-}
-
-static int wait_for_failed(pid_t pid, int reason) {
-    while (reason != 0 && waitpid(pid, NULL, 0) < 0 && errno == EINTR)
+    if (hd_read_fully(report, &reason, sizeof reason) != (ssize_t)sizeof reason)
+        return 0;
+    while (waitpid(child, NULL, 0) < 0 && errno == EINTR)
         continue;
     return reason;
 }
@@ -166,7 +149,7 @@ static int spawn_here(const Order *order) {
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     close(report[1]);
     if (reason == 0)
-        reason = wait_for_failed(*pid, read_report(report[0]));
+        reason = read_report(report[0], *pid);
     close(report[0]);
     if (reason == 0)
         hd_leftovers_add_group(*pid);
@@ -189,12 +172,9 @@ static void *launch(void *unused) {
     (void)unused;
     pthread_mutex_lock(&launcher.mutex);
     for (;;) {
-        Order *order = launcher.order;
-        if (order == NULL) {
+        while (launcher.order == NULL)
             pthread_cond_wait(&launcher.changed, &launcher.mutex);
-            continue;
-        }
-        order->reason = spawn_here(order);
+        launcher.order->reason = spawn_here(launcher.order);
         launcher.order = NULL;
         pthread_cond_broadcast(&launcher.changed);
     }
@@ -232,13 +212,13 @@ static int spawn(Order *order) {
     pthread_mutex_lock(&launcher.mutex);
     if (!start_launcher())
         order->reason = EAGAIN;
-    while (order->reason < 0 && launcher.order != NULL)
+    while (order->reason < 0) {
+        if (launcher.order == NULL) {
+            launcher.order = order;
+            pthread_cond_broadcast(&launcher.changed);
+        }
         pthread_cond_wait(&launcher.changed, &launcher.mutex);
-    if (order->reason < 0)
-        launcher.order = order;
-    pthread_cond_broadcast(&launcher.changed);
-    while (order->reason < 0)
-        pthread_cond_wait(&launcher.changed, &launcher.mutex);
+    }
     pthread_mutex_unlock(&launcher.mutex);
     return order->reason;
 }
@@ -267,12 +247,19 @@ static void take_output(HdChild *child) {
 
 /* ---- waiting ---- */
 
-/* After a glance in vain; `still_ms` counts them, and no clock, for the whole system may have slept
-   or this program been stopped. */
-static bool is_too_long(HdChild *child, int glance_ms, int patience_ms, int *still_ms) {
-    *still_ms += glance_ms;
+/* Waits for one of the channels { input, output }, and takes in output. False after an interrupt,
+   or where the child is stuck: `still_ms` counts glances in vain, and no clock, for the whole
+   system may have slept or this program been stopped. */
+static bool glance(HdChild *child, struct pollfd ready[2], int glance_ms, int patience_ms,
+                   int *still_ms) {
+    const int count = hd_interrupt_signal() == 0 ? poll(ready, 2, glance_ms) : 0;
+    if (hd_interrupt_signal() != 0 || (count < 0 && errno != EINTR))
+        return false;
+    *still_ms = count > 0 ? 0 : *still_ms + glance_ms;
     child->is_stuck = *still_ms >= patience_ms;
-    return child->is_stuck;
+    if (count > 0 && ready[1].revents != 0)
+        take_output(child);
+    return !child->is_stuck;
 }
 
 static bool has_ended(const HdChild *child) {
@@ -285,19 +272,10 @@ static bool has_ended(const HdChild *child) {
 static bool wait_for_end(HdChild *child, int patience_ms) {
     int still_ms = 0;
     while (child->output >= 0 || !has_ended(child)) {
-        int glance_ms = child->output >= 0 ? GLANCE_MS : SHORT_GLANCE_MS;
-        struct pollfd ready = {.fd = child->output, .events = POLLIN};
-        if (hd_interrupt_signal() != 0)
+        struct pollfd ready[2] = {{.fd = -1}, {.fd = child->output, .events = POLLIN}};
+        const int glance_ms = child->output >= 0 ? GLANCE_MS : SHORT_GLANCE_MS;
+        if (!glance(child, ready, glance_ms, patience_ms, &still_ms))
             return false;
-        int count = poll(&ready, 1, glance_ms);
-        if (count < 0 && errno != EINTR)
-            return false;
-        if (count <= 0 && is_too_long(child, glance_ms, patience_ms, &still_ms))
-            return false;
-        if (count <= 0)
-            continue;
-        take_output(child);
-        still_ms = 0;
     }
     return true;
 }
@@ -307,16 +285,8 @@ bool hd_child_send(HdChild *child, const uint8_t *bytes, size_t size, int patien
     while (size > 0) {
         struct pollfd ready[2] = {{.fd = child->input, .events = POLLOUT},
                                   {.fd = child->output, .events = POLLIN}};
-        int count = poll(ready, 2, GLANCE_MS);
-        if (hd_interrupt_signal() != 0 || (count < 0 && errno != EINTR))
+        if (!glance(child, ready, GLANCE_MS, patience_ms, &still_ms))
             return false;
-        if (count <= 0 && is_too_long(child, GLANCE_MS, patience_ms, &still_ms))
-            return false;
-        if (count <= 0)
-            continue;
-        still_ms = 0;
-        if (ready[1].revents != 0)
-            take_output(child);
         if (ready[0].revents == 0)
             continue;
         ssize_t sent = send(child->input, bytes, size, MSG_NOSIGNAL | MSG_DONTWAIT);

@@ -36,20 +36,16 @@ bool hd_library_path(void *library, const char *symbol, char *path, size_t capac
     void *address = dlsym(library, symbol);
     if (!address || !dladdr(address, &info) || !info.dli_fname)
         return false;
-    const size_t length = strlen(info.dli_fname);
-    if (length >= capacity)
-        return false;
-    memcpy(path, info.dli_fname, length + 1);
-    return true;
+    return (size_t)snprintf(path, capacity, "%s", info.dli_fname) < capacity;
 }
 
 void *hd_library_open_beside(void *library, const char *symbol, const char *name) {
     char beside[HD_MAX_PATH], path[HD_MAX_PATH];
     if (!hd_library_path(library, symbol, beside, sizeof beside))
         return NULL;
-    const char *slash = strrchr(beside, '/');
-    if (!slash)
+    const size_t folder = hd_folder_length(beside);
+    if (folder == 0)
         return NULL;
-    int length = snprintf(path, sizeof path, "%.*s/%s", (int)(slash - beside), beside, name);
+    const int length = snprintf(path, sizeof path, "%.*s%s", (int)folder, beside, name);
     return length < HD_MAX_PATH ? hd_library_open(path) : NULL;
 }

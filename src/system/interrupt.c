@@ -143,6 +143,11 @@ static void unblock(int number) {
     pthread_sigmask(SIG_UNBLOCK, &only, NULL);
 }
 
+static void say(const char *text) {
+    if (text != NULL && write(STDERR_FILENO, text, strlen(text)) < 0)
+        errno = 0; /* and nobody there to be told */
+}
+
 /* As if the signal had never been caught, so that the parent process sees what ended us. */
 static void die(int number) {
     set_handler(number, SIG_DFL, 0);
@@ -158,8 +163,7 @@ static void end_at_once(int number, const char *text) {
         set_timer(timers.end, REMOVAL_MS);
     if (timers.has_kill)
         set_timer(timers.kill, 2 * REMOVAL_MS);
-    if (text != NULL && write(STDERR_FILENO, text, strlen(text)) < 0)
-        errno = 0; /* and nobody there to be told */
+    say(text);
     hd_leftovers_remove();
     die(number);
 }
@@ -180,12 +184,10 @@ static void handle(int number) {
     int kept = errno;
     long long first = 0, now = milliseconds();
     if (atomic_compare_exchange_strong(&caught_ms, &first, now)) {
-        const char *text = atomic_load(&announcement);
         atomic_store(&caught, number);
         if (timers.has_end)
             set_timer(timers.end, patience_ms);
-        if (text != NULL && write(STDERR_FILENO, text, strlen(text)) < 0)
-            errno = kept; /* and nobody there to be told */
+        say(atomic_load(&announcement));
     } else if (now - first >= SAME_WISH_MS) {
         end_at_once(number, NULL);
     }
@@ -220,40 +222,32 @@ static void *watch(void *main_thread) {
     return NULL;
 }
 
-/* Without it all but such waiting ends in time. */
-static void start_watching(void) {
-    static pthread_t main_thread;
-    pthread_t watcher;
-    main_thread = pthread_self();
-    if (pthread_create(&watcher, NULL, watch, &main_thread) == 0)
-        pthread_detach(watcher);
-}
-
 /* False where the system has none left. */
 static bool create_timer(timer_t *timer, int number) {
     struct sigevent event = {.sigev_notify = SIGEV_SIGNAL, .sigev_signo = number};
     return timer_create(CLOCK_MONOTONIC, &event, timer) == 0;
 }
 
-static void prepare_deadline(void) {
+/* A signal that the parent process had ignored stays ignored: so shells start jobs in the
+   background, and nohup its program. */
+void hd_interrupt_install(void) {
+    static pthread_t main_thread;
+    pthread_t watcher;
     /* It comes again while the first one is handled. */
     set_handler(SIGALRM, handle_deadline, SA_NODEFER);
     unblock(SIGALRM);
     timers.has_end = create_timer(&timers.end, SIGALRM);
     timers.has_kill = create_timer(&timers.kill, SIGKILL);
-}
-
-/* A signal that the parent process had ignored stays ignored: so shells start jobs in the
-   background, and nohup its program. */
-void hd_interrupt_install(void) {
-    prepare_deadline();
     for (size_t i = 0; i < sizeof watched_signals / sizeof *watched_signals; i++)
         if (!is_ignored(watched_signals[i]))
             set_handler(watched_signals[i], handle, 0);
     set_handler(SIGXFSZ, SIG_IGN, 0);
     set_handler(SIGPIPE, SIG_IGN, 0);
     set_handler(SIGCHLD, SIG_DFL, 0);
-    start_watching();
+    main_thread = pthread_self();
+    /* Without it all but waiting for a file server ends in time. */
+    if (pthread_create(&watcher, NULL, watch, &main_thread) == 0)
+        pthread_detach(watcher);
 }
 
 HdStatus hd_interrupt_read_patience(HdError *error) {
@@ -276,13 +270,11 @@ int hd_interrupt_signal(void) {
 
 bool hd_wait_to_write(int descriptor) {
     struct pollfd ready = {.fd = descriptor, .events = POLLOUT};
-    for (;;) {
-        int count = poll(&ready, 1, WRITE_GLANCE_MS);
-        if (count > 0 || (count < 0 && errno != EINTR))
-            return true;
+    int count;
+    while ((count = poll(&ready, 1, WRITE_GLANCE_MS)) == 0 || (count < 0 && errno == EINTR))
         if (hd_interrupt_signal() != 0)
             return false;
-    }
+    return true;
 }
 
 void hd_interrupt_announce(const char *text) {

@@ -77,7 +77,7 @@ static bool is_connected(const char *path) {
     FILE *file = fopen(path, "r");
     if (file == NULL)
         return false;
-    bool is_read = fgets(text, sizeof text, file) != NULL;
+    const bool is_read = fgets(text, sizeof text, file) != NULL;
     fclose(file);
     return is_read && strcmp(text, "connected\n") == 0;
 }
@@ -105,13 +105,6 @@ static struct {
     char sentences[MAX_SENTENCES][HD_FALLBACK_LENGTH];
 } notes = {.mutex = PTHREAD_MUTEX_INITIALIZER};
 
-static bool is_new(const char *text) {
-    for (int i = 0; i < notes.count; i++)
-        if (strcmp(notes.sentences[i], text) == 0)
-            return false;
-    return true;
-}
-
 void hd_fallback_note(const char *format, ...) {
     char text[HD_FALLBACK_LENGTH];
     va_list arguments;
@@ -119,7 +112,10 @@ void hd_fallback_note(const char *format, ...) {
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     pthread_mutex_lock(&notes.mutex);
-    if (notes.count < MAX_SENTENCES && is_new(text))
+    bool is_new = notes.count < MAX_SENTENCES;
+    for (int i = 0; i < notes.count; i++)
+        is_new &= strcmp(notes.sentences[i], text) != 0;
+    if (is_new)
         memcpy(notes.sentences[notes.count++], text, sizeof text);
     pthread_mutex_unlock(&notes.mutex);
 }

@@ -51,17 +51,13 @@ HdStatus hd_path_expand_home(const char *path, char out[HD_MAX_PATH], HdError *e
     return join(home, path + 1, out, error);
 }
 
-static bool is_folder(const char *path) {
-    struct stat found;
-    return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
-}
-
 /* Making first and looking second leaves no gap for another process that makes the same folder. */
 static HdStatus make_folder(const char *folder, unsigned mode, const char *path, HdError *error) {
+    struct stat found;
     if (mkdir(folder, mode) == 0)
         return HD_OK;
-    int reason = errno;
-    if (is_folder(folder))
+    const int reason = errno;
+    if (stat(folder, &found) == 0 && S_ISDIR(found.st_mode))
         return HD_OK;
     return hd_fail(error, HD_FAILED, "cannot make the folder %s for %s: %s", folder, path,
                    reason == EEXIST ? "a file has that name" : strerror(reason));
@@ -82,11 +78,9 @@ bool hd_path_of_program(char out[HD_MAX_PATH]) {
     if (length <= 0)
         return false;
     out[length] = '\0';
-    char *slash = strrchr(out, '/');
-    if (slash == NULL)
-        return false;
-    *slash = '\0';
-    return true;
+    const size_t folder = hd_folder_length(out);
+    out[folder > 0 ? folder - 1 : 0] = '\0';
+    return folder > 0;
 }
 
 void hd_path_visit(const char *folder, void (*visit)(void *context, const char *name),
@@ -101,21 +95,15 @@ void hd_path_visit(const char *folder, void (*visit)(void *context, const char *
 
 HdStatus hd_path_make_parents(const char *path, unsigned mode, HdError *error) {
     char folder[HD_MAX_PATH] = "";
-    HdStatus status = join("", path, folder, error);
-    for (size_t i = 1; status == HD_OK && folder[i] != '\0'; i++) {
+    HD_TRY(join("", path, folder, error));
+    for (size_t i = 1; folder[i] != '\0'; i++) {
         if (folder[i] != '/' || folder[i - 1] == '/')
             continue;
         folder[i] = '\0';
-        status = make_folder(folder, mode, path, error);
+        HD_TRY(make_folder(folder, mode, path, error));
         folder[i] = '/';
     }
-    return status;
-}
-
-static void remove_last(char *path) {
-    char *slash = strrchr(path, '/');
-    if (slash != NULL)
-        *slash = '\0';
+    return HD_OK;
 }
 
 /* One step down or up from `path`, "" being the root; links are followed as far as they lead. */
@@ -124,7 +112,7 @@ static bool walk(char path[HD_MAX_PATH], const char *part, size_t length) {
     if (length == 0 || (length == 1 && part[0] == '.'))
         return true;
     if (length == 2 && strncmp(part, "..", 2) == 0) {
-        remove_last(path);
+        path[used > 0 ? hd_folder_length(path) - 1 : 0] = '\0';
         return true;
     }
     if (used + length + 2 > HD_MAX_PATH)
@@ -143,14 +131,13 @@ static bool resolve(const char *path, char out[HD_MAX_PATH]) {
     out[0] = '\0';
     if (path[0] != '/' && (getcwd(out, HD_MAX_PATH) == NULL || strcmp(out, "/") == 0))
         out[0] = '\0';
-    for (;;) {
-        size_t length = strcspn(path, "/");
+    for (;; path++) {
+        const size_t length = strcspn(path, "/");
         if (!walk(out, path, length))
             return false;
         path += length;
         if (*path == '\0')
             return true;
-        path++;
     }
 }
 
@@ -163,8 +150,8 @@ bool hd_path_is_same(const char *first, const char *second) {
            strcmp(first_name, second_name) == 0;
 }
 
-/* A pattern's parts. */
-typedef enum Part { PART_CHARACTER, PART_PERCENT, PART_NUMBER, PART_WRONG } Part;
+/* A pattern's parts; a percent sign stands for itself. */
+typedef enum Part { PART_CHARACTER, PART_NUMBER, PART_WRONG } Part;
 
 enum { MAX_DIGITS = 9 };
 
@@ -173,7 +160,7 @@ static Part read_directive(const char **text, int *digits) {
     const char *p = *text + 1;
     if (p[0] == '%') {
         *text = p + 1;
-        return PART_PERCENT;
+        return PART_CHARACTER;
     }
     if (p[0] == '0' && p[1] >= '1' && p[1] <= '0' + MAX_DIGITS) {
         *digits = p[1] - '0';
@@ -216,23 +203,11 @@ bool hd_pattern_has_number(const char *path) {
     return has_number(path, true);
 }
 
-/* "%d" or "%0Nd"; with it '#' is a character like any other. */
-static bool has_directive(const char *path) {
-    return has_number(path, false);
-}
-
-static HdStatus fail_part(const char *pattern, const char *part, HdError *error) {
-    return hd_fail(error, HD_BAD_INPUT,
-                   "the pattern \"%s\" has \"%.*s\", expected %%d, %%0Nd with N from 1 to %d, 1 to "
-                   "%d #, or %%%% for a percent sign",
-                   pattern, *part == '#' ? (int)strspn(part, "#") : 4, part, MAX_DIGITS,
-                   MAX_DIGITS);
-}
-
 /* Also counts the numbers that it has. */
 static HdStatus expand(const char *pattern, int frame, char out[HD_MAX_PATH], int *numbers,
                        HdError *error) {
-    const bool takes_marks = !has_directive(pattern);
+    /* With "%d" or "%0Nd" a '#' is a character like any other. */
+    const bool takes_marks = !has_number(pattern, false);
     size_t length = 0;
     int digits;
     *numbers = 0;
@@ -240,7 +215,11 @@ static HdStatus expand(const char *pattern, int frame, char out[HD_MAX_PATH], in
         char piece[16];
         const Part part = read_part(&text, takes_marks, &digits);
         if (part == PART_WRONG)
-            return fail_part(pattern, text, error);
+            return hd_fail(error, HD_BAD_INPUT,
+                           "the pattern \"%s\" has \"%.*s\", expected %%d, %%0Nd with N from 1 to "
+                           "%d, 1 to %d #, or %%%% for a percent sign",
+                           pattern, *text == '#' ? (int)strspn(text, "#") : 4, text, MAX_DIGITS,
+                           MAX_DIGITS);
         const int size = part == PART_NUMBER ? snprintf(piece, sizeof piece, "%0*d", digits, frame)
                                              : snprintf(piece, sizeof piece, "%c", text[-1]);
         if (length + (size_t)size >= HD_MAX_PATH)
@@ -255,9 +234,7 @@ static HdStatus expand(const char *pattern, int frame, char out[HD_MAX_PATH], in
 
 HdStatus hd_pattern_format(const char *pattern, int frame, char out[HD_MAX_PATH], HdError *error) {
     int numbers;
-    HdStatus status = expand(pattern, frame, out, &numbers, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(expand(pattern, frame, out, &numbers, error));
     if (numbers != 1)
         return hd_fail(error, HD_BAD_INPUT,
                        "the pattern \"%s\" has %d frame numbers, expected exactly one %%d, %%0Nd "
@@ -276,39 +253,16 @@ HdStatus hd_pattern_check(const char *pattern, HdError *error) {
 
 HdStatus hd_pattern_format_single(const char *name, char out[HD_MAX_PATH], HdError *error) {
     int numbers;
-    HdStatus status = expand(name, 0, out, &numbers, error);
-    if (status == HD_OK && numbers > 0)
+    HD_TRY(expand(name, 0, out, &numbers, error));
+    if (numbers > 0)
         return hd_fail(error, HD_BAD_INPUT, "the name \"%s\" has a frame number, expected none",
                        name);
-    return status;
+    return HD_OK;
 }
 
 /* ---- bytes ---- */
 
-typedef struct File {
-    const char *path, *what;
-    int descriptor;
-} File;
-
-static HdStatus fail_reading(const File *file, HdError *error) {
-    return hd_fail(error, HD_BAD_INPUT, "cannot read the %s %s: %s", file->what, file->path,
-                   strerror(errno));
-}
-
-static HdStatus check_file(const File *file, int64_t most, size_t *size, HdError *error) {
-    struct stat found;
-    if (fstat(file->descriptor, &found) != 0)
-        return fail_reading(file, error);
-    if (!S_ISREG(found.st_mode))
-        return hd_fail(error, HD_BAD_INPUT, "cannot read the %s %s: it is not a regular file",
-                       file->what, file->path);
-    if (found.st_size > most || (uintmax_t)found.st_size >= SIZE_MAX)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "cannot read the %s %s: it has %lld bytes, expected at most %lld",
-                       file->what, file->path, (long long)found.st_size, (long long)most);
-    *size = (size_t)found.st_size;
-    return HD_OK;
-}
+#define CANNOT_READ "cannot read the %s %s: "
 
 ssize_t hd_read_fully(int descriptor, void *bytes, size_t size) {
     size_t done = 0;
@@ -325,34 +279,41 @@ ssize_t hd_read_fully(int descriptor, void *bytes, size_t size) {
     return (ssize_t)done;
 }
 
-static HdStatus read_file(const File *file, unsigned char **bytes, size_t size, HdError *error) {
-    *bytes = malloc(size + 1);
+static HdStatus read_file(int descriptor, const char *what, const char *path, int64_t most,
+                          unsigned char **bytes, size_t *size, HdError *error) {
+    struct stat found;
+    if (descriptor < 0 || fstat(descriptor, &found) != 0)
+        return hd_fail(error, HD_BAD_INPUT, CANNOT_READ "%s", what, path, strerror(errno));
+    if (!S_ISREG(found.st_mode))
+        return hd_fail(error, HD_BAD_INPUT, CANNOT_READ "it is not a regular file", what, path);
+    if (found.st_size > most || (uintmax_t)found.st_size >= SIZE_MAX)
+        return hd_fail(error, HD_BAD_INPUT, CANNOT_READ "it has %lld bytes, expected at most %lld",
+                       what, path, (long long)found.st_size, (long long)most);
+    *size = (size_t)found.st_size;
+    *bytes = malloc(*size + 1);
     if (*bytes == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for the %zu bytes of the %s %s",
-                       size, file->what, file->path);
-    const ssize_t done = hd_read_fully(file->descriptor, *bytes, size);
-    if (done == (ssize_t)size)
-        return HD_OK;
-    const HdStatus status =
-        done < 0
-            ? fail_reading(file, error)
-            : hd_fail(error, HD_BAD_INPUT, "cannot read the %s %s: it ended after %zd of %zu bytes",
-                      file->what, file->path, done, size);
-    free(*bytes);
-    *bytes = NULL;
-    return status;
+                       *size, what, path);
+    const ssize_t done = hd_read_fully(descriptor, *bytes, *size);
+    if (done < 0)
+        return hd_fail(error, HD_BAD_INPUT, CANNOT_READ "%s", what, path, strerror(errno));
+    if (done < (ssize_t)*size)
+        return hd_fail(error, HD_BAD_INPUT, CANNOT_READ "it ended after %zd of %zu bytes", what,
+                       path, done, *size);
+    return HD_OK;
 }
 
 HdStatus hd_file_read(const char *path, const char *what, int64_t most, unsigned char **bytes,
                       size_t *size, HdError *error) {
     /* Not blocking, lest a named pipe stops the program before it is refused. */
-    const File file = {path, what, open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+    const int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     *bytes = NULL;
-    if (file.descriptor < 0)
-        return fail_reading(&file, error);
-    HdStatus status = check_file(&file, most, size, error);
-    if (status == HD_OK)
-        status = read_file(&file, bytes, *size, error);
-    close(file.descriptor);
+    const HdStatus status = read_file(descriptor, what, path, most, bytes, size, error);
+    if (descriptor >= 0)
+        close(descriptor);
+    if (status != HD_OK) {
+        free(*bytes);
+        *bytes = NULL;
+    }
     return status;
 }

@@ -10,6 +10,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
+#include "base/minmax.h"
 #include "system/machine.h"
 
 typedef struct Thread {
@@ -39,7 +40,7 @@ static void work_off(HdThreadPool *pool, int thread) {
         int item = atomic_fetch_add_explicit(&pool->next, 1, memory_order_relaxed);
         if (item >= pool->count)
             return;
-        if (pool->must_stop(pool->context)) {
+        if (pool->must_stop != NULL && pool->must_stop(pool->context)) {
             atomic_store(&pool->stopped, true);
             return;
         }
@@ -74,12 +75,16 @@ static void *thread_main(void *argument) {
    more than 2 MB, which is more than some systems give a thread. */
 enum { STACK_BYTES = 8 << 20 };
 
+static int init_attributes(pthread_attr_t *attributes) {
+    int code = pthread_attr_init(attributes);
+    if (code == 0)
+        code = pthread_attr_setstacksize(attributes, STACK_BYTES);
+    return code;
+}
+
 int hd_start_thread(pthread_t *thread, void *(*work)(void *), void *argument) {
     pthread_attr_t attributes;
-    int code = pthread_attr_init(&attributes);
-    if (code != 0)
-        return code;
-    code = pthread_attr_setstacksize(&attributes, STACK_BYTES);
+    int code = init_attributes(&attributes);
     if (code == 0)
         code = pthread_create(thread, &attributes, work, argument);
     pthread_attr_destroy(&attributes);
@@ -93,9 +98,7 @@ enum { LEAST_STACK_BYTES = 1 << 20 };
 static void enlarge_other_stacks(void) {
 #ifdef __GLIBC__
     pthread_attr_t attributes;
-    if (pthread_attr_init(&attributes) != 0)
-        return;
-    if (pthread_attr_setstacksize(&attributes, STACK_BYTES) == 0)
+    if (init_attributes(&attributes) == 0)
         pthread_setattr_default_np(&attributes);
     pthread_attr_destroy(&attributes);
 #endif
@@ -118,28 +121,22 @@ HdStatus hd_check_stack(HdError *error) {
                    (unsigned long long)found / 1024, LEAST_STACK_BYTES / 1024);
 }
 
-static HdStatus do_with_fewer(const HdThreadPool *pool, int wanted, int reason, HdError *error) {
-    int started = pool->thread_count;
-    if (started == 0)
-        return hd_fail(error, HD_FAILED, "cannot start one of %d threads: %s", wanted,
-                       strerror(reason));
-    hd_fallback_note("the system refused threads for tracing (%s): %d of %d do it",
-                     strerror(reason), started, wanted);
-    return HD_OK;
-}
-
 static HdStatus start_threads(HdThreadPool *pool, int threads, HdError *error) {
+    int code = 0;
     pool->threads = calloc((size_t)threads, sizeof *pool->threads);
     if (pool->threads == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for %d threads", threads);
-    for (int i = 0; i < threads; i++) {
-        pool->threads[i].pool = pool;
-        pool->threads[i].number = i;
-        int code = hd_start_thread(&pool->threads[i].thread, thread_main, &pool->threads[i]);
-        if (code != 0)
-            return do_with_fewer(pool, threads, code, error);
-        pool->thread_count++;
+    for (int i = 0; i < threads && code == 0; i++) {
+        pool->threads[i] = (Thread){.pool = pool, .number = i};
+        code = hd_start_thread(&pool->threads[i].thread, thread_main, &pool->threads[i]);
+        pool->thread_count += code == 0;
     }
+    if (pool->thread_count == 0)
+        return hd_fail(error, HD_FAILED, "cannot start one of %d threads: %s", threads,
+                       strerror(code));
+    if (code != 0)
+        hd_fallback_note("the system refused threads for tracing (%s): %d of %d do it",
+                         strerror(code), pool->thread_count, threads);
     return HD_OK;
 }
 
@@ -150,7 +147,7 @@ HdStatus hd_thread_pool_create(HdThreadPool **out, int threads, HdError *error) 
     pthread_mutex_init(&pool->mutex, NULL);
     pthread_cond_init(&pool->work_given, NULL);
     pthread_cond_init(&pool->work_done, NULL);
-    HdStatus status = start_threads(pool, threads, error);
+    const HdStatus status = start_threads(pool, threads, error);
     if (status != HD_OK)
         hd_thread_pool_destroy(pool);
     else
@@ -211,19 +208,8 @@ typedef struct Job {
     int found[MOST_CHUNKS]; /* by chunk */
 } Job;
 
-static bool never(const void *context) {
-    (void)context;
-    return false;
-}
-
-static int chunk_items(int count) {
-    int even = count / MOST_CHUNKS + 1;
-    return even > LEAST_ITEMS ? even : LEAST_ITEMS;
-}
-
 static int end_of(const Job *job, int chunk) {
-    int first = chunk * job->each;
-    return job->count - first < job->each ? job->count : first + job->each;
+    return hd_min((chunk + 1) * job->each, job->count);
 }
 
 static void run_chunk(void *context, int thread, int chunk) {
@@ -239,27 +225,25 @@ static void choose_in_chunk(void *context, int thread, int chunk) {
     job->found[chunk] = job->choose(job->context, first, end_of(job, chunk), job->chosen + first);
 }
 
+/* Returns how many chunks there are. */
 static int run(HdThreadPool *pool, Job *job, HdThreadWork *work) {
-    int chunks = (job->count + job->each - 1) / job->each;
+    job->each = hd_max(job->count / MOST_CHUNKS + 1, LEAST_ITEMS);
+    const int chunks = (job->count + job->each - 1) / job->each;
     if (chunks == 1)
         work(job, 0, 0);
     else if (chunks > 1)
-        hd_thread_pool_run(pool, chunks, work, job, never);
+        hd_thread_pool_run(pool, chunks, work, job, NULL);
     return chunks;
 }
 
 void hd_chunks_run(HdThreadPool *pool, int count, HdChunkWork *work, void *context) {
-    Job job = {.count = count, .each = chunk_items(count), .work = work, .context = context};
+    Job job = {.count = count, .work = work, .context = context};
     run(pool, &job, run_chunk);
 }
 
 int hd_chunks_choose(HdThreadPool *pool, int count, HdChunkChoice *choose, void *context,
                      int *chosen) {
-    Job job = {.count = count,
-               .each = chunk_items(count),
-               .choose = choose,
-               .context = context,
-               .chosen = chosen};
+    Job job = {.count = count, .choose = choose, .context = context, .chosen = chosen};
     int chunks = run(pool, &job, choose_in_chunk), sum = 0;
     for (int i = 0; i < chunks; i++) {
         if (sum < i * job.each)

@@ -23,7 +23,7 @@ typedef void HdThreadWork(void *context, int thread, int item);
 
 /* Calls work(context, t, i) for i = 0 .. count - 1 on the pool's threads, each once, in no fixed
    order, and waits for all of them. One caller at a time. Once must_stop(context) is true no
-   further item is begun; false where some were left out so. */
+   further item is begun; false where some were left out so. NULL: nothing stops it. */
 bool hd_thread_pool_run(HdThreadPool *pool, int count, HdThreadWork *work, void *context,
                         bool (*must_stop)(const void *context));
 

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: MIT */
-#include "base/quantile.h"
 #include "image/difference.h"
 #include "unit_test.h"
 

@@ -53,7 +53,7 @@ TEST(segments_are_of_whole_seconds) {
             assert_int_equal(segments.length, cases[i].length);
         int left = frames.count;
         for (int k = 0; k < segments.count; k++) {
-            assert_int_equal(hd_segment_begin(&segments, k), frames.count - left);
+            assert_int_equal(k * segments.length, frames.count - left);
             left -= hd_segment_frames(&segments, k);
             assert_true(hd_segment_frames(&segments, k) > 0);
         }

@@ -53,6 +53,7 @@ static const int threads[4] = {1, 1, 3, 1};
 static const unsigned after[4] = {0, 1, 0, 7};
 static HdStages *stages;
 static int room;
+static const bool none_ready[ITEMS];
 
 /* Faults may be put into the probes afterwards, before items are given. */
 static void start(const bool *ready, int room_of_stages) {
@@ -109,7 +110,7 @@ TEST(every_item_goes_through_every_stage) {
         int item, before = -1;
         for (int i = 0; i < ITEMS; i++)
             ready[i] = k >= 6 || (k >= 3 && (i % 3 == 0 || i > ITEMS / 2));
-        start(k < 3 ? NULL : ready, rooms[k % 3]);
+        start(ready, rooms[k % 3]);
         while ((item = hd_stages_take(stages, &anybody, true)) >= 0) {
             assert_true(item > before && !ready[item] && item - probes[3].ended < room);
             assert_true(hd_stages_wait(stages, item));
@@ -125,7 +126,7 @@ TEST(a_failure_of_any_stage_leaves_the_items_before_it) {
     for (int i = 0; i < 3 * 4; i++) {
         const int item = failing[i / 4];
         char expected[32];
-        start(NULL, ROOM);
+        start(none_ready, ROOM);
         probes[i % 4].fails_at = item;
         assert_true(give_items_from(0) <= item + ROOM);
         assert_false(hd_stages_wait(stages, item));
@@ -135,7 +136,7 @@ TEST(a_failure_of_any_stage_leaves_the_items_before_it) {
         assert_string_equal(error.message, expected);
     }
     /* One that fails while an earlier one is still at work does not hide that one's failure. */
-    start(NULL, ROOM);
+    start(none_ready, ROOM);
     probes[0].fails_at = 5;
     probes[2].fails_late_at = 3;
     give_items_from(0);
@@ -153,7 +154,7 @@ static void take_in_order(int first, int count) {
 /* The third stage has several threads that work side by side and keep no order: it does not wait
    for the first item. */
 TEST(items_are_given_in_any_order) {
-    start(NULL, ROOM);
+    start(none_ready, ROOM);
     probes[2].gathers = 3;
     take_in_order(0, 4);
     for (int i = 3; i > 0; i--)
@@ -168,7 +169,7 @@ TEST(items_are_given_in_any_order) {
 
 TEST(nobody_takes_what_has_no_room) {
     const HdTaker alone = {.ahead = 2};
-    start(NULL, ROOM);
+    start(none_ready, ROOM);
     take_in_order(0, ROOM);
     assert_int_equal(hd_stages_take(stages, &anybody, false), -1);
     assert_int_equal(hd_stages_take(stages, &alone, false), ROOM);
@@ -216,7 +217,7 @@ static void expect_waiting_gets(Waiting *waiting, int item) {
 
 TEST(takers_that_wait_are_asked_again) {
     Waiting waiting;
-    start(NULL, ROOM);
+    start(none_ready, ROOM);
     start_waiting(&waiting);
     waiting.wants = true;
     hd_stages_ask_again(stages);
@@ -240,7 +241,7 @@ TEST(takers_that_wait_are_asked_again) {
 TEST(what_comes_before_a_failure_is_wanted) {
     Waiting waiting;
     HdError failure;
-    start(NULL, ROOM);
+    start(none_ready, ROOM);
     take_in_order(0, 5);
     hd_fail(&failure, HD_BAD_INPUT, "item 3 cannot be");
     hd_stages_fail(stages, 3, &failure);
@@ -263,7 +264,7 @@ TEST(what_comes_before_a_failure_is_wanted) {
 }
 
 TEST(a_gap_ends_it) {
-    start(NULL, ROOM);
+    start(none_ready, ROOM);
     take_in_order(0, 5);
     for (int i = 0; i < 5; i++)
         if (i != 2)

@@ -235,21 +235,18 @@ TEST(names_reach_ffmpeg_unchanged) {
 TEST(an_older_film_stays_until_there_is_another) {
     HdVideo *video;
     struct stat found;
-    HdFrame right = make_frame(32, 16, RED), wrong = make_frame(16, 32, RED);
+    HdFrame frame = make_frame(32, 16, RED);
     fake_films(32 * 16 * 4, 0);
     write_bytes("out/film.mp4", "older", 5);
     assert_int_equal(open_film(&video, "out/film.mp4", 32, 16, &STYLE), HD_OK);
-    assert_int_equal(hd_video_add(video, &wrong, &error), HD_BAD_INPUT);
-    expect_contains(error.message, "16 x 32 pixels");
-    assert_int_equal(hd_video_add(video, &right, &error), HD_OK);
+    assert_int_equal(hd_video_add(video, &frame, &error), HD_OK);
     assert_int_equal(count_entries("out"), 2);
     hd_video_abort(video);
     assert_int_equal(count_entries("out"), 1);
     assert_true(stat("out/film.mp4", &found) == 0 && found.st_size == 5);
     assert_int_equal(make_film("out/film.mp4", 32, 16, 1, &STYLE), HD_OK);
     assert_true(stat("out/film.mp4", &found) == 0 && found.st_size == 32 * 16 * 4);
-    hd_frame_free(&right);
-    hd_frame_free(&wrong);
+    hd_frame_free(&frame);
 }
 
 TEST(the_patience_is_whole_seconds) {
@@ -299,13 +296,9 @@ TEST(failures_of_the_programs_are_told) {
     HdFrame frame = make_frame(LARGE, LARGE, RED);
     fake("ffmpeg", "exit 1");
     assert_int_equal(open_film(&video, "out/film.mp4", LARGE, LARGE, &STYLE), HD_OK);
-    for (int i = 0; i < 2; i++)
-        assert_int_equal(hd_video_add(video, &frame, &error), HD_FAILED);
-    expect_contains(error.message, "takes no more frames");
-    assert_int_equal(hd_video_close(video, HD_FLEETING, &error), HD_FAILED);
+    assert_int_equal(hd_video_add(video, &frame, &error), HD_FAILED);
+    hd_video_abort(video);
     hd_frame_free(&frame);
-    fake("ffmpeg", "cat >/dev/null");
-    check_failure(16, 0, HD_FAILED, "no frames");
     fake("ffmpeg", "cat >/dev/null; rm \"${0%ffmpeg}ffprobe\"");
     check_failure(16, 2, HD_UNAVAILABLE, "cannot start");
 }
