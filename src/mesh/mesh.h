@@ -93,9 +93,6 @@ HdStatus hd_divide_triangles(HdMesh *mesh, int divisions, HdError *error);
    HD_MAX_MESH_TRIANGLES. */
 HdStatus hd_check_divisions(int64_t triangle_count, int divisions, HdError *error);
 
-/* Corners of the box about all triangles; of a mesh without any, both are 0. */
-void hd_mesh_box(const HdMesh *mesh, HdVec3 *lower, HdVec3 *upper);
-
 /* Finds the box and builds the hierarchy over the triangles of a finished mesh, which has at least
    one. */
 HdStatus hd_mesh_build(HdMesh *mesh, HdThreadPool *pool, HdError *error);
