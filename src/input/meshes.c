@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "image/picture.h"
-#include "mesh/obj/read.h"
+#include "mesh/mesh.h"
 #include "scene/check.h"
 #include "system/interrupt.h"
 #include "system/machine.h"

@@ -86,6 +86,7 @@ TEST(the_box_holds_all_triangles) {
     const HdVec3 expected[2] = {{-2, -5, -6}, {4, 2, 3}};
     HdMesh mesh = make_mesh(vertices, 4, corners, 1);
     HdThreadPool *pool;
+    HdError error;
     assert_int_equal(hd_thread_pool_create(&pool, 1, &error), HD_OK);
     assert_int_equal(hd_mesh_build(&mesh, pool, &error), HD_OK);
     assert_memory_equal(&mesh.lower, &expected[0], sizeof *expected);

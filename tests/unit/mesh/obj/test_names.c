@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "mesh/obj/reading.h"
+#include "mesh/obj_reading.h"
 
 #include <string.h>
 

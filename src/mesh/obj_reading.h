@@ -18,7 +18,8 @@
 typedef struct HdObjMemory {
     size_t most; /* bytes at a time */
     size_t used;
-    bool is_over; /* something was refused because it would have been more */
+    bool is_over;     /* something was refused because it would have been more, */
+    bool has_refused; /* or for whatever reason */
 } HdObjMemory;
 
 /* As realloc(), of an array of `before` elements, which may be NULL, to `count` of them. NULL, with

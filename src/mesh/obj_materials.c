@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/limits.h"
-#include "mesh/obj/reading.h"
+#include "mesh/obj_reading.h"
 #include "system/path.h"
 
 enum { NO_ILLUM = -1, MOST_ILLUM = 10, MOST_NOTED = 32, MOST_LIBRARIES = 64 };
@@ -51,10 +51,9 @@ typedef struct Reader {
                       end */
     size_t line;
     bool is_in_material;
-    bool has_dissolve;    /* the material has d, so Tr does not count */
-    Definition *material; /* which is being defined; */
-    Definition unused;    /* this one, where it is not wanted */
-    bool is_out_of_memory;
+    bool has_dissolve;        /* the material has d, so Tr does not count */
+    Definition *material;     /* which is being defined; */
+    Definition unused;        /* this one, where it is not wanted */
     HdSpan noted[MOST_NOTED]; /* statements whose first use has been told */
     int noted_count;
 } Reader;
@@ -294,9 +293,7 @@ static void set_texture(Reader *reader, HdSpan name) {
     free(reader->material->texture);
     reader->material->texture =
         join(reader->libraries->memory, (const HdSpan[3]){folder, reader->folder, name});
-    if (reader->material->texture == NULL)
-        reader->is_out_of_memory = true;
-    else
+    if (reader->material->texture != NULL)
         fix_separators(reader->material->texture + hd_span_size(folder));
 }
 
@@ -374,18 +371,15 @@ static HdSpan take_next_line(HdSpan *text) {
 
 /* Takes the definitions of materials that the mesh names and that are not defined yet, with all
    parameters that they do not give as in `defaults`; Tr becomes d. What is left out is told, each
-   kind of statement once. False: the memory does not suffice. */
-static bool read_definitions(Reader *reader, HdSpan text) {
+   kind of statement once. */
+static void read_definitions(Reader *reader, HdSpan text) {
     if (memchr(text.begin, '\0', (size_t)(text.end - text.begin)) != NULL) {
         hd_problem(reader->libraries->notes, "%s: it has bytes 0, so this is no material library",
                    reader->path);
-        return true;
+        return;
     }
-    while (text.begin < text.end) {
-        reader->line++;
+    for (; text.begin < text.end; reader->line++)
         take_line(reader, take_next_line(&text));
-    }
-    return !reader->is_out_of_memory;
 }
 
 /* ---- libraries ---- */
@@ -408,7 +402,7 @@ static bool admit(Libraries *libraries, const char *name) {
     return true;
 }
 
-static bool read_file(Libraries *libraries, const char *path, const char *name) {
+static void read_file(Libraries *libraries, const char *path, const char *name) {
     unsigned char *bytes;
     size_t size;
     HdError problem;
@@ -417,29 +411,28 @@ static bool read_file(Libraries *libraries, const char *path, const char *name) 
     const int64_t most = room < INT32_MAX ? (int64_t)room : INT32_MAX;
     if (hd_file_read(path, "material library", most, &bytes, &size, &problem) != HD_OK) {
         hd_problem(libraries->notes, "%s: %s", libraries->path, problem.message);
-        return true;
+        return;
     }
     const char *text = (const char *)bytes;
-    Reader reader = {.libraries = libraries, .path = path, .folder = folder_of(name)};
+    Reader reader = {.libraries = libraries, .path = path, .folder = folder_of(name), .line = 1};
     memory->used += size;
-    const bool has_room = read_definitions(&reader, (HdSpan){text, text + size});
+    read_definitions(&reader, (HdSpan){text, text + size});
     hd_obj_release(memory, bytes, size);
-    return has_room;
 }
 
 /* Reads libraries whose names, each with a zero byte, are the `size` bytes at `names`. */
-static bool read_libraries(Libraries *libraries, char *names, size_t size) {
-    bool has_room = true;
-    for (char *name = names; has_room && name < names + size; name += strlen(name) + 1) {
+static void read_libraries(Libraries *libraries, char *names, size_t size) {
+    for (char *name = names; name < names + size; name += strlen(name) + 1) {
         fix_separators(name);
         if (!admit(libraries, name))
             continue;
         char *path = join(libraries->memory, (const HdSpan[3]){folder_of(libraries->path),
                                                                hd_span_of(name), hd_span_of("")});
-        has_room = path != NULL && read_file(libraries, path, name);
-        hd_obj_release(libraries->memory, path, path != NULL ? strlen(path) + 1 : 0);
+        if (path == NULL)
+            return;
+        read_file(libraries, path, name);
+        hd_obj_release(libraries->memory, path, strlen(path) + 1);
     }
-    return has_room;
 }
 
 /* What has no definition is as if it had one that says nothing. */
@@ -501,9 +494,9 @@ static bool allocate(Libraries *libraries) {
 bool hd_obj_read_materials(HdMesh *mesh, const char *path, HdNameTable *names, char *libraries,
                            size_t size, HdObjMemory *memory, HdProblems *notes) {
     Libraries all = {.path = path, .memory = memory, .notes = notes, .materials = names};
-    const bool has_room = allocate(&all) && read_libraries(&all, libraries, size) &&
-                          name_materials(names, memory, mesh);
-    if (has_room) {
+    if (allocate(&all))
+        read_libraries(&all, libraries, size);
+    if (!memory->has_refused && name_materials(names, memory, mesh)) {
         define_materials(&all, mesh);
         note_undefined(&all, mesh);
     }
@@ -511,5 +504,5 @@ bool hd_obj_read_materials(HdMesh *mesh, const char *path, HdNameTable *names, c
         free(all.definitions[i].texture);
     free(all.definitions);
     free(all.order);
-    return has_room;
+    return !memory->has_refused;
 }

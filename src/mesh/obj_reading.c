@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "mesh/obj/reading.h"
+#include "mesh/obj_reading.h"
 
 #include <math.h>
 #include <search.h>
@@ -11,12 +11,14 @@ void *hd_obj_resize(HdObjMemory *memory, void *array, size_t size, size_t before
     const size_t others = memory->used - before * size;
     if (count > SIZE_MAX / size || count * size > memory->most ||
         others > memory->most - count * size) {
-        memory->is_over = true;
+        memory->is_over = memory->has_refused = true;
         return NULL;
     }
     void *resized = realloc(array, count > 0 ? count * size : 1);
     if (resized != NULL)
         memory->used = others + count * size;
+    else
+        memory->has_refused = true;
     return resized;
 }
 

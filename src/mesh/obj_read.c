@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L
 
-#include "mesh/obj/read.h"
-
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -10,7 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "mesh/obj/reading.h"
+#include "mesh/obj_reading.h"
 #include "system/path.h"
 
 _Static_assert(sizeof(HdVec3) == 3 * sizeof(double), "three numbers of the text are a vector");
@@ -58,7 +56,8 @@ typedef struct Text {
     int32_t material; /* -1: none has been named */
     bool has_left_out;
     FILE *file;
-    char *buffer;       /* of the file */
+    char *buffer; /* of what comes next in the file, */
+    const char *next, *end;
     char *line;         /* the one that was taken last, with those that continue it */
     size_t line_number; /* where it begins */
     size_t lines_read;
@@ -132,17 +131,24 @@ static bool open_file(Text *text) {
     return text->file != NULL || fail_reading(text, strerror(errno));
 }
 
+static bool has_next(Text *text) {
+    if (text->next == text->end) {
+        text->next = text->buffer;
+        text->end = text->buffer + fread(text->buffer, 1, BUFFER_SIZE, text->file);
+    }
+    return text->next < text->end;
+}
+
 static bool open_text(Text *text) {
-    char mark[3];
     if (!open_file(text))
         return false;
     text->buffer = hd_obj_allocate(text->memory, BUFFER_SIZE, 1);
     text->line = hd_obj_allocate(text->memory, TEXT_SIZE, 1);
     if (text->buffer == NULL || text->line == NULL)
         return fail_room(text);
-    setvbuf(text->file, text->buffer, _IOFBF, BUFFER_SIZE);
-    if (fread(mark, 1, 3, text->file) < 3 || memcmp(mark, "\xef\xbb\xbf", 3) != 0)
-        rewind(text->file);
+    text->next = text->end = text->buffer;
+    if (has_next(text) && text->end - text->next >= 3 && memcmp(text->next, "\xef\xbb\xbf", 3) == 0)
+        text->next += 3;
     return true;
 }
 
@@ -158,22 +164,33 @@ static bool is_comment(const char *line, size_t length) {
     return span.begin < span.end && *span.begin == '#';
 }
 
+/* Takes the bytes of a line, with which `line` is filled up to a byte more than it may have;
+   returns how many it has there. */
+static size_t take_bytes(Text *text, char *line) {
+    size_t length = 0;
+    const char *at;
+    do {
+        for (at = text->next; at < text->end && *at != '\n' && *at != '\r' && *at != '\0'; at++)
+            continue;
+        const size_t size = (size_t)(at - text->next), room = HD_OBJ_MOST_LINE + 1 - length;
+        memcpy(line + length, text->next, size < room ? size : room);
+        length += size < room ? size : room;
+        text->next = at;
+    } while (at == text->end && has_next(text));
+    return length;
+}
+
 /* Takes a line of the file up to "\n", "\r\n" or, as old files have it, "\r", and puts it behind
    the
    `*used` bytes of those that it continues, but nothing of a comment. False: there is none, or
    something is wrong. */
 static bool join_line(Text *text, size_t *used) {
-    char *line = text->line + *used;
-    size_t length = 0;
-    int next = getc_unlocked(text->file);
-    const bool is_there = next != EOF;
+    const bool is_there = has_next(text);
     text->lines_read += is_there;
-    for (; next != '\n' && next != '\r' && next > '\0'; next = getc_unlocked(text->file))
-        if (length <= HD_OBJ_MOST_LINE)
-            line[length++] = (char)next;
+    size_t length = take_bytes(text, text->line + *used);
     if (ferror(text->file))
         return fail_reading(text, strerror(errno));
-    if (is_comment(line, length))
+    if (is_comment(text->line + *used, length))
         length = 0;
     *used += length;
     if (length > HD_OBJ_MOST_LINE)
@@ -181,10 +198,11 @@ static bool join_line(Text *text, size_t *used) {
     if (*used > HD_OBJ_MOST_LINE)
         return fail_at(text, text->line_number,
                        "with those that continue it, it is longer than %d bytes", HD_OBJ_MOST_LINE);
-    if (next == '\0')
+    const char end = has_next(text) ? *text->next++ : '\n';
+    if (end == '\0')
         return fail_at(text, text->lines_read, "it has a byte 0, so this is no OBJ file");
-    if (next == '\r' && (next = getc_unlocked(text->file)) != '\n')
-        ungetc(next, text->file);
+    if (end == '\r' && has_next(text) && *text->next == '\n')
+        text->next++;
     return is_there;
 }
 
@@ -474,9 +492,7 @@ static bool allocate_triangles(const Text *text, HdMesh *mesh) {
         mesh->corner_uvs = hd_obj_allocate(memory, count, sizeof *mesh->corner_uvs);
     if (text->names.count > 1)
         mesh->material_of = hd_obj_allocate(memory, count, sizeof *mesh->material_of);
-    return mesh->corners != NULL && (mesh->normals == NULL || mesh->corner_normals != NULL) &&
-           (mesh->uvs == NULL || mesh->corner_uvs != NULL) &&
-           (text->names.count <= 1 || mesh->material_of != NULL);
+    return !memory->has_refused;
 }
 
 /* Without a direction there is no normal. */
