@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cpu/builds.h"
+#include "cpu/kernel.h"
 #include "measures.h"
 #include "steps.h"
 
