@@ -7,15 +7,94 @@
 
 #include "base/growth.h"
 #include "base/text.h"
-#include "cpu/builds.h"
+#include "cpu/kernel.h"
 #include "device/kernel_source.h"
 #include "device/launch_plan.h"
 #include "device/renderer.h"
+#include "generated/cpu_builds.h"
 #include "kernels/host/shared.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
 #include "tables/table.h"
+
+/* ---- builds of the kernels ---- */
+
+typedef struct CpuBuild {
+    const char *instruction_set; /* "avx512", "avx2" or "generic" */
+    int lanes;
+    HdPrecision precision;
+    HdCpuKernel *kernel;
+    HdCpuKernel *plain_kernel; /* the same for plain scenes; NULL: there is none */
+    HdCpuFirstHits *first_hits;
+} CpuBuild;
+
+#define DECLARE_KERNEL(kernel) HdCpuKernel kernel;
+HD_CPU_KERNELS(DECLARE_KERNEL)
+#define DECLARE_FIRST_HITS(set, lanes, precision, kernel, plain_kernel)                            \
+    HdCpuFirstHits kernel##_first_hits;
+HD_CPU_BUILDS(DECLARE_FIRST_HITS)
+
+#define LIST_BUILD(set, lanes, precision, kernel, plain_kernel)                                    \
+    {#set, lanes, HD_PRECISION_##precision, kernel, plain_kernel, kernel##_first_hits},
+static const CpuBuild builds[] = {HD_CPU_BUILDS(LIST_BUILD)};
+enum { BUILD_COUNT = sizeof builds / sizeof builds[0] };
+
+static bool is_supported(const char *set) {
+#ifdef HD_CPU_X86
+    bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    if (strcmp(set, "avx512") == 0)
+        return avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+               __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
+    if (strcmp(set, "avx2") == 0)
+        return avx2;
+#endif
+    return strcmp(set, "generic") == 0;
+}
+
+const char *hd_cpu_best_instruction_set(void) {
+    for (size_t i = 0;; i++)
+        if (is_supported(builds[i].instruction_set))
+            return builds[i].instruction_set;
+}
+
+/* The best build with `lanes` lanes; 0: with as many as suit the processor. NULL: there is none. */
+static const CpuBuild *find_build(int lanes, HdPrecision precision) {
+    for (const CpuBuild *build = builds; build < builds + BUILD_COUNT; build++)
+        if ((lanes == 0 || build->lanes == lanes) && build->precision == precision &&
+            is_supported(build->instruction_set))
+            return build;
+    return NULL;
+}
+
+static int most_lanes(HdPrecision precision) {
+    int most = 1;
+    for (const CpuBuild *build = builds; build < builds + BUILD_COUNT; build++)
+        if (build->lanes > most && build->precision == precision &&
+            is_supported(build->instruction_set))
+            most = build->lanes;
+    return most;
+}
+
+/* The processor's name, for people. */
+static void name_processor(char *name, size_t capacity) {
+    char line[512];
+    snprintf(name, capacity, "processor");
+    FILE *file = fopen("/proc/cpuinfo", "r");
+    if (file == NULL)
+        return;
+    while (fgets(line, sizeof line, file) != NULL) {
+        char *colon = strchr(line, ':');
+        if (strncmp(line, "model name", 10) == 0 && colon != NULL) {
+            line[strcspn(line, "\n")] = '\0';
+            snprintf(name, capacity, "%s", colon + 2);
+            break;
+        }
+    }
+    fclose(file);
+}
+
+/* ---- the backend ---- */
 
 /* A thread's rays should stay in its processor's own cache. */
 enum { QUEUE_BYTES = 512 << 10 };
@@ -27,7 +106,7 @@ typedef struct CRenderer {
     size_t queue_budget; /* for each thread */
     HdCpuQueue *queues;  /* one for each thread; their memory is the first one's */
     size_t queue_bytes;  /* of all of them */
-    const HdCpuBuild *build;
+    const CpuBuild *build;
     HdCpuKernel *kernel; /* of the build, for the scene */
     HdSceneTables scene; /* our own copy */
     HdRayCounts *counts; /* one for each item of the last frame size */
@@ -40,14 +119,12 @@ static HdStatus c_enumerate(HdDevice *devices, int capacity, int *count, HdError
     if (capacity < 1)
         return HD_OK;
     HdDevice *device = &devices[0];
-    memset(device, 0, sizeof *device);
-    hd_cpu_name(device->name, (int)sizeof device->name);
+    *device = (HdDevice){.is_cpu = true, .has_double = true};
+    name_processor(device->name, sizeof device->name);
     snprintf(device->driver, sizeof device->driver, "plain C, %s, %d cores",
              hd_cpu_best_instruction_set(), hd_processor_count());
-    device->is_cpu = true;
     for (int p = HD_PRECISION_FLOAT; p <= HD_PRECISION_DOUBLE; p++)
-        device->most_lanes[p] = hd_cpu_most_lanes((HdPrecision)p);
-    device->has_double = true;
+        device->most_lanes[p] = most_lanes((HdPrecision)p);
     return HD_OK;
 }
 
@@ -62,15 +139,6 @@ static void c_close(void *renderer) {
     free(c);
 }
 
-static HdStatus create_queues(CRenderer *c, HdError *error) {
-    c->queues = calloc((size_t)c->threads, sizeof *c->queues);
-    if (c->queues == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for %d queues", c->threads);
-    for (int i = 0; i < c->threads; i++)
-        c->queues[i].compact = c->pipeline == HD_PIPELINE_WAVEFRONT;
-    return HD_OK;
-}
-
 static HdStatus c_open(const HdDevice *device, const HdRenderOptions *options, void **renderer,
                        HdError *error) {
     (void)device;
@@ -80,15 +148,16 @@ static HdStatus c_open(const HdDevice *device, const HdRenderOptions *options, v
     c->threads = options->threads > 0 ? options->threads : hd_processor_count();
     c->pipeline = options->pipeline;
     c->queue_budget = options->test.queue_bytes > 0 ? options->test.queue_bytes : QUEUE_BYTES;
-    c->build = hd_cpu_find_build(options->lanes, options->precision);
+    c->build = find_build(options->lanes, options->precision);
     if (options->math == HD_MATH_FAST)
         hd_fallback_note(
             "plain C has strict arithmetic alone, so --math fast changes nothing there");
-    HdStatus status = HD_OK;
-    if (hd_pipeline_is_wavefront(c->pipeline))
-        status = create_queues(c, error);
-    if (status == HD_OK)
-        status = hd_thread_pool_create(&c->pool, c->threads, error);
+    const bool has_queues = hd_pipeline_is_wavefront(c->pipeline);
+    c->queues = has_queues ? calloc((size_t)c->threads, sizeof *c->queues) : NULL;
+    HdStatus status =
+        has_queues && c->queues == NULL
+            ? hd_fail(error, HD_FAILED, "out of memory: no room for %d queues", c->threads)
+            : hd_thread_pool_create(&c->pool, c->threads, error);
     if (status != HD_OK) {
         c_close(c);
         return status;
@@ -110,32 +179,19 @@ static HdStatus copy_table(HdTable *to, const HdTable *from, const char *content
     return HD_OK;
 }
 
-static HdCpuKernel *kernel_for(const CRenderer *c, const HdSceneTables *tables) {
-    bool is_plain = tables->node_stack == 0 && !tables->refracts && !tables->lit_from_behind;
-    return is_plain && c->build->plain_kernel != NULL ? c->build->plain_kernel : c->build->kernel;
-}
-
 static HdStatus c_upload(void *renderer, const HdSceneTables *tables, HdError *error) {
     CRenderer *c = renderer;
+    const bool is_plain = tables->node_stack == 0 && !tables->refracts && !tables->lit_from_behind;
     hd_scene_tables_free(&c->scene);
-    c->kernel = kernel_for(c, tables);
+    c->kernel =
+        is_plain && c->build->plain_kernel != NULL ? c->build->plain_kernel : c->build->kernel;
     c->scene = *tables;
     c->scene.table_count = 0;
     for (int i = 0; i < tables->table_count; i++) {
-        HdStatus status =
-            copy_table(&c->scene.table[i], &tables->table[i], hd_scene_table_content(i), error);
-        if (status != HD_OK)
-            return status;
+        HD_TRY(copy_table(&c->scene.table[i], &tables->table[i], hd_scene_table_content(i), error));
         c->scene.table_count++;
     }
     return HD_OK;
-}
-
-static HdStatus reserve_counts(CRenderer *c, int items, HdError *error) {
-    c->counts = hd_reserved(c->counts, sizeof *c->counts, items, &c->item_capacity);
-    return c->counts != NULL
-               ? HD_OK
-               : hd_fail(error, HD_FAILED, "out of memory: no room for %d work items", items);
 }
 
 static HdStatus reserve_queues(CRenderer *c, size_t bytes, HdError *error) {
@@ -168,12 +224,11 @@ static HdStatus prepare_queues(CRenderer *c, int samples, HdError *error) {
     HdWavePlan plan = hd_wave_plan(&needs);
     size_t ints = padded(plan.bytes[0]), sums = ints + padded(plan.bytes[1]);
     size_t each = sums + padded(plan.bytes[2]);
-    HdStatus status = reserve_queues(c, each * (size_t)c->threads, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(reserve_queues(c, each * (size_t)c->threads, error));
     char *memory = c->queues[0].reals;
     for (int i = 0; i < c->threads; i++, memory += each) {
         HdCpuQueue *queue = &c->queues[i];
+        queue->compact = c->pipeline == HD_PIPELINE_WAVEFRONT;
         queue->reals = memory;
         queue->ints = (int *)(void *)(memory + ints);
         queue->sums = (int64_t *)(void *)(memory + sums);
@@ -214,19 +269,29 @@ static bool must_stop(const void *context) {
     return hd_interrupt_signal() != 0 || hd_watched_is_unwanted(&work->tables->watched);
 }
 
+static int count_items(const HdFrameTables *tables) {
+    return hd_kernel_item_count(tables->width, tables->height, HD_BLOCK_PIXELS);
+}
+
+static HdStatus run_items(CRenderer *c, const HdFrameTables *tables, HdFrame *frame,
+                          HdThreadWork *render, HdError *error) {
+    FrameWork work = {c, tables, count_items(tables), frame};
+    return hd_thread_pool_run(c->pool, work.items, render, &work, must_stop)
+               ? HD_OK
+               : hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
+}
+
 static HdStatus c_collect(void *renderer, const HdFrameTables *tables, HdFrame *frame,
                           HdError *error) {
     CRenderer *c = renderer;
-    int items = hd_kernel_item_count(tables->width, tables->height, HD_BLOCK_PIXELS);
-    HdStatus status = reserve_counts(c, items, error);
-    if (status == HD_OK && c->queues != NULL)
-        status = prepare_queues(c, tables->samples, error);
-    if (status != HD_OK)
-        return status;
-    FrameWork work = {c, tables, items, frame};
+    const int items = count_items(tables);
+    c->counts = hd_reserved(c->counts, sizeof *c->counts, items, &c->item_capacity);
+    if (c->counts == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for %d work items", items);
+    if (c->queues != NULL)
+        HD_TRY(prepare_queues(c, tables->samples, error));
     double start = hd_monotonic_seconds();
-    if (!hd_thread_pool_run(c->pool, items, render_one_item, &work, must_stop))
-        return hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
+    HD_TRY(run_items(c, tables, frame, render_one_item, error));
     frame->is_encoded = false;
     frame->longest_launch = -1.0;
     frame->trace_seconds = hd_monotonic_seconds() - start;
@@ -244,17 +309,11 @@ static void find_in_one_item(void *context, int thread, int item) {
 
 static HdStatus c_first_hits(void *renderer, const HdFrameTables *tables, HdFrame *frame,
                              HdError *error) {
-    CRenderer *c = renderer;
-    int items = hd_kernel_item_count(tables->width, tables->height, HD_BLOCK_PIXELS);
-    FrameWork work = {c, tables, items, frame};
-    return hd_thread_pool_run(c->pool, items, find_in_one_item, &work, must_stop)
-               ? HD_OK
-               : hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
+    return run_items(renderer, tables, frame, find_in_one_item, error);
 }
 
 static int c_lanes(const void *renderer) {
-    const CRenderer *c = renderer;
-    return c->build->lanes;
+    return ((const CRenderer *)renderer)->build->lanes;
 }
 
 static void c_describe(const void *renderer, char *text, int capacity) {

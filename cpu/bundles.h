@@ -4,9 +4,7 @@
 #ifndef HD_CPU_BUNDLES_H
 #define HD_CPU_BUNDLES_H
 
-#include "kernels/host/language.h"
-
-#include "kernels/common/real.h"
+#include "kernels/host/shared.h"
 
 /* Whether a bundle fills a register, and what its instructions begin with. */
 #if defined(__AVX512DQ__) && HD_LANES * (HD_DOUBLE + 1) == 16

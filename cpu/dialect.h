@@ -3,9 +3,7 @@
 #ifndef HD_CPU_DIALECT_H
 #define HD_CPU_DIALECT_H
 
-#include "kernels/host/language.h"
-
-#include "kernels/common/scene_tables.h"
+#include "kernels/host/shared.h"
 
 #if HD_DOUBLE
 #define HD_FMA_SCALAR  __builtin_fma

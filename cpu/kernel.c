@@ -35,12 +35,10 @@ void HD_KERNEL_NAME(const HdTable *scene, const HdTable *frame, int item, const 
 }
 
 #if !HD_PLAIN
-#define HD_JOINED(a, b)     a##b
-#define HD_FIRST_HITS_OF(a) HD_JOINED(a, _first_hits)
-HdCpuFirstHits HD_FIRST_HITS_OF(HD_KERNEL_NAME);
+HdCpuFirstHits HD_PASTE(HD_KERNEL_NAME, _first_hits);
 
-void HD_FIRST_HITS_OF(HD_KERNEL_NAME)(const HdTable *scene, const HdTable *frame, int item,
-                                      int floats, float *hits) {
+void HD_PASTE(HD_KERNEL_NAME, _first_hits)(const HdTable *scene, const HdTable *frame, int item,
+                                           int floats, float *hits) {
     HD_DECLARE_TABLES(scene, frame)
     find_first_hits(SCENE_ARGUMENTS item, floats, hits);
 }

@@ -28,4 +28,8 @@ typedef void HdCpuKernel(const HdTable *scene, const HdTable *frame, int item,
 typedef void HdCpuFirstHits(const HdTable *scene, const HdTable *frame, int item, int floats,
                             float *hits);
 
+/* The best instruction set of which this processor can run builds: "avx512", "avx2" or "generic".
+ */
+const char *hd_cpu_best_instruction_set(void);
+
 #endif

@@ -22,7 +22,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "cpu/builds.h"
+#include "cpu/kernel.h"
 #include "input/files.h"
 #include "input/scene_file.h"
 #include "loops.h"

@@ -131,7 +131,7 @@ FN vreal positive_quotient(vreal a, vreal b) {
     return pick(lt(exponent, least), small_quotient(digits, left, exponent), normal);
 }
 
-FN vreal quotient_by_fma(vreal a, vreal b) {
+FN vreal quotient(vreal a, vreal b) {
     vreal zero = splat(R(0.0)), infinite = from_bits(splat_bits(BITS_OF_POWER));
     vreal nan = infinite - infinite;
     vbits sign = (bits_of(a) ^ bits_of(b)) & bits_of(splat(R(-0.0)));
@@ -156,7 +156,7 @@ FN vreal root_digits(vreal a) {
     return digits + pick(is_low, step, pick(is_high, -step, splat(R(0.0))));
 }
 
-FN vreal root_by_fma(vreal a) {
+FN vreal square_root(vreal a) {
     vreal zero = splat(R(0.0)), infinite = from_bits(splat_bits(BITS_OF_POWER));
     vmask is_small = lt(a, splat(LEAST_NORMAL));
     vreal normal = pick(is_small, a * splat(NORMALISER), a);
@@ -172,14 +172,8 @@ FN vreal root_by_fma(vreal a) {
     return pick(lt(a, zero), infinite - infinite, found);
 }
 
-FN vreal quotient(vreal a, vreal b) {
-    return quotient_by_fma(a, b);
-}
-FN vreal square_root(vreal a) {
-    return root_by_fma(a);
-}
 FN real shared_quotient(real a, real b) {
-    vreal found = quotient_by_fma(splat(a), splat(b));
+    vreal found = quotient(splat(a), splat(b));
     return lane_real(&found, 0);
 }
 #else

@@ -349,7 +349,7 @@ FN Beam beam_of(const MeshRays *rays, vmask m, const Way *way) {
     real far_out = greatest_lane(
         greater(absolute(origin.x), greater(absolute(origin.y), absolute(origin.z))), m);
     /* Twice what ray_slabs allows for each ray, since this rounds otherwise. */
-    real slack = (far_out + R(1.0)) * (R(2.0) * SLAB_MARGIN);
+    real slack = (far_out + R(1.0)) * (R(2.0) * ROUNDING_MARGIN);
     Beam beam;
     bound_axis(&beam, 0, origin.x, inverse.x, m, way, slack);
     bound_axis(&beam, 1, origin.y, inverse.y, m, way, slack);

@@ -10,7 +10,6 @@
 #define PROBE_NAME(name, words) PROBE_##name,
 enum { HD_PROBE_NUMBERS(PROBE_NAME) PROBE_NUMBER_COUNT };
 enum { HD_PROBE_INTEGERS(PROBE_NAME) PROBE_INTEGER_COUNT };
-#undef PROBE_NAME
 
 FN void keep_number(GLOBAL real *to, int count, int primitive, vreal a) {
     for (int lane = 0; lane < HD_LANES; lane++)

@@ -72,18 +72,22 @@ typedef struct ALIGNED_16 {
     real disc_radiance[3], unused2;
 } Edge;
 
+/* What a material's row has as the scene does, in colours and numbers. */
+#define HD_PLAIN_TERMS(COLOUR, NUMBER)                                                             \
+    COLOUR(colour)                                                                                 \
+    NUMBER(ambient)                                                                                \
+    COLOUR(mirror_tint)                                                                            \
+    NUMBER(diffuse) NUMBER(specular) NUMBER(reflection) NUMBER(transmission)
+#define HD_ROW_COLOUR(term) real term[3];
+#define HD_ROW_NUMBER(term) real term;
+
 typedef struct ALIGNED_16 {
-    real colour[3], ambient;
-    real mirror_tint[3], diffuse;
-    real specular, reflection, transmission;
+    HD_PLAIN_TERMS(HD_ROW_COLOUR, HD_ROW_NUMBER)
     real inner_reflection, inner_transmission; /* for rays that meet it from inside the solid */
     real index_of_refraction, inverse_index;
     real least_highlight; /* a cosine whose power is less than 2^-60 counts as 0 */
     int shininess, lit_from_behind, unused_int[2];
 } Material;
-
-/* What a material has as the scene does; the rest follows from several of its values. */
-#define HD_PLAIN_TERMS(X) X(ambient) X(diffuse) X(specular) X(reflection) X(transmission)
 
 typedef struct ALIGNED_16 {
     real intensity[3];

@@ -61,14 +61,15 @@ typedef struct {
     vmask negative[3]; /* runs towards the lower bound of an axis */
 } Slabs;
 
-/* What rounding may come to, relative to the coordinates; and the least share of a direction along
-   an axis, far below that, so that no direction is divided by zero. */
+/* What rounding may come to, relative to the coordinates, or, of the shares, products and sums of
+   two distances, to the furthest corner; and the least share of a direction along an axis, far
+   below that, so that no direction is divided by zero. */
 #if HD_DOUBLE
-#define SLAB_MARGIN R(3.5527136788005009e-15) /* 2^-48 */
-#define LEAST_SHARE R(1e-30)
+#define ROUNDING_MARGIN R(3.5527136788005009e-15) /* 2^-48 */
+#define LEAST_SHARE     R(1e-30)
 #else
-#define SLAB_MARGIN R(1.9073486328125e-6) /* 2^-19 */
-#define LEAST_SHARE R(1e-12)
+#define ROUNDING_MARGIN R(1.9073486328125e-6) /* 2^-19 */
+#define LEAST_SHARE     R(1e-12)
 #endif
 
 FN vreal slab_inverse(vreal direction, vreal least) {
@@ -81,7 +82,7 @@ FN Slabs ray_slabs(Vec3 origin, Vec3 direction, vreal reach) {
     vreal longest =
         greater(absolute(direction.x), greater(absolute(direction.y), absolute(direction.z)));
     vreal least = longest * LEAST_SHARE, zero = splat(R(0.0));
-    vreal margin = (far_out + reach) * SLAB_MARGIN;
+    vreal margin = (far_out + reach) * ROUNDING_MARGIN;
     Slabs slabs;
     slabs.inverse = vec3(slab_inverse(direction.x, least), slab_inverse(direction.y, least),
                          slab_inverse(direction.z, least));
@@ -155,14 +156,6 @@ typedef struct {
     vmask entering;
 } TriangleCrossing;
 
-/* What the rounding of the shares, products and sums of two distances may come to, relative to the
-   furthest corner. */
-#if HD_DOUBLE
-#define DISTANCE_SLACK R(3.5527136788005009e-15) /* 2^-48 */
-#else
-#define DISTANCE_SLACK R(1.9073486328125e-6) /* 2^-19 */
-#endif
-
 /* What is before and beyond the box about a triangle is no crossing of it: with the boxes of a
    hierarchy, which hold that one, this makes every order of search find the same. */
 FN vmask keep_in_box(const Slabs *slabs, Vec3 a, Vec3 b, Vec3 c, vreal *t) {
@@ -219,7 +212,7 @@ FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3
     crossing->entering = (left & frame->backward) | (right & ~frame->backward);
     crossing->t = depth * frame->forward;
     vreal furthest = greater(absolute(from_a.z), greater(absolute(from_b.z), absolute(from_c.z)));
-    crossing->slack = furthest * absolute(frame->forward) * splat(DISTANCE_SLACK);
+    crossing->slack = furthest * absolute(frame->forward) * splat(ROUNDING_MARGIN);
     return crosses & keep_in_box(slabs, a, b, c, &crossing->t);
 }
 

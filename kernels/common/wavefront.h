@@ -16,13 +16,8 @@
 
 /* ---- the queue ---- */
 
-/* The first word of a ray: the object touched last and the side it runs on; -1: it is dead. */
-FN vint ray_state(const Ray *ray) {
-    vint side = pick_int(ray->inside, splat_int(1), splat_int(0));
-    return pick_int(ray->alive, (ray->touched + ray->touched) | side, splat_int(-1));
-}
-
-/* A bundle of at most `count` rays from the place `from` on, and the numbers of their samples. Only
+/* A bundle of at most `count` rays from the place `from` on, and the numbers of their samples. The
+   first word of a ray is the object touched last and the side it runs on; -1: it is dead. Only
    scenes with meshes need the faces that rays leave. */
 FN Ray load_rays(QUEUE_PARAMETERS int from, int count, int has_faces, vint *numbers) {
     GLOBAL const real *reals = ray_reals + from;
@@ -48,7 +43,8 @@ FN Ray load_rays(QUEUE_PARAMETERS int from, int count, int has_faces, vint *numb
 FN int store_rays(QUEUE_PARAMETERS int to, vmask m, const Ray *ray, int has_faces, vint numbers) {
     GLOBAL real *reals = ray_reals + to;
     uint64 stride = (uint64)queue_stride;
-    vint state = ray_state(ray);
+    vint side = pick_int(ray->inside, splat_int(1), splat_int(0));
+    vint state = pick_int(ray->alive, (ray->touched + ray->touched) | side, splat_int(-1));
     int offset[HD_LANES];
     int count = lane_offsets(m, offset);
     store_lanes_int(ray_ints + to, offset, &state);

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-
 /* ---- quantiles ---- */
 
 /* A double's bits without sign have the order of the numbers; their upper part is the bucket. */

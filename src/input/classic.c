@@ -408,13 +408,17 @@ static void print_vector(FILE *out, HdVec3 v) {
 }
 
 static void print_flight(FILE *out, const HdCylinderPath *path) {
-    static const int group_sizes[4] = {3, 2, 3, 2}; /* start, amplitudes, frequencies, phases */
-    double numbers[FLIGHT_NUMBERS];
-    memcpy(numbers, path, sizeof numbers);
-    for (int group = 0, first = 0; group < 4; first += group_sizes[group++]) {
-        fputs(group > 0 ? "   " : "", out);
-        print_numbers(out, numbers + first, group_sizes[group]);
-    }
+    const double base[3] = {path->r0, path->z0, path->phi0};
+    const double amplitudes[2] = {path->r_amplitude, path->z_amplitude};
+    const double frequencies[3] = {path->r_frequency, path->z_frequency, path->phi_frequency};
+    const double phases[2] = {path->r_phase, path->z_phase};
+    print_numbers(out, base, 3);
+    fputs("   ", out);
+    print_numbers(out, amplitudes, 2);
+    fputs("   ", out);
+    print_numbers(out, frequencies, 3);
+    fputs("   ", out);
+    print_numbers(out, phases, 2);
     putc('\n', out);
 }
 

@@ -9,7 +9,7 @@
 #include "image/picture.h"
 #include "input/check.h"
 #include "input/classic.h"
-#include "mesh/obj/read.h"
+#include "mesh/mesh.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 

@@ -62,20 +62,16 @@ static HdVec3 between(HdVec3 a, HdVec3 b, double share) {
     return hd_add(a, hd_scale(hd_sub(b, a), share));
 }
 
-static void add_vertex(HdMesh *mesh, HdVec3 vertex) {
-    mesh->vertices[mesh->vertex_count++] = vertex;
-}
-
 /* The former vertices, then parts - 1 on each edge. */
 static void place_edge_vertices(Division *division) {
+    HdMesh *fine = &division->fine;
     const HdVec3 *old = division->mesh->vertices;
     for (int v = 0; v < division->mesh->vertex_count; v++)
-        add_vertex(&division->fine, old[v]);
-    for (int e = 0; e < division->edge_count; e++)
+        fine->vertices[fine->vertex_count++] = old[v];
+    for (const Edge *edge = division->edges; edge < division->edges + division->edge_count; edge++)
         for (int k = 1; k < division->parts; k++)
-            add_vertex(&division->fine,
-                       between(old[division->edges[e].a], old[division->edges[e].b],
-                               (double)k / division->parts));
+            fine->vertices[fine->vertex_count++] =
+                between(old[edge->a], old[edge->b], (double)k / division->parts);
 }
 
 /* The vertex that is k parts from vertex a on the way to b. */
@@ -100,20 +96,18 @@ static void add_triangle(Division *division, int parent, int a, int b, int c) {
 }
 
 /* Row r of a triangle has r + 1 vertices, from the side to its second corner to that to its third.
-   `rows` has room for two. */
+ */
 static void fill_row(Division *division, const int32_t *corner, int r, int32_t *row) {
-    int first = edge_vertex(division, corner[0], corner[1], r);
-    int last = edge_vertex(division, corner[0], corner[2], r);
-    row[0] = first;
-    row[r] = last;
+    HdVec3 *vertices = division->fine.vertices;
+    row[0] = edge_vertex(division, corner[0], corner[1], r);
+    row[r] = edge_vertex(division, corner[0], corner[2], r);
     for (int k = 1; k < r; k++) {
         if (r == division->parts) {
             row[k] = edge_vertex(division, corner[1], corner[2], k);
             continue;
         }
-        const HdVec3 *vertices = division->fine.vertices;
-        row[k] = division->fine.vertex_count;
-        add_vertex(&division->fine, between(vertices[first], vertices[last], (double)k / r));
+        row[k] = division->fine.vertex_count++;
+        vertices[row[k]] = between(vertices[row[0]], vertices[row[r]], (double)k / r);
     }
 }
 
@@ -133,33 +127,15 @@ static void divide_triangle(Division *division, int t, int32_t *upper, int32_t *
     }
 }
 
-/* For each triangle parts^2, and (parts - 1) (parts - 2) / 2 vertices inside. */
-static bool allocate(Division *division) {
-    size_t old = (size_t)division->mesh->triangle_count, parts = (size_t)division->parts;
-    size_t vertices = (size_t)division->mesh->vertex_count +
-                      (size_t)division->edge_count * (parts - 1) +
-                      old * ((parts - 1) * (parts - 2) / 2);
-    return hd_mesh_allocate(&division->fine, vertices, old * parts * parts);
-}
-
-/* Leaves the former arrays in `fine`. */
-static void swap_arrays(HdMesh *mesh, HdMesh *fine) {
-    const HdMesh former = *mesh;
-    mesh->vertex_count = fine->vertex_count;
-    mesh->triangle_count = fine->triangle_count;
-    mesh->vertices = fine->vertices;
-    mesh->corners = fine->corners;
-    mesh->material_of = fine->material_of;
-    mesh->group_of = fine->group_of;
-    *fine = (HdMesh){.vertices = former.vertices,
-                     .corners = former.corners,
-                     .material_of = former.material_of,
-                     .group_of = former.group_of};
-}
-
+/* `rows` has room for two. */
 static HdStatus divide(Division *division, int32_t *rows, HdError *error) {
     list_edges(division);
-    if (!allocate(division))
+    /* For each triangle parts^2, and (parts - 1) (parts - 2) / 2 vertices inside. */
+    const size_t old = (size_t)division->mesh->triangle_count, parts = (size_t)division->parts;
+    const size_t vertices = (size_t)division->mesh->vertex_count +
+                            (size_t)division->edge_count * (parts - 1) +
+                            old * ((parts - 1) * (parts - 2) / 2);
+    if (!hd_mesh_allocate(&division->fine, vertices, old * parts * parts))
         return no_memory(division->mesh, error);
     place_edge_vertices(division);
     for (int t = 0; t < division->mesh->triangle_count; t++)
@@ -178,8 +154,15 @@ HdStatus hd_divide_triangles(HdMesh *mesh, int divisions, HdError *error) {
         status = no_memory(mesh, error);
     else
         status = divide(&division, rows, error);
-    if (status == HD_OK)
-        swap_arrays(mesh, &division.fine);
+    if (status == HD_OK) {
+        const HdMesh former = *mesh;
+        *mesh = division.fine;
+        mesh->material_count = former.material_count;
+        mesh->materials = former.materials;
+        mesh->degenerate_count = former.degenerate_count;
+        division.fine = former;
+        division.fine.materials = NULL;
+    }
     hd_mesh_free(&division.fine);
     free(division.edges);
     free(rows);

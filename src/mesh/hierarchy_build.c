@@ -34,11 +34,6 @@ typedef struct Task {
     int node_count, first_node;
 } Task;
 
-/* A task in the order in which they are begun. */
-typedef struct Turn {
-    int items, task;
-} Turn;
-
 /* A node of the level that is being divided. */
 typedef struct Open {
     HdGroup group;
@@ -61,7 +56,7 @@ typedef struct Chunk {
 typedef struct Top {
     TopNode nodes[MOST_TASKS];
     Task tasks[MOST_TASKS];
-    Turn turns[MOST_TASKS];
+    Task *turns[MOST_TASKS];    /* the tasks in the order in which they are begun */
     Open opens[2][MOST_PIECES]; /* of a level and the next, by turns */
     Chunk chunks[MOST_CHUNKS];
     HdBins bins[MOST_CHUNKS]; /* of each chunk */
@@ -71,6 +66,8 @@ typedef struct Build {
     const HdBox *boxes;
     int count, piece;
     const HdHierarchyOptions *options;
+    HdThreadPool *pool;
+    HdError *error;
     HdLanes unit;
     void *memory;           /* two items for each box, later the nodes of the hierarchy */
     HdItem *items, *others; /* `others` takes what is moved */
@@ -87,10 +84,9 @@ static bool is_interrupted(const void *context) {
     return hd_interrupt_signal() != 0;
 }
 
-static HdStatus run(Build *build, HdThreadPool *pool, int count, HdThreadWork *work,
-                    HdError *error) {
-    if (!hd_thread_pool_run(pool, count, work, build, is_interrupted))
-        return hd_fail(error, HD_INTERRUPTED, "interrupted while a hierarchy was built");
+static HdStatus run(Build *build, int count, HdThreadWork *work) {
+    if (!hd_thread_pool_run(build->pool, count, work, build, is_interrupted))
+        return hd_fail(build->error, HD_INTERRUPTED, "interrupted while a hierarchy was built");
     return HD_OK;
 }
 
@@ -158,13 +154,10 @@ static void add_task(Build *build, const HdGroup *group, HdItem *items, HdItem *
 
 /* Makes a task or an open node of a group that lies in `others` until they are swapped. */
 static void hand_on(Build *build, const HdGroup *group, int *link) {
-    if (group->count > build->piece) {
-        Open *open = &build->next_opens[build->next_open_count++];
-        open->group = *group;
-        open->link = link;
-        return;
-    }
-    add_task(build, group, build->others, build->items, link);
+    if (group->count > build->piece)
+        build->next_opens[build->next_open_count++] = (Open){.group = *group, .link = link};
+    else
+        add_task(build, group, build->others, build->items, link);
 }
 
 static void swap(Build *build) {
@@ -178,19 +171,15 @@ static void swap(Build *build) {
     build->next_open_count = 0;
 }
 
-static HdStatus load(Build *build, HdThreadPool *pool, HdError *error) {
+static HdStatus load(Build *build) {
     cut(build, 0, build->count, NULL);
-    HdStatus status = run(build, pool, build->chunk_count, load_chunk, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(run(build, build->chunk_count, load_chunk));
     HdGroup root = {.first = 0, .count = build->count, .depth = 1};
     root.box = root.centres = hd_bounds_empty();
     for (int i = 0; i < build->chunk_count; i++)
         hd_bounds_merge(&root.box, &build->top->chunks[i].box);
     build->unit = find_unit(&root.box);
-    status = run(build, pool, build->chunk_count, bound_centres, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(run(build, build->chunk_count, bound_centres));
     for (int i = 0; i < build->chunk_count; i++)
         hd_bounds_merge(&root.centres, &build->top->chunks[i].centres[0]);
     /* As if they had been moved. */
@@ -262,26 +251,22 @@ static void move_chunk(void *context, int thread, int number) {
 static void divide(Build *build, const Open *open) {
     const HdSplit *split = &open->split;
     const HdGroup *group = &open->group;
+    const int middle = group->first + split->left_count, depth = group->depth + 1;
     HdGroup sides[2] = {
-        {group->first, split->left_count, group->depth + 1, split->left, {{0}, {0}}},
-        {group->first + split->left_count,
-         group->count - split->left_count,
-         group->depth + 1,
-         split->right,
-         {{0}, {0}}}};
+        {group->first, split->left_count, depth, split->left, hd_bounds_empty()},
+        {middle, group->count - split->left_count, depth, split->right, hd_bounds_empty()}};
     TopNode *top = &build->top->nodes[build->top_count];
     *open->link = build->top_count++;
     top->axis = split->axis;
     for (int side = 0; side < 2; side++) {
         top->box[side] = sides[side].box;
-        sides[side].centres = hd_bounds_empty();
         for (int i = open->first_chunk; i < open->first_chunk + open->chunk_count; i++)
             hd_bounds_merge(&sides[side].centres, &build->top->chunks[i].centres[side]);
         hand_on(build, &sides[side], &top->child[side]);
     }
 }
 
-static HdStatus divide_level(Build *build, HdThreadPool *pool, HdError *error) {
+static HdStatus divide_level(Build *build) {
     build->chunk_count = 0;
     for (int i = 0; i < build->open_count; i++) {
         Open *open = &build->opens[i];
@@ -289,13 +274,9 @@ static HdStatus divide_level(Build *build, HdThreadPool *pool, HdError *error) {
         cut(build, open->group.first, open->group.count, open);
         open->chunk_count = build->chunk_count - open->first_chunk;
     }
-    HdStatus status = run(build, pool, build->chunk_count, bin_chunk, error);
-    if (status == HD_OK)
-        status = run(build, pool, build->open_count, choose_split, error);
-    if (status == HD_OK)
-        status = run(build, pool, build->chunk_count, move_chunk, error);
-    if (status != HD_OK)
-        return status;
+    HD_TRY(run(build, build->chunk_count, bin_chunk));
+    HD_TRY(run(build, build->open_count, choose_split));
+    HD_TRY(run(build, build->chunk_count, move_chunk));
     for (int i = 0; i < build->open_count; i++) {
         const Open *open = &build->opens[i];
         if (open->split.axis >= 0)
@@ -310,7 +291,7 @@ static HdStatus divide_level(Build *build, HdThreadPool *pool, HdError *error) {
 static void build_task(void *context, int thread, int number) {
     (void)thread;
     const Build *build = context;
-    Task *task = &build->top->tasks[build->top->turns[number].task];
+    Task *task = build->top->turns[number];
     const int first = task->group.first, end = first + task->group.count;
     HdSubtree subtree = {build->options, build->unit,          task->items,
                          task->spare,    build->nodes + first, 0};
@@ -321,21 +302,21 @@ static void build_task(void *context, int thread, int number) {
 }
 
 static int larger_first(const void *a, const void *b) {
-    const Turn *x = a, *y = b;
-    return (x->items < y->items) - (x->items > y->items);
+    const int x = (*(Task *const *)a)->group.count, y = (*(Task *const *)b)->group.count;
+    return (x < y) - (x > y);
 }
 
-static HdStatus build_subtrees(Build *build, HdThreadPool *pool, HdError *error) {
+static HdStatus build_subtrees(Build *build) {
     for (int i = 0; i < build->task_count; i++)
-        build->top->turns[i] = (Turn){build->top->tasks[i].group.count, i};
+        build->top->turns[i] = &build->top->tasks[i];
     qsort(build->top->turns, (size_t)build->task_count, sizeof *build->top->turns, larger_first);
-    return run(build, pool, build->task_count, build_task, error);
+    return run(build, build->task_count, build_task);
 }
 
 static void copy_task(void *context, int thread, int number) {
     (void)thread;
     const Build *build = context;
-    const Task *task = &build->top->tasks[build->top->turns[number].task];
+    const Task *task = build->top->turns[number];
     const HdBuildNode *from = build->nodes + task->group.first;
     HdBuildNode *to = build->result + task->first_node;
     for (int i = 0; i < task->node_count; i++) {
@@ -369,31 +350,23 @@ static int place(Build *build, int top, int *next, int32_t *child) {
     return 1 + (left > right ? left : right);
 }
 
-/* A root above a single leaf. */
-static void make_root_of_leaf(const Build *build, HdHierarchy *hierarchy, int32_t leaf) {
-    const HdBounds none = hd_bounds_empty();
-    const int32_t empty_leaf = ~0;
-    hierarchy->node_count = hierarchy->depth = 1;
-    hierarchy->nodes[0] =
-        (HdBuildNode){{hd_bounds_box(&build->top->tasks[0].group.box), hd_bounds_box(&none)},
-                      {leaf, empty_leaf},
-                      0};
-}
-
 /* The nodes take the place of the items, which need more room and are no longer needed: memory that
    is new to the program takes longer to get than to fill. */
-static HdStatus assemble(Build *build, HdHierarchy *hierarchy, HdThreadPool *pool, HdError *error) {
+static HdStatus assemble(Build *build, HdHierarchy *hierarchy) {
     int32_t root;
     int count = 0;
     hierarchy->nodes = build->result = build->memory;
     build->memory = NULL;
     hierarchy->depth = place(build, build->root, &count, &root);
     hierarchy->node_count = count;
-    if (root < 0) {
-        make_root_of_leaf(build, hierarchy, root);
+    if (root < 0) { /* a leaf, which gets a root */
+        const HdBounds none = hd_bounds_empty(), *all = &build->top->tasks[0].group.box;
+        hierarchy->node_count = hierarchy->depth = 1;
+        hierarchy->nodes[0] =
+            (HdBuildNode){{hd_bounds_box(all), hd_bounds_box(&none)}, {root, ~0}, 0};
         return HD_OK;
     }
-    const HdStatus status = run(build, pool, build->task_count, copy_task, error);
+    const HdStatus status = run(build, build->task_count, copy_task);
     HdBuildNode *less = realloc(hierarchy->nodes, (size_t)count * sizeof *less);
     if (less != NULL)
         hierarchy->nodes = less;
@@ -418,29 +391,26 @@ static bool allocate(Build *build, HdHierarchy *hierarchy) {
     return true;
 }
 
-static HdStatus build_all(Build *build, HdHierarchy *hierarchy, HdThreadPool *pool,
-                          HdError *error) {
+static HdStatus build_all(Build *build, HdHierarchy *hierarchy) {
     if (!allocate(build, hierarchy))
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a hierarchy over %d boxes",
-                       build->count);
-    HdStatus status = load(build, pool, error);
-    while (status == HD_OK && build->open_count > 0)
-        status = divide_level(build, pool, error);
-    if (status == HD_OK)
-        status = build_subtrees(build, pool, error);
-    if (status == HD_OK)
-        status = assemble(build, hierarchy, pool, error);
-    return status;
+        return hd_fail(build->error, HD_FAILED,
+                       "out of memory: no room for a hierarchy over %d boxes", build->count);
+    HD_TRY(load(build));
+    while (build->open_count > 0)
+        HD_TRY(divide_level(build));
+    HD_TRY(build_subtrees(build));
+    return assemble(build, hierarchy);
 }
 
 HdStatus hd_hierarchy_build(HdHierarchy *hierarchy, const HdBox *boxes, int count,
                             const HdHierarchyOptions *options, HdThreadPool *pool, HdError *error) {
-    Build build = {.boxes = boxes, .count = count, .options = options};
+    Build build = {
+        .boxes = boxes, .count = count, .options = options, .pool = pool, .error = error};
     build.piece = (count + MOST_PIECES - 1) / MOST_PIECES;
     if (build.piece < LEAST_PIECE)
         build.piece = LEAST_PIECE;
     *hierarchy = (HdHierarchy){0};
-    const HdStatus status = build_all(&build, hierarchy, pool, error);
+    const HdStatus status = build_all(&build, hierarchy);
     free(build.memory);
     free(build.nodes);
     free(build.top);

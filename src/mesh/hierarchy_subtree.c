@@ -316,8 +316,6 @@ static HdBranch build_sweep(Sweep *sweep, const HdGroup *group, int begin) {
 /* As hd_subtree_build for at most MOST_SWEPT items, which are divided at the best of all places
    between them. It does not look at the depth. */
 static HdBranch sweep_group(HdSubtree *subtree, const HdGroup *group) {
-    if (group->count <= 1)
-        return leaf_of(group, hd_bounds_area(&group->box, subtree->unit));
     HdItem *items = subtree->items + group->first;
     Sweep sweep;
     sweep.subtree = subtree;
@@ -334,13 +332,9 @@ static HdBranch sweep_group(HdSubtree *subtree, const HdGroup *group) {
     return branch;
 }
 
-/* A sweep of n items makes at most n - 1 nodes below each other. */
-static bool can_sweep(const HdGroup *group) {
-    return group->count <= MOST_SWEPT && group->depth + group->count <= HD_MAX_HIERARCHY_DEPTH;
-}
-
 HdBranch hd_subtree_build(HdSubtree *subtree, const HdGroup *group) {
-    if (can_sweep(group))
+    /* A sweep of n items makes at most n - 1 nodes below each other. */
+    if (group->count <= MOST_SWEPT && group->depth + group->count <= HD_MAX_HIERARCHY_DEPTH)
         return sweep_group(subtree, group);
     if (group->count == 1 || group->depth > HD_MAX_HIERARCHY_DEPTH)
         return leaf_of(group, hd_bounds_area(&group->box, subtree->unit));

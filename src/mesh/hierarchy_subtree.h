@@ -73,11 +73,6 @@ static inline HdLanes hd_item_centre(const HdItem *item, HdLanes unit) {
     return item->lower.lanes * unit + item->upper.lanes * unit;
 }
 
-/* The same number as that lane of hd_item_centre. */
-static inline float hd_item_centre_on(const HdItem *item, float unit, int axis) {
-    return item->lower.parts.xyz[axis] * unit + item->upper.parts.xyz[axis] * unit;
-}
-
 /* Half the areas of three boxes in `unit`, one in each lane. The lengths of the edges count a
    little, so that boxes without an area, in a line, or with one too small for a float, are still
    told apart by their size. */
@@ -154,7 +149,8 @@ typedef struct HdSplit {
 HdBinning hd_binning_of(const HdGroup *group, HdLanes unit);
 
 static inline int hd_bin_on(const HdBinning *binning, const HdItem *item, int axis) {
-    const float centre = hd_item_centre_on(item, binning->unit[axis], axis);
+    const float unit = binning->unit[axis]; /* as hd_item_centre */
+    const float centre = item->lower.parts.xyz[axis] * unit + item->upper.parts.xyz[axis] * unit;
     return (int)((centre - binning->origin[axis]) * binning->scale[axis]);
 }
 

@@ -43,18 +43,18 @@ typedef struct Children {
     double areas[MOST_WIDTH]; /* negative: it cannot be opened */
 } Children;
 
-static void set(Children *children, int at, const HdHierarchy *hierarchy, int place) {
-    const bool is_leaf = child_at(hierarchy, place) < 0;
-    children->places[at] = place;
-    children->areas[at] = is_leaf ? -1.0 : half_area(box_at(hierarchy, place));
-}
-
-static void insert(Children *children, int at, const HdHierarchy *hierarchy, int place) {
-    for (int i = children->count++; i > at; i--) {
+/* Puts the children of `node` where it has been, at `at`. */
+static void open_node(Children *children, int at, const HdHierarchy *hierarchy, int node) {
+    for (int i = children->count++; i > at + 1; i--) {
         children->places[i] = children->places[i - 1];
         children->areas[i] = children->areas[i - 1];
     }
-    set(children, at, hierarchy, place);
+    for (int side = 0; side < 2; side++) {
+        const int place = 2 * node + side;
+        const bool is_leaf = child_at(hierarchy, place) < 0;
+        children->places[at + side] = place;
+        children->areas[at + side] = is_leaf ? -1.0 : half_area(box_at(hierarchy, place));
+    }
 }
 
 static int find_largest(const Children *children) {
@@ -66,17 +66,13 @@ static int find_largest(const Children *children) {
 }
 
 static Children gather(const HdHierarchy *hierarchy, int node, int width) {
-    Children children;
-    children.count = 2;
-    set(&children, 0, hierarchy, 2 * node);
-    set(&children, 1, hierarchy, 2 * node + 1);
+    Children children = {.count = 1};
+    open_node(&children, 0, hierarchy, node);
     while (children.count < width) {
         const int largest = find_largest(&children);
         if (children.areas[largest] < 0.0)
             break;
-        const int opened = child_at(hierarchy, children.places[largest]);
-        set(&children, largest, hierarchy, 2 * opened);
-        insert(&children, largest + 1, hierarchy, 2 * opened + 1);
+        open_node(&children, largest, hierarchy, child_at(hierarchy, children.places[largest]));
     }
     return children;
 }

@@ -93,9 +93,6 @@ HdStatus hd_divide_triangles(HdMesh *mesh, int divisions, HdError *error);
    HD_MAX_MESH_TRIANGLES. */
 HdStatus hd_check_divisions(int64_t triangle_count, int divisions, HdError *error);
 
-/* Corners of the box about all triangles; of a mesh without any, both are 0. */
-void hd_mesh_box(const HdMesh *mesh, HdVec3 *lower, HdVec3 *upper);
-
 /* Finds the box and builds the hierarchy over the triangles of a finished mesh, which has at least
    one. */
 HdStatus hd_mesh_build(HdMesh *mesh, HdThreadPool *pool, HdError *error);
@@ -120,5 +117,27 @@ enum { HD_MAX_CONCAVE_CORNERS = 1024 };
    most. What crosses itself is cut into as many triangles, somehow. `triangles` get numbers of
    corners. False: the polygon is no fan and has more than HD_MAX_CONCAVE_CORNERS. */
 bool hd_polygon_cut(const HdVec3 *corners, int count, int32_t (*triangles)[3]);
+
+/* ---- Wavefront OBJ ---- */
+
+/* The most bytes of a line, continued ones together; comments may be longer. */
+enum { HD_OBJ_MOST_LINE = 65000 };
+
+/* Reads the file at `path`, with the MTL files it names, which lie beside it or below. Polygons
+   become triangles. Materials become ours by the table in docs/formats.md: Kd colour (and what
+   passes), Ks specular, Ns shininess, Ka ambient, Ke emission, d or Tf transmission, Ni index of
+   refraction, illum 3 to 9 mirrors with the share Ks; map_Kd texture, whose path begins with the
+   folder of `path`, or with "./"; nobody has looked whether it is there. Materials without
+   triangles may be among them. What is not used is told in `notes`, in sentences that begin with a
+   path: a library that is missing, wrong lines of libraries, maps of other kinds, values that had
+   to be made legal. Triangles without an area are dropped and counted.
+
+   A file that cannot be read, is no OBJ, has no faces or none with an area, names vertices that it
+   does not have, has numbers that are not finite or beyond HD_MAX_NUMBER, or would take more than
+   `most_bytes` of memory while it is read, the mesh included, is an error (HD_BAD_INPUT) that names
+   the file and, where there is one, the line. HD_FAILED: the system has too little memory. After an
+   error the mesh is empty. */
+HdStatus hd_mesh_read_obj(HdMesh *mesh, const char *path, size_t most_bytes, HdProblems *notes,
+                          HdError *error);
 
 #endif

@@ -5,17 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/hash.h"
 #include "base/trigonometry.h"
 #include "mesh/mesh.h"
 
 enum {
     /* Of triangles at one edge each is compared with so many that follow: proper meshes have two,
        and thousands at one edge shall not take millions of comparisons. */
-    MOST_AT_EDGE = 16,
-    /* Of a hash table with half of its slots in use, for a vertex on average: it needs about one.
-     */
-    MOST_PROBES = 32
+    MOST_AT_EDGE = 16
 };
 
 /* What rounding may take from the cosine between two normals. */
@@ -52,100 +48,41 @@ typedef struct Smoother {
     int32_t (*corner_normals)[3];
 } Smoother;
 
-static void free_smoother(Smoother *smoother) {
-    free(smoother->place_of);
-    free(smoother->begin);
-    free(smoother->corners);
-    free(smoother->incidents);
-    free(smoother->edges);
-    free(smoother->normals);
-    free(smoother->corner_normals);
-}
-
 static void *allocate(size_t count, size_t size) {
     return malloc(count > 0 ? count * size : size);
 }
 
-/* -0 and 0 are one place. */
-static HdVec3 without_negative_zero(HdVec3 a) {
-    return hd_vec3(a.x + 0.0, a.y + 0.0, a.z + 0.0);
-}
-
-/* A vertex on its way to be sorted. */
-typedef struct Placed {
-    HdVec3 point;
-    int32_t vertex;
-} Placed;
-
-static int compare_placed(const void *first, const void *second) {
-    const Placed *a = first, *b = second;
-    if (a->point.x != b->point.x)
-        return a->point.x < b->point.x ? -1 : 1;
-    if (a->point.y != b->point.y)
-        return a->point.y < b->point.y ? -1 : 1;
-    if (a->point.z != b->point.z)
-        return a->point.z < b->point.z ? -1 : 1;
-    return (a->vertex > b->vertex) - (a->vertex < b->vertex);
-}
-
-static bool is_same_place(HdVec3 a, HdVec3 b) {
-    return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
-/* Of each vertex the first one at its place, by sorting: slower than by hashing, but never slow. */
-static bool find_first_by_sorting(const HdMesh *mesh, int32_t *first) {
-    const size_t count = (size_t)mesh->vertex_count;
-    Placed *placed = allocate(count, sizeof *placed);
-    if (placed == NULL)
-        return false;
-    for (size_t i = 0; i < count; i++)
-        placed[i] = (Placed){mesh->vertices[i], (int32_t)i};
-    qsort(placed, count, sizeof *placed, compare_placed);
-    for (size_t i = 0; i < count; i++) {
-        const bool is_new = i == 0 || !is_same_place(placed[i - 1].point, placed[i].point);
-        first[placed[i].vertex] = is_new ? placed[i].vertex : first[placed[i - 1].vertex];
-    }
-    free(placed);
-    return true;
-}
-
-/* The slot that has a vertex at the place or is free for one. */
-static size_t find_slot(const HdMesh *mesh, const int32_t *table, size_t slots, HdVec3 point,
-                        size_t *probes) {
-    size_t slot = hd_hash_bytes(HD_HASH_START, &point, sizeof point) & (slots - 1);
-    for (; table[slot] >= 0 && !is_same_place(point, mesh->vertices[table[slot]]); ++*probes)
-        slot = (slot + 1) & (slots - 1);
-    return slot;
-}
-
-/* The same by hashing; false: vertices collide, as those of a mesh made for it do, or there is too
-   little memory. */
-static bool find_first_by_hashing(const HdMesh *mesh, int32_t *first) {
-    const size_t most_probes = MOST_PROBES * ((size_t)mesh->vertex_count + 16);
-    size_t slots = 16, probes = 0;
-    while (slots < 2 * (size_t)mesh->vertex_count)
-        slots *= 2;
-    int32_t *table = malloc(slots * sizeof *table); /* a vertex of the place; -1: empty */
-    if (table == NULL)
-        return false;
-    memset(table, -1, slots * sizeof *table);
-    for (int32_t i = 0; i < mesh->vertex_count && probes <= most_probes; i++) {
-        const HdVec3 point = without_negative_zero(mesh->vertices[i]);
-        const size_t slot = find_slot(mesh, table, slots, point, &probes);
-        if (table[slot] < 0)
-            table[slot] = i;
-        first[i] = table[slot];
-    }
-    free(table);
-    return probes <= most_probes;
+/* Orders pointers to points by place, those to one place as they lie. -0 and 0 are equal. */
+static int compare_places(const void *first, const void *second) {
+    const HdVec3 *a = *(const HdVec3 *const *)first, *b = *(const HdVec3 *const *)second;
+    if (a->x != b->x)
+        return a->x < b->x ? -1 : 1;
+    if (a->y != b->y)
+        return a->y < b->y ? -1 : 1;
+    if (a->z != b->z)
+        return a->z < b->z ? -1 : 1;
+    return (a > b) - (a < b);
 }
 
 /* Numbers the places in the order in which the vertices first name them. */
 static bool find_places(Smoother *smoother) {
-    int32_t *place_of = smoother->place_of;
-    if (!find_first_by_hashing(smoother->mesh, place_of) &&
-        !find_first_by_sorting(smoother->mesh, place_of))
+    const HdVec3 *vertices = smoother->mesh->vertices;
+    const size_t count = (size_t)smoother->mesh->vertex_count;
+    int32_t *place_of = smoother->place_of; /* first the vertex that names the place first */
+    const HdVec3 **sorted = allocate(count, sizeof *sorted);
+    if (sorted == NULL)
         return false;
+    for (size_t i = 0; i < count; i++)
+        sorted[i] = &vertices[i];
+    qsort(sorted, count, sizeof *sorted, compare_places);
+    const HdVec3 *place = NULL;
+    for (size_t i = 0; i < count; i++) {
+        if (i == 0 || place->x != sorted[i]->x || place->y != sorted[i]->y ||
+            place->z != sorted[i]->z)
+            place = sorted[i];
+        place_of[sorted[i] - vertices] = (int32_t)(place - vertices);
+    }
+    free(sorted);
     for (int32_t i = 0; i < smoother->mesh->vertex_count; i++)
         place_of[i] = place_of[i] == i ? smoother->place_count++ : place_of[place_of[i]];
     return true;
@@ -329,6 +266,12 @@ HdStatus hd_mesh_smooth(HdMesh *mesh, double crease_degrees, HdError *error) {
         status = hd_fail(error, HD_FAILED, "out of memory: no room for the normals of %d triangles",
                          mesh->triangle_count);
     }
-    free_smoother(&smoother);
+    free(smoother.place_of);
+    free(smoother.begin);
+    free(smoother.corners);
+    free(smoother.incidents);
+    free(smoother.edges);
+    free(smoother.normals);
+    free(smoother.corner_normals);
     return status;
 }

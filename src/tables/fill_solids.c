@@ -68,11 +68,9 @@ static real least_highlight(int shininess) {
 }
 
 void NAMED(hd_fill_material)(Material *out, const HdMaterial *material) {
-    hd_store3(out->colour, material->colour);
-    hd_store3(out->mirror_tint, material->mirror_tint);
-#define STORE(term) out->term = (real)material->term;
-    HD_PLAIN_TERMS(STORE)
-#undef STORE
+#define STORE_COLOUR(term) hd_store3(out->term, material->term);
+#define STORE_NUMBER(term) out->term = (real)material->term;
+    HD_PLAIN_TERMS(STORE_COLOUR, STORE_NUMBER)
     bool own_inside = material->has_inner_side;
     out->inner_reflection = own_inside ? (real)material->inner_reflection : out->reflection;
     out->inner_transmission = own_inside ? (real)material->inner_transmission : out->transmission;

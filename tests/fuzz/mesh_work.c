@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/error.h"
-#include "mesh/obj/read.h"
+#include "mesh/mesh.h"
 #include "system/thread_pool.h"
 
 enum { MOST_BYTES = 64 << 20, MOST_TRIANGLES = 20000 };

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 
-#include "base/hash.h"
 #include "base/trigonometry.h"
 #include "mesh/mesh.h"
 #include "unit_test.h"
@@ -85,13 +84,15 @@ TEST(the_box_holds_all_triangles) {
     const HdVec3 vertices[4] = {{100, 0, 0}, {1, -5, 3}, {4, 2, -6}, {-2, 0, 1}};
     const int32_t corners[1][3] = {{1, 2, 3}};
     const HdVec3 expected[2] = {{-2, -5, -6}, {4, 2, 3}};
-    for (int count = 0; count < 2; count++) {
-        HdVec3 box[2] = {{9, 9, 9}, {9, 9, 9}};
-        HdMesh mesh = make_mesh(vertices, 4, corners, count);
-        hd_mesh_box(&mesh, &box[0], &box[1]);
-        assert_memory_equal(box, count == 0 ? (HdVec3[2]){{0}} : expected, sizeof box);
-        hd_mesh_free(&mesh);
-    }
+    HdMesh mesh = make_mesh(vertices, 4, corners, 1);
+    HdThreadPool *pool;
+    HdError error;
+    assert_int_equal(hd_thread_pool_create(&pool, 1, &error), HD_OK);
+    assert_int_equal(hd_mesh_build(&mesh, pool, &error), HD_OK);
+    assert_memory_equal(&mesh.lower, &expected[0], sizeof *expected);
+    assert_memory_equal(&mesh.upper, &expected[1], sizeof *expected);
+    hd_thread_pool_destroy(pool);
+    hd_mesh_free(&mesh);
 }
 
 TEST(angles_are_right) {
@@ -207,40 +208,4 @@ TEST(odd_triangles_do_no_harm) {
     smooth(&mesh, 30.0);
     assert_int_equal(mesh.normal_count, 0);
     hd_mesh_free(&mesh);
-}
-
-/* Points whose hashes agree in the bits that pick a slot of a table for 4096 vertices. Both
-   vertices of each place are used, in opposite orders. */
-static HdMesh make_colliding(double scale) {
-    enum { PLACES = 1000 };
-    static HdVec3 points[2 * PLACES];
-    static int32_t corners[2 * PLACES - 6][3];
-    for (int k = 0, i = 0; i < PLACES; k++) {
-        const HdVec3 point = hd_vec3(k & 1023, k >> 10, k % 97);
-        if ((hd_hash_bytes(HD_HASH_START, &point, sizeof point) & 4095) == 77) {
-            points[i] = points[2 * PLACES - 1 - i] = hd_scale(point, scale);
-            i++;
-        }
-    }
-    for (int i = 0; i < PLACES - 3; i++)
-        for (int k = 0; k < 3; k++) {
-            corners[2 * i][k] = i + k;
-            corners[2 * i + 1][k] = 2 * PLACES - 1 - (i + (k > 0) + k);
-        }
-    return make_mesh(points, 2 * PLACES, (const int32_t(*)[3])corners, 2 * PLACES - 6);
-}
-
-/* Twice as large it has the same normals, and other hashes. */
-TEST(vertices_that_collide_do_no_harm) {
-    HdMesh colliding = make_colliding(1.0), other = make_colliding(2.0);
-    smooth(&colliding, 100.0);
-    smooth(&other, 100.0);
-    assert_int_equal(colliding.normal_count, other.normal_count);
-    assert_in_range(other.normal_count, 1000, 5000);
-    assert_memory_equal(colliding.normals, other.normals,
-                        (size_t)other.normal_count * sizeof *other.normals);
-    assert_memory_equal(colliding.corner_normals, other.corner_normals,
-                        (size_t)other.triangle_count * sizeof *other.corner_normals);
-    hd_mesh_free(&colliding);
-    hd_mesh_free(&other);
 }

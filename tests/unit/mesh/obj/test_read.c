@@ -4,7 +4,7 @@
 #include "base/limits.h"
 #include "base/text.h"
 #include "input/check.h"
-#include "mesh/obj/read.h"
+#include "mesh/mesh.h"
 #include "test_folder.h"
 
 #define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"

@@ -18,32 +18,13 @@
 typedef struct HdObjMemory {
     size_t most; /* bytes at a time */
     size_t used;
-    bool is_over; /* something was refused because it would have been more */
+    bool is_over;     /* something was refused because it would have been more, */
+    bool has_refused; /* or for whatever reason */
 } HdObjMemory;
 
 /* As realloc(), of an array of `before` elements, which may be NULL, to `count` of them. NULL, with
    the array as it was, where there is no more. */
 void *hd_obj_resize(HdObjMemory *memory, void *array, size_t size, size_t before, size_t count);
-
-/* The array with room for `count` elements, and some more where it has to grow; `*room` is what it
-   has room for. NULL as above. */
-void *hd_obj_grow(HdObjMemory *memory, void *array, size_t size, size_t count, size_t *room);
-
-/* Puts a copy of `element`, of `size` bytes, behind the `*count` elements of an array, which grows
-   where it must; `array` is the address of the pointer to it. False where there is no more. */
-static inline bool hd_obj_append(HdObjMemory *memory, void *array, size_t size, size_t *count,
-                                 size_t *room, const void *element) {
-    char *elements;
-    memcpy(&elements, array, sizeof elements);
-    if (*count == *room) {
-        elements = hd_obj_grow(memory, elements, size, *count + 1, room);
-        if (elements == NULL)
-            return false;
-        memcpy(array, &elements, sizeof elements);
-    }
-    memcpy(elements + (*count)++ * size, element, size);
-    return true;
-}
 
 /* Not zeroed; at least a byte. */
 void *hd_obj_allocate(HdObjMemory *memory, size_t count, size_t size);
@@ -51,9 +32,6 @@ void *hd_obj_allocate(HdObjMemory *memory, size_t count, size_t size);
 /* Frees an array of so many bytes; NULL is allowed. Not needed for what lasts until the reading's
    end. */
 void hd_obj_release(HdObjMemory *memory, void *array, size_t bytes);
-
-/* Tells why there was no memory to read the mesh at `path`. */
-HdStatus hd_obj_fail_memory(const HdObjMemory *memory, const char *path, HdError *error);
 
 /* ---- words ---- */
 
@@ -67,6 +45,10 @@ int hd_span_shown(HdSpan span);
 
 static inline size_t hd_span_size(HdSpan span) {
     return (size_t)(span.end - span.begin);
+}
+
+static inline HdSpan hd_span_of(const char *text) {
+    return (HdSpan){text, text + strlen(text)};
 }
 
 bool hd_span_is(HdSpan span, const char *text);
@@ -85,20 +67,18 @@ const char *hd_number_fault(HdSpan word, double *value);
 /* What a name should have been: there, without control characters. NULL: it is. */
 const char *hd_name_fault(HdSpan name);
 
-/* What the name of a file should have been to stay in the folder that it counts from or below it.
-   Backslashes count as slashes. NULL: it does. */
-const char *hd_file_name_fault(HdSpan name);
-
-/* Turns backslashes into slashes. */
-void hd_fix_separators(char *name);
-
 /* ---- names, numbered in the order in which they first come up ---- */
+
+typedef struct HdName {
+    HdSpan text;
+    char *owned; /* the same with a zero byte; who takes it leaves NULL */
+} HdName;
 
 /* All zeros: empty. */
 typedef struct HdNameTable {
     int count;
-    char **names;   /* owned; room for HD_MAX_MESH_MATERIALS */
-    int32_t *slots; /* owned; hashed; -1: empty */
+    HdName *names; /* owned; room for HD_MAX_MESH_MATERIALS */
+    void *tree;    /* tsearch()'s, of `names` */
 } HdNameTable;
 
 /* What hd_name_table_add returns instead of a number. */

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/limits.h"
-#include "mesh/obj/reading.h"
+#include "mesh/obj_reading.h"
 #include "system/path.h"
 
 enum { NO_ILLUM = -1, MOST_ILLUM = 10, MOST_NOTED = 32, MOST_LIBRARIES = 64 };
@@ -51,10 +51,9 @@ typedef struct Reader {
                       end */
     size_t line;
     bool is_in_material;
-    bool has_dissolve;    /* the material has d, so Tr does not count */
-    Definition *material; /* which is being defined; */
-    Definition unused;    /* this one, where it is not wanted */
-    bool is_out_of_memory;
+    bool has_dissolve;        /* the material has d, so Tr does not count */
+    Definition *material;     /* which is being defined; */
+    Definition unused;        /* this one, where it is not wanted */
     HdSpan noted[MOST_NOTED]; /* statements whose first use has been told */
     int noted_count;
 } Reader;
@@ -91,10 +90,6 @@ static double mean(HdVec3 a) {
 /* The colour alone of what has a strength too; white where there is none. */
 static HdVec3 tint_of(HdVec3 a) {
     return largest(a) > 0.0 ? hd_scale(a, 1.0 / largest(a)) : hd_vec3(1.0, 1.0, 1.0);
-}
-
-static bool is_mirror(int illum) {
-    return illum >= 3 && illum <= 9;
 }
 
 static bool refracts(int illum) {
@@ -134,18 +129,16 @@ static double index_of(const Notes *notes, const Parameters *from, double transm
                   HD_MAX_INDEX_OF_REFRACTION);
 }
 
-/* Fills all of `material` but its name and its texture, by the table in docs/formats.md. Values
-   that had to be changed to be legal are told in `notes`, whose lines begin with `place`. */
-static void make_material(const Parameters *from, HdMeshMaterial *material, const char *place,
-                          HdProblems *notes) {
-    const Notes all = {place, notes};
-    const HdVec3 diffuse = colour(&all, "Kd", from->Kd, 1.0);
-    const HdVec3 specular = colour(&all, "Ks", from->Ks, 1.0);
-    const HdVec3 filter = colour(&all, "Tf", from->Tf, 1.0);
-    const double passing = transmission_of(&all, from, filter);
+/* Fills all of `material` but its name and its texture, by the table in docs/formats.md, and notes
+   values that it had to change to be legal. */
+static void make_material(const Parameters *from, HdMeshMaterial *material, const Notes *notes) {
+    const HdVec3 diffuse = colour(notes, "Kd", from->Kd, 1.0);
+    const HdVec3 specular = colour(notes, "Ks", from->Ks, 1.0);
+    const HdVec3 filter = colour(notes, "Tf", from->Tf, 1.0);
+    const double passing = transmission_of(notes, from, filter);
     HdMaterial *to = &material->material;
     *to = (HdMaterial){.colour = diffuse, .mirror_tint = hd_vec3(1.0, 1.0, 1.0)};
-    to->ambient = mean(colour(&all, "Ka", from->Ka, 1.0));
+    to->ambient = mean(colour(notes, "Ka", from->Ka, 1.0));
     to->diffuse = 1.0 - passing;
     to->transmission = passing;
     if (passing > 0.0 && largest(diffuse) == 0.0) {
@@ -155,23 +148,66 @@ static void make_material(const Parameters *from, HdMeshMaterial *material, cons
     }
     if (from->illum != 0 && from->illum != 1)
         to->specular = mean(specular);
-    if (is_mirror(from->illum)) {
+    if (from->illum >= 3 && from->illum <= 9) {
         to->reflection = largest(specular);
         to->mirror_tint = tint_of(specular);
     }
-    to->shininess = shininess_of(&all, from, to->specular);
-    to->index_of_refraction = index_of(&all, from, to->transmission);
-    limit_shares(&all, to);
-    material->emission = colour(&all, "Ke", from->Ke, HD_MAX_NUMBER);
+    to->shininess = shininess_of(notes, from, to->specular);
+    to->index_of_refraction = index_of(notes, from, to->transmission);
+    limit_shares(notes, to);
+    material->emission = colour(notes, "Ke", from->Ke, HD_MAX_NUMBER);
 }
 
-/* ---- statements ---- */
+/* ---- names of files ---- */
+
+static bool is_separator(char c) {
+    return c == '/' || c == '\\';
+}
+
+/* What the name of a file should have been to stay in the folder that it counts from or below it.
+   Backslashes count as slashes. NULL: it does. */
+static const char *file_name_fault(HdSpan name) {
+    if (hd_name_fault(name) != NULL)
+        return hd_name_fault(name);
+    if (is_separator(*name.begin) || (name.end - name.begin > 1 && name.begin[1] == ':'))
+        return "a name that counts from this file's folder";
+    for (const char *at = name.begin; at < name.end;) {
+        const char *end = at;
+        while (end < name.end && !is_separator(*end))
+            end++;
+        if (hd_span_is((HdSpan){at, end}, ".."))
+            return "a name in this file's folder or below it";
+        at = end < name.end ? end + 1 : end;
+    }
+    return NULL;
+}
+
+static void fix_separators(char *name) {
+    for (; *name != '\0'; name++)
+        if (*name == '\\')
+            *name = '/';
+}
+
+/* The parts one after the other, free()'s. NULL: the memory does not suffice. */
+static char *join(HdObjMemory *memory, const HdSpan parts[3]) {
+    size_t size = 0;
+    for (int i = 0; i < 3; i++)
+        size += hd_span_size(parts[i]);
+    char *joined = hd_obj_allocate(memory, size + 1, 1), *to = joined;
+    for (int i = 0; joined != NULL && i < 3; to += hd_span_size(parts[i]), i++)
+        memcpy(to, parts[i].begin, hd_span_size(parts[i]));
+    if (joined != NULL)
+        *to = '\0';
+    return joined;
+}
 
 /* The folder of the path with its last slash, or nothing. */
 static HdSpan folder_of(const char *path) {
     const char *slash = strrchr(path, '/');
     return (HdSpan){path, slash != NULL ? slash + 1 : path};
 }
+
+/* ---- statements ---- */
 
 #define note(reader, format, ...)                                                                  \
     hd_problem((reader)->libraries->notes, "%s: line %zu: " format, (reader)->path,                \
@@ -248,36 +284,22 @@ static void keep_illum(Reader *reader, HdSpan line) {
         reader->material->parameters.illum = (int)value;
 }
 
-/* What the name of a texture counts from; without a folder it is named all the same, so that a name
+/* The last one counts. Where the mesh has no folder its own is named all the same, so that a name
    below is taken for nothing but a file's. */
-static HdSpan folder_of_textures(const char *path) {
-    static const char here[] = "./";
-    const HdSpan folder = folder_of(path);
-    return folder.begin < folder.end ? folder : (HdSpan){here, here + strlen(here)};
-}
-
-/* The last one counts. */
 static void set_texture(Reader *reader, HdSpan name) {
-    const HdSpan parts[] = {folder_of_textures(reader->libraries->path), reader->folder, name};
-    size_t size = 1;
-    for (int i = 0; i < 3; i++)
-        size += hd_span_size(parts[i]);
-    char *texture = hd_obj_allocate(reader->libraries->memory, size, 1), *to = texture;
-    if (texture == NULL) {
-        reader->is_out_of_memory = true;
-        return;
-    }
-    for (int i = 0; i < 3; to += hd_span_size(parts[i]), i++)
-        memcpy(to, parts[i].begin, hd_span_size(parts[i]));
-    *to = '\0';
-    hd_fix_separators(texture + hd_span_size(parts[0]));
+    HdSpan folder = folder_of(reader->libraries->path);
+    if (folder.begin == folder.end)
+        folder = hd_span_of("./");
     free(reader->material->texture);
-    reader->material->texture = texture;
+    reader->material->texture =
+        join(reader->libraries->memory, (const HdSpan[3]){folder, reader->folder, name});
+    if (reader->material->texture != NULL)
+        fix_separators(reader->material->texture + hd_span_size(folder));
 }
 
 static void keep_texture(Reader *reader, HdSpan line) {
     const HdSpan name = hd_rest(line);
-    const char *fault = hd_file_name_fault(name);
+    const char *fault = file_name_fault(name);
     if (fault == NULL && *name.begin == '-')
         fault = "a name without options before it";
     if (fault != NULL)
@@ -349,35 +371,26 @@ static HdSpan take_next_line(HdSpan *text) {
 
 /* Takes the definitions of materials that the mesh names and that are not defined yet, with all
    parameters that they do not give as in `defaults`; Tr becomes d. What is left out is told, each
-   kind of statement once. False: the memory does not suffice. */
-static bool read_definitions(Reader *reader, HdSpan text) {
+   kind of statement once. */
+static void read_definitions(Reader *reader, HdSpan text) {
     if (memchr(text.begin, '\0', (size_t)(text.end - text.begin)) != NULL) {
         hd_problem(reader->libraries->notes, "%s: it has bytes 0, so this is no material library",
                    reader->path);
-        return true;
+        return;
     }
-    while (text.begin < text.end) {
-        reader->line++;
+    for (; text.begin < text.end; reader->line++)
         take_line(reader, take_next_line(&text));
-    }
-    return !reader->is_out_of_memory;
 }
 
 /* ---- libraries ---- */
 
-static bool is_known(const Libraries *libraries, const char *name) {
-    for (int i = 0; i < libraries->count; i++)
-        if (strcmp(libraries->names[i], name) == 0)
-            return true;
-    return false;
-}
-
 /* Whether the library is to be read, now and never again. */
 static bool admit(Libraries *libraries, const char *name) {
-    const HdSpan span = {name, name + strlen(name)};
-    const char *fault = hd_file_name_fault(span);
-    if (is_known(libraries, name))
-        return false;
+    const HdSpan span = hd_span_of(name);
+    const char *fault = file_name_fault(span);
+    for (int i = 0; i < libraries->count; i++)
+        if (strcmp(libraries->names[i], name) == 0)
+            return false;
     if (libraries->count == MOST_LIBRARIES)
         fault = "no more than 64 libraries";
     if (fault != NULL) {
@@ -389,62 +402,51 @@ static bool admit(Libraries *libraries, const char *name) {
     return true;
 }
 
-static bool read_file(Libraries *libraries, const char *path, const char *name, HdError *problem) {
+static void read_file(Libraries *libraries, const char *path, const char *name) {
     unsigned char *bytes;
     size_t size;
+    HdError problem;
     HdObjMemory *memory = libraries->memory;
     const size_t room = memory->most - memory->used;
     const int64_t most = room < INT32_MAX ? (int64_t)room : INT32_MAX;
-    if (hd_file_read(path, "material library", most, &bytes, &size, problem) != HD_OK) {
-        hd_problem(libraries->notes, "%s: %s", libraries->path, problem->message);
-        return true;
+    if (hd_file_read(path, "material library", most, &bytes, &size, &problem) != HD_OK) {
+        hd_problem(libraries->notes, "%s: %s", libraries->path, problem.message);
+        return;
     }
     const char *text = (const char *)bytes;
-    Reader reader = {.libraries = libraries, .path = path, .folder = folder_of(name)};
+    Reader reader = {.libraries = libraries, .path = path, .folder = folder_of(name), .line = 1};
     memory->used += size;
-    const bool has_room = read_definitions(&reader, (HdSpan){text, text + size});
+    read_definitions(&reader, (HdSpan){text, text + size});
     hd_obj_release(memory, bytes, size);
-    return has_room;
 }
 
-static bool read_library(Libraries *libraries, const char *name) {
-    const HdSpan folder = folder_of(libraries->path);
-    const size_t before = hd_span_size(folder), size = before + strlen(name) + 1;
-    char *path = hd_obj_allocate(libraries->memory, size, 1);
-    HdError *problem = hd_obj_allocate(libraries->memory, 1, sizeof *problem);
-    bool has_room = path != NULL && problem != NULL;
-    if (has_room) {
-        memcpy(path, folder.begin, before);
-        memcpy(path + before, name, size - before);
-        has_room = read_file(libraries, path, name, problem);
+/* Reads libraries whose names, each with a zero byte, are the `size` bytes at `names`. */
+static void read_libraries(Libraries *libraries, char *names, size_t size) {
+    for (char *name = names; name < names + size; name += strlen(name) + 1) {
+        fix_separators(name);
+        if (!admit(libraries, name))
+            continue;
+        char *path = join(libraries->memory, (const HdSpan[3]){folder_of(libraries->path),
+                                                               hd_span_of(name), hd_span_of("")});
+        if (path == NULL)
+            return;
+        read_file(libraries, path, name);
+        hd_obj_release(libraries->memory, path, strlen(path) + 1);
     }
-    hd_obj_release(libraries->memory, path, size);
-    hd_obj_release(libraries->memory, problem, sizeof *problem);
-    return has_room;
-}
-
-static bool read_libraries(Libraries *libraries, char *names, size_t size) {
-    for (size_t at = 0; at < size; at += strlen(&names[at]) + 1) {
-        hd_fix_separators(&names[at]);
-        if (admit(libraries, &names[at]) && !read_library(libraries, &names[at]))
-            return false;
-    }
-    return true;
 }
 
 /* What has no definition is as if it had one that says nothing. */
 static void define_materials(const Libraries *libraries, HdMesh *mesh) {
     char place[256];
     for (int i = 0; i < mesh->material_count; i++)
-        make_material(&defaults, &mesh->materials[i], "", libraries->notes);
+        make_material(&defaults, &mesh->materials[i], &(Notes){"", libraries->notes});
     for (int i = 0; i < libraries->defined_count; i++) {
         const int number = libraries->order[i];
         Definition *definition = &libraries->definitions[number];
         HdMeshMaterial *material = &mesh->materials[number];
-        const HdSpan name = {material->name, material->name + strlen(material->name)};
-        snprintf(place, sizeof place, "%s: material '%.*s'", libraries->path, hd_span_shown(name),
-                 name.begin);
-        make_material(&definition->parameters, material, place, libraries->notes);
+        snprintf(place, sizeof place, "%s: material '%.*s'", libraries->path,
+                 hd_span_shown(hd_span_of(material->name)), material->name);
+        make_material(&definition->parameters, material, &(Notes){place, libraries->notes});
         material->texture = definition->texture;
         definition->texture = NULL;
     }
@@ -473,8 +475,8 @@ static bool name_materials(HdNameTable *names, HdObjMemory *memory, HdMesh *mesh
     mesh->material_count = names->count;
     for (int i = 0; i < names->count; i++) {
         mesh->materials[i] =
-            (HdMeshMaterial){.name = names->names[i], .picture = -1, .passes_as = -1};
-        names->names[i] = NULL;
+            (HdMeshMaterial){.name = names->names[i].owned, .picture = -1, .passes_as = -1};
+        names->names[i].owned = NULL;
     }
     return true;
 }
@@ -492,9 +494,9 @@ static bool allocate(Libraries *libraries) {
 bool hd_obj_read_materials(HdMesh *mesh, const char *path, HdNameTable *names, char *libraries,
                            size_t size, HdObjMemory *memory, HdProblems *notes) {
     Libraries all = {.path = path, .memory = memory, .notes = notes, .materials = names};
-    const bool has_room = allocate(&all) && read_libraries(&all, libraries, size) &&
-                          name_materials(names, memory, mesh);
-    if (has_room) {
+    if (allocate(&all))
+        read_libraries(&all, libraries, size);
+    if (!memory->has_refused && name_materials(names, memory, mesh)) {
         define_materials(&all, mesh);
         note_undefined(&all, mesh);
     }
@@ -502,5 +504,5 @@ bool hd_obj_read_materials(HdMesh *mesh, const char *path, HdNameTable *names, c
         free(all.definitions[i].texture);
     free(all.definitions);
     free(all.order);
-    return has_room;
+    return !memory->has_refused;
 }

@@ -1,34 +1,25 @@
 /* SPDX-License-Identifier: MIT */
-#include "mesh/obj/reading.h"
+#include "mesh/obj_reading.h"
 
 #include <math.h>
+#include <search.h>
 #include <stdlib.h>
 
-#include "base/hash.h"
 #include "base/limits.h"
 
 void *hd_obj_resize(HdObjMemory *memory, void *array, size_t size, size_t before, size_t count) {
     const size_t others = memory->used - before * size;
     if (count > SIZE_MAX / size || count * size > memory->most ||
         others > memory->most - count * size) {
-        memory->is_over = true;
+        memory->is_over = memory->has_refused = true;
         return NULL;
     }
     void *resized = realloc(array, count > 0 ? count * size : 1);
     if (resized != NULL)
         memory->used = others + count * size;
+    else
+        memory->has_refused = true;
     return resized;
-}
-
-void *hd_obj_grow(HdObjMemory *memory, void *array, size_t size, size_t count, size_t *room) {
-    if (count <= *room)
-        return array;
-    const size_t more = *room + *room / 2 + 16;
-    const size_t wanted = count > more ? count : more;
-    void *grown = hd_obj_resize(memory, array, size, *room, wanted);
-    if (grown != NULL)
-        *room = wanted;
-    return grown;
 }
 
 void *hd_obj_allocate(HdObjMemory *memory, size_t count, size_t size) {
@@ -39,14 +30,6 @@ void hd_obj_release(HdObjMemory *memory, void *array, size_t bytes) {
     if (array != NULL)
         memory->used -= bytes;
     free(array);
-}
-
-HdStatus hd_obj_fail_memory(const HdObjMemory *memory, const char *path, HdError *error) {
-    if (memory->is_over)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "%s: reading it takes more than the %zu bytes of memory that it may take",
-                       path, memory->most);
-    return hd_fail(error, HD_FAILED, "out of memory: no room to read the mesh %s", path);
 }
 
 /* ---- words ---- */
@@ -171,94 +154,46 @@ const char *hd_name_fault(HdSpan name) {
     return NULL;
 }
 
-static bool is_separator(char c) {
-    return c == '/' || c == '\\';
-}
-
-const char *hd_file_name_fault(HdSpan name) {
-    if (hd_name_fault(name) != NULL)
-        return hd_name_fault(name);
-    if (is_separator(*name.begin) || (name.end - name.begin > 1 && name.begin[1] == ':'))
-        return "a name that counts from this file's folder";
-    for (const char *at = name.begin; at < name.end;) {
-        const char *end = at;
-        while (end < name.end && !is_separator(*end))
-            end++;
-        if (hd_span_is((HdSpan){at, end}, ".."))
-            return "a name in this file's folder or below it";
-        at = end < name.end ? end + 1 : end;
-    }
-    return NULL;
-}
-
-void hd_fix_separators(char *name) {
-    for (; *name != '\0'; name++)
-        if (*name == '\\')
-            *name = '/';
-}
-
 /* ---- names ---- */
 
-enum {
-    SLOTS = 4 * HD_MAX_MESH_MATERIALS,
-    /* With a quarter of the slots in use, only names made to collide need that many. They would
-       make each look-up as long as they like. */
-    MOST_PROBES = 256
-};
-
-static bool allocate_names(HdNameTable *table, HdObjMemory *memory) {
-    table->names = hd_obj_allocate(memory, HD_MAX_MESH_MATERIALS, sizeof *table->names);
-    table->slots = hd_obj_allocate(memory, SLOTS, sizeof *table->slots);
-    if (table->slots != NULL)
-        memset(table->slots, -1, SLOTS * sizeof *table->slots);
-    return table->names != NULL && table->slots != NULL;
-}
-
-void hd_name_table_free(HdNameTable *table) {
-    for (int i = 0; i < table->count; i++)
-        free(table->names[i]);
-    free(table->names);
-    free(table->slots);
-    *table = (HdNameTable){0};
-}
-
-/* The slot that has the name or is free for it; NULL: too many probes. */
-static int32_t *slot_of(const HdNameTable *table, HdSpan name) {
-    const size_t size = hd_span_size(name);
-    size_t at = hd_hash_bytes(HD_HASH_START, name.begin, size) % SLOTS;
-    for (int i = 0; i < MOST_PROBES; i++) {
-        int32_t *slot = &table->slots[at];
-        const char *other = *slot >= 0 ? table->names[*slot] : NULL;
-        /* Of a long name no more is looked at than this one has: short ones collide with many. */
-        if (other == NULL || (strncmp(other, name.begin, size) == 0 && other[size] == '\0'))
-            return slot;
-        at = (at + 1) % SLOTS;
-    }
-    return NULL;
+static int compare_names(const void *first, const void *second) {
+    const HdSpan a = ((const HdName *)first)->text, b = ((const HdName *)second)->text;
+    const size_t x = hd_span_size(a), y = hd_span_size(b);
+    const int order = memcmp(a.begin, b.begin, x < y ? x : y);
+    return order != 0 ? order : (x > y) - (x < y);
 }
 
 int hd_name_table_find(const HdNameTable *table, HdSpan name) {
-    const int32_t *slot = table->slots != NULL ? slot_of(table, name) : NULL;
-    return slot != NULL ? *slot : -1;
+    const HdName key = {.text = name};
+    HdName *const *found = tfind(&key, &table->tree, compare_names);
+    return found != NULL ? (int)(*found - table->names) : -1;
 }
 
 int hd_name_table_add(HdNameTable *table, HdSpan name, HdObjMemory *memory) {
     const size_t size = hd_span_size(name);
-    if (table->slots == NULL && !allocate_names(table, memory)) {
-        hd_name_table_free(table);
-        return HD_NAME_NO_MEMORY;
-    }
-    int32_t *slot = slot_of(table, name);
-    if (slot != NULL && *slot >= 0)
-        return *slot;
-    if (slot == NULL || table->count == HD_MAX_MESH_MATERIALS)
+    const int number = hd_name_table_find(table, name);
+    if (number >= 0)
+        return number;
+    if (table->count == HD_MAX_MESH_MATERIALS)
         return HD_NAME_TOO_MANY;
-    char *copy = hd_obj_allocate(memory, size + 1, 1);
+    if (table->names == NULL)
+        table->names = hd_obj_allocate(memory, HD_MAX_MESH_MATERIALS, sizeof *table->names);
+    char *copy = table->names != NULL ? hd_obj_allocate(memory, size + 1, 1) : NULL;
     if (copy == NULL)
         return HD_NAME_NO_MEMORY;
     memcpy(copy, name.begin, size);
     copy[size] = '\0';
-    table->names[table->count] = copy;
-    *slot = table->count;
-    return table->count++;
+    HdName *added = &table->names[table->count++];
+    *added = (HdName){{copy, copy + size}, copy};
+    return tsearch(added, &table->tree, compare_names) != NULL ? table->count - 1
+                                                               : HD_NAME_NO_MEMORY;
+}
+
+void hd_name_table_free(HdNameTable *table) {
+    while (table->tree != NULL)
+        tdelete(*(HdName **)table->tree, &table->tree, compare_names);
+    for (int i = 0; i < table->count; i++)
+        free(table->names[i].owned);
+    free(table->names);
+    *table = (HdNameTable){0};
 }

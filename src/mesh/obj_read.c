@@ -1,29 +1,30 @@
 /* SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L
 
-#include "mesh/obj/read.h"
-
 #include <errno.h>
-#include <fcntl.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include "mesh/obj/reading.h"
+#include "mesh/obj_reading.h"
 #include "system/path.h"
 
 _Static_assert(sizeof(HdVec3) == 3 * sizeof(double), "three numbers of the text are a vector");
+
+/* An array that grows. */
+typedef struct Row {
+    void *data; /* owned */
+    size_t count, room;
+} Row;
 
 /* What corners of faces refer to by number. */
 typedef enum Kind { VERTEX, UV, NORMAL, KIND_COUNT } Kind;
 
 typedef struct Elements {
-    double *numbers; /* owned; of each, 3 of vertices and normals and 2 of texture coordinates, all
-                        rounded to float */
-    size_t count, room;
+    Row row;         /* of 3 doubles for vertices and normals and 2 for texture coordinates, rounded
+                        to float */
     int64_t highest; /* the number, from 1, that a face names; 0: none */
     size_t line_of_highest;
 } Elements;
@@ -44,22 +45,19 @@ typedef struct Text {
     HdError *error;
 
     Elements elements[KIND_COUNT];
-    Face *faces; /* owned */
-    size_t face_count, face_room;
-    Corner *corners; /* owned; of one face after the other */
-    size_t corner_count, corner_room;
+    Row faces;
+    Row corners; /* of one face after the other */
     int64_t triangle_count;
     int32_t most_corners; /* of a face */
     HdNameTable names;    /* of materials */
-    char *libraries;      /* owned; their names as the file has them, each with a zero byte */
-    size_t libraries_size, libraries_room;
+    Row libraries;        /* the bytes of their names as the file has them, each with a zero byte */
 
     HdStatus status;  /* of the reading so far */
     int32_t material; /* -1: none has been named */
     bool has_left_out;
-    int descriptor;
-    char *raw; /* what has been read and not yet taken */
-    size_t raw_begin, raw_end;
+    FILE *file;
+    char *buffer; /* of what comes next in the file, */
+    const char *next, *end;
     char *line;         /* the one that was taken last, with those that continue it */
     size_t line_number; /* where it begins */
     size_t lines_read;
@@ -67,9 +65,16 @@ typedef struct Text {
 
 /* ---- lines ---- */
 
-enum { RAW_SIZE = 1 << 17, TEXT_SIZE = 2 * HD_OBJ_MOST_LINE + 1 };
+enum { BUFFER_SIZE = 1 << 17, TEXT_SIZE = 2 * HD_OBJ_MOST_LINE + 1 };
 
-static const char byte_order_mark[] = "\xef\xbb\xbf";
+static HdStatus fail_memory(const Text *text) {
+    if (text->memory->is_over)
+        return hd_fail(text->error, HD_BAD_INPUT,
+                       "%s: reading it takes more than the %zu bytes of memory that it may take",
+                       text->path, text->memory->most);
+    return hd_fail(text->error, HD_FAILED, "out of memory: no room to read the mesh %s",
+                   text->path);
+}
 
 /* These set `status` and the error, and return false. */
 static bool fail_reading(Text *text, const char *reason) {
@@ -79,8 +84,23 @@ static bool fail_reading(Text *text, const char *reason) {
 }
 
 static bool fail_room(Text *text) {
-    text->status = hd_obj_fail_memory(text->memory, text->path, text->error);
+    text->status = fail_memory(text);
     return false;
+}
+
+/* Puts copies of `count` elements of `size` bytes behind those of the row. */
+static inline bool append(Text *text, Row *row, size_t size, size_t count, const void *elements) {
+    if (count > row->room - row->count) {
+        const size_t room = row->room + row->room / 2 + count + 16;
+        void *grown = hd_obj_resize(text->memory, row->data, size, row->room, room);
+        if (grown == NULL)
+            return fail_room(text);
+        row->data = grown;
+        row->room = room;
+    }
+    memcpy((char *)row->data + row->count * size, elements, count * size);
+    row->count += count;
+    return true;
 }
 
 #if defined(__GNUC__)
@@ -98,49 +118,44 @@ fail_at(Text *text, size_t line, const char *format, ...) {
     return false;
 }
 
-/* Reads what comes next. False: there is nothing, or it cannot be read. */
-static bool fill(Text *text) {
-    const ssize_t count = hd_read_fully(text->descriptor, text->raw, RAW_SIZE);
-    if (count < 0)
-        return fail_reading(text, strerror(errno));
-    text->raw_begin = 0;
-    text->raw_end = (size_t)count;
-    return count > 0;
-}
-
-static bool has_next(Text *text) {
-    return text->raw_begin < text->raw_end || fill(text);
-}
-
 static bool open_file(Text *text) {
     struct stat found;
-    /* Not blocking, lest a named pipe stops the program before it is refused. */
-    text->descriptor = open(text->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (text->descriptor < 0 || fstat(text->descriptor, &found) != 0)
+    /* Before it is opened: a named pipe would wait for somebody who writes. */
+    if (stat(text->path, &found) != 0)
         return fail_reading(text, strerror(errno));
     if (S_ISDIR(found.st_mode))
         return fail_reading(text, strerror(EISDIR));
     if (!S_ISREG(found.st_mode))
         return fail_reading(text, "it is not a regular file");
+    text->file = fopen(text->path, "rbe");
+    return text->file != NULL || fail_reading(text, strerror(errno));
+}
+
+static bool has_next(Text *text) {
+    if (text->next == text->end) {
+        text->next = text->buffer;
+        text->end = text->buffer + fread(text->buffer, 1, BUFFER_SIZE, text->file);
+    }
+    return text->next < text->end;
+}
+
+static bool open_text(Text *text) {
+    if (!open_file(text))
+        return false;
+    text->buffer = hd_obj_allocate(text->memory, BUFFER_SIZE, 1);
+    text->line = hd_obj_allocate(text->memory, TEXT_SIZE, 1);
+    if (text->buffer == NULL || text->line == NULL)
+        return fail_room(text);
+    text->next = text->end = text->buffer;
+    if (has_next(text) && text->end - text->next >= 3 && memcmp(text->next, "\xef\xbb\xbf", 3) == 0)
+        text->next += 3;
     return true;
 }
 
-static HdStatus open_text(Text *text) {
-    if (!open_file(text))
-        return text->status;
-    text->raw = hd_obj_allocate(text->memory, RAW_SIZE, 1);
-    text->line = hd_obj_allocate(text->memory, TEXT_SIZE, 1);
-    if (text->raw == NULL || text->line == NULL)
-        fail_room(text);
-    else if (fill(text) && text->raw_end >= 3 && memcmp(text->raw, byte_order_mark, 3) == 0)
-        text->raw_begin = 3;
-    return text->status;
-}
-
 static void close_text(Text *text) {
-    if (text->descriptor >= 0)
-        close(text->descriptor);
-    hd_obj_release(text->memory, text->raw, RAW_SIZE);
+    if (text->file != NULL)
+        fclose(text->file);
+    hd_obj_release(text->memory, text->buffer, BUFFER_SIZE);
     hd_obj_release(text->memory, text->line, TEXT_SIZE);
 }
 
@@ -149,52 +164,46 @@ static bool is_comment(const char *line, size_t length) {
     return span.begin < span.end && *span.begin == '#';
 }
 
-/* Takes what the buffer has of a line, which is put behind the `*length` bytes that `text` has of
-   it; of what is too long only its beginning. Whether the line goes on, and is not refused. */
-static bool take_piece(Text *text, char *line, size_t *length) {
-    const char *begin = text->raw + text->raw_begin, *end = text->raw + text->raw_end;
-    const char *at = begin;
-    while (at < end && *at != '\n' && *at != '\r' && *at != '\0')
-        at++;
-    const size_t size = (size_t)(at - begin), room = HD_OBJ_MOST_LINE + 1 - *length;
-    const size_t kept = size < room ? size : room;
-    memcpy(line + *length, begin, kept);
-    *length += kept;
-    text->raw_begin += size;
-    return at == end && (*length <= HD_OBJ_MOST_LINE || is_comment(line, *length)) && fill(text);
-}
-
-/* Takes a line's end: "\n", "\r\n" or, as old files have it, "\r". */
-static bool take_end(Text *text) {
-    if (!has_next(text))
-        return text->status == HD_OK;
-    const char end = text->raw[text->raw_begin++];
-    if (end == '\0')
-        return fail_at(text, text->lines_read, "it has a byte 0, so this is no OBJ file");
-    if (end == '\r' && has_next(text) && text->raw[text->raw_begin] == '\n')
-        text->raw_begin++;
-    return text->status == HD_OK;
-}
-
-/* Takes a line of the file and puts it behind the `*used` bytes of those that it continues, but
-   nothing of a comment. False: there is none, or something is wrong. */
-static bool join_line(Text *text, size_t *used) {
-    char *line = text->line + *used;
+/* Takes the bytes of a line, with which `line` is filled up to a byte more than it may have;
+   returns how many it has there. */
+static size_t take_bytes(Text *text, char *line) {
     size_t length = 0;
-    if (!has_next(text))
-        return false;
-    text->lines_read++;
-    while (take_piece(text, line, &length))
-        continue;
-    if (is_comment(line, length))
+    const char *at;
+    do {
+        for (at = text->next; at < text->end && *at != '\n' && *at != '\r' && *at != '\0'; at++)
+            continue;
+        const size_t size = (size_t)(at - text->next), room = HD_OBJ_MOST_LINE + 1 - length;
+        memcpy(line + length, text->next, size < room ? size : room);
+        length += size < room ? size : room;
+        text->next = at;
+    } while (at == text->end && has_next(text));
+    return length;
+}
+
+/* Takes a line of the file up to "\n", "\r\n" or, as old files have it, "\r", and puts it behind
+   the
+   `*used` bytes of those that it continues, but nothing of a comment. False: there is none, or
+   something is wrong. */
+static bool join_line(Text *text, size_t *used) {
+    const bool is_there = has_next(text);
+    text->lines_read += is_there;
+    size_t length = take_bytes(text, text->line + *used);
+    if (ferror(text->file))
+        return fail_reading(text, strerror(errno));
+    if (is_comment(text->line + *used, length))
         length = 0;
+    *used += length;
     if (length > HD_OBJ_MOST_LINE)
         return fail_at(text, text->lines_read, "it is longer than %d bytes", HD_OBJ_MOST_LINE);
-    *used += length;
     if (*used > HD_OBJ_MOST_LINE)
         return fail_at(text, text->line_number,
                        "with those that continue it, it is longer than %d bytes", HD_OBJ_MOST_LINE);
-    return take_end(text);
+    const char end = has_next(text) ? *text->next++ : '\n';
+    if (end == '\0')
+        return fail_at(text, text->lines_read, "it has a byte 0, so this is no OBJ file");
+    if (end == '\r' && has_next(text) && *text->next == '\n')
+        text->next++;
+    return is_there;
 }
 
 /* Takes the next line, which lasts until another is taken: without its end, and of a comment
@@ -234,10 +243,9 @@ static const char *const harmless[] = {"o",   "g",     "s",        "usemap",  "m
 /* The words of a file that neither by its name nor by what it has said is an OBJ are nobody's
    business. */
 static HdSpan quoted(const Text *text, HdSpan word) {
-    static const char hidden[] = "...";
-    if (text->elements[VERTEX].count > 0 || hd_path_has_ending(text->path, ".obj"))
-        return word;
-    return (HdSpan){hidden, hidden + strlen(hidden)};
+    const bool is_obj =
+        text->elements[VERTEX].row.count > 0 || hd_path_has_ending(text->path, ".obj");
+    return is_obj ? word : hd_span_of("...");
 }
 
 /* For "%.*s". */
@@ -260,13 +268,10 @@ static bool keep_numbers(Text *text, Kind kind, HdSpan line) {
                              kinds[kind].name, shown(text, word), fault);
         numbers[i] = (double)(float)numbers[i];
     }
-    Elements *elements = &text->elements[kind];
-    if (elements->count == MOST_ELEMENTS)
+    Row *row = &text->elements[kind].row;
+    if (row->count == MOST_ELEMENTS)
         return fail_line(text, "there are more than %d %s", (int)MOST_ELEMENTS, kinds[kind].plural);
-    return hd_obj_append(text->memory, &elements->numbers,
-                         (size_t)kinds[kind].most * sizeof *numbers, &elements->count,
-                         &elements->room, numbers) ||
-           fail_room(text);
+    return append(text, row, (size_t)kinds[kind].most * sizeof *numbers, 1, numbers);
 }
 
 /* Reads "-12" or "12"; without digits, `*number` is 0. NULL: too many digits. */
@@ -289,7 +294,7 @@ static const char *read_index(const char *at, const char *end, bool *has_digits,
 /* Positive numbers may name what comes later; the highest is looked at again at the end. */
 static bool keep_index(Text *text, Kind kind, int64_t number, HdSpan word, Corner *corner) {
     Elements *elements = &text->elements[kind];
-    const int64_t absolute = number < 0 ? (int64_t)elements->count + 1 + number : number;
+    const int64_t absolute = number < 0 ? (int64_t)elements->row.count + 1 + number : number;
     if (absolute > elements->highest) {
         elements->highest = absolute;
         elements->line_of_highest = text->line_number;
@@ -300,7 +305,7 @@ static bool keep_index(Text *text, Kind kind, int64_t number, HdSpan word, Corne
     return fail_line(text,
                      "corner '%.*s' of a face names %s %lld, expected 1 and up, or -1 to "
                      "-%zu counted back from here",
-                     shown(text, word), kinds[kind].name, (long long)number, elements->count);
+                     shown(text, word), kinds[kind].name, (long long)number, elements->row.count);
 }
 
 /* "v", "v/t", "v//n" or "v/t/n". */
@@ -329,11 +334,8 @@ static bool read_corner(Text *text, HdSpan word, Corner *corner) {
 
 static bool keep_corner(Text *text, HdSpan word) {
     Corner corner;
-    if (!read_corner(text, word, &corner))
-        return false;
-    return hd_obj_append(text->memory, &text->corners, sizeof corner, &text->corner_count,
-                         &text->corner_room, &corner) ||
-           fail_room(text);
+    return read_corner(text, word, &corner) &&
+           append(text, &text->corners, sizeof corner, 1, &corner);
 }
 
 static bool set_material(Text *text, HdSpan name) {
@@ -347,17 +349,6 @@ static bool set_material(Text *text, HdSpan name) {
     return true;
 }
 
-/* A face of the corners that came last. */
-static bool add_face(Text *text, int32_t corner_count) {
-    static const char none[] = HD_OBJ_NO_MATERIAL;
-    if (text->material < 0 && !set_material(text, (HdSpan){none, none + strlen(none)}))
-        return false;
-    const Face face = {corner_count, text->material};
-    return hd_obj_append(text->memory, &text->faces, sizeof face, &text->face_count,
-                         &text->face_room, &face) ||
-           fail_room(text);
-}
-
 static bool keep_face(Text *text, HdSpan line) {
     int32_t count = 0;
     for (HdSpan word = hd_next_word(&line); !is_statement_end(word); word = hd_next_word(&line)) {
@@ -368,7 +359,9 @@ static bool keep_face(Text *text, HdSpan line) {
     if (count < 3)
         return fail_line(text, "a face has %d corner%s, expected at least 3", (int)count,
                          count == 1 ? "" : "s");
-    if (!add_face(text, count))
+    if (text->material < 0 && !set_material(text, hd_span_of(HD_OBJ_NO_MATERIAL)))
+        return false;
+    if (!append(text, &text->faces, sizeof(Face), 1, &(Face){count, text->material}))
         return false;
     text->triangle_count += count - 2;
     if (count > text->most_corners)
@@ -378,25 +371,15 @@ static bool keep_face(Text *text, HdSpan line) {
     return true;
 }
 
-static bool add_library(Text *text, HdSpan name) {
-    const size_t length = hd_span_size(name), used = text->libraries_size;
-    char *libraries =
-        hd_obj_grow(text->memory, text->libraries, 1, used + length + 1, &text->libraries_room);
-    if (libraries == NULL)
-        return fail_room(text);
-    text->libraries = libraries;
-    memcpy(libraries + used, name.begin, length);
-    libraries[used + length] = '\0';
-    text->libraries_size = used + length + 1;
-    return true;
-}
-
 static bool keep_name(Text *text, HdSpan line, const char *what, bool is_library) {
     const HdSpan name = hd_rest(line);
     const char *fault = hd_name_fault(name);
     if (fault != NULL)
         return fail_line(text, "the name of a %s, expected %s", what, fault);
-    return is_library ? add_library(text, name) : set_material(text, name);
+    if (!is_library)
+        return set_material(text, name);
+    return append(text, &text->libraries, 1, hd_span_size(name), name.begin) &&
+           append(text, &text->libraries, 1, 1, "");
 }
 
 /* Of what is left out the first is told. Rubbish seldom begins with a word. */
@@ -439,13 +422,13 @@ static bool take_line(Text *text, HdSpan line) {
 static HdStatus finish(Text *text) {
     for (int kind = 0; text->status == HD_OK && kind < KIND_COUNT; kind++) {
         const Elements *elements = &text->elements[kind];
-        if (elements->highest > (int64_t)elements->count)
+        if (elements->highest > (int64_t)elements->row.count)
             fail_at(text, elements->line_of_highest, "a face names %s %lld, and there are %zu %s",
-                    kinds[kind].name, (long long)elements->highest, elements->count,
+                    kinds[kind].name, (long long)elements->highest, elements->row.count,
                     kinds[kind].plural);
     }
-    if (text->status == HD_OK && text->face_count == 0)
-        fail_reading(text, text->elements[VERTEX].count > 0
+    if (text->status == HD_OK && text->faces.count == 0)
+        fail_reading(text, text->elements[VERTEX].row.count > 0
                                ? "it has vertices, but no faces"
                                : "it has no faces, so it is empty or no OBJ file "
                                  "(of other formats, such as STL, PLY and glTF, "
@@ -456,7 +439,7 @@ static HdStatus finish(Text *text) {
 static HdStatus read_text(Text *text) {
     HdSpan line;
     text->material = -1;
-    if (open_text(text) == HD_OK)
+    if (open_text(text))
         while (next_line(text, &line) && take_line(text, line))
             continue;
     close_text(text);
@@ -464,22 +447,21 @@ static HdStatus read_text(Text *text) {
 }
 
 /* The elements as an array of their own, free()'s, of just their size. */
-static double *take_numbers(Text *text, Kind kind) {
-    Elements *elements = &text->elements[kind];
-    const size_t size = (size_t)kinds[kind].most * sizeof *elements->numbers;
-    double *fitting =
-        hd_obj_resize(text->memory, elements->numbers, size, elements->room, elements->count);
-    double *numbers = fitting != NULL ? fitting : elements->numbers;
-    elements->numbers = NULL;
+static void *take_numbers(Text *text, Kind kind) {
+    Row *row = &text->elements[kind].row;
+    const size_t size = (size_t)kinds[kind].most * sizeof(double);
+    void *fitting = hd_obj_resize(text->memory, row->data, size, row->room, row->count);
+    void *numbers = fitting != NULL ? fitting : row->data;
+    row->data = NULL;
     return numbers;
 }
 
 static void free_text(Text *text) {
     for (int kind = 0; kind < KIND_COUNT; kind++)
-        free(text->elements[kind].numbers);
-    free(text->faces);
-    free(text->corners);
-    free(text->libraries);
+        free(text->elements[kind].row.data);
+    free(text->faces.data);
+    free(text->corners.data);
+    free(text->libraries.data);
     hd_name_table_free(&text->names);
 }
 
@@ -488,15 +470,15 @@ static void free_text(Text *text) {
 /* Texture coordinates and normals that no corner names are left out. */
 static void take_elements(Text *text, HdMesh *mesh) {
     const Elements *elements = text->elements;
-    mesh->vertices = (HdVec3 *)take_numbers(text, VERTEX);
-    mesh->vertex_count = (int)elements[VERTEX].count;
+    mesh->vertices = take_numbers(text, VERTEX);
+    mesh->vertex_count = (int)elements[VERTEX].row.count;
     if (elements[NORMAL].highest > 0) {
-        mesh->normals = (HdVec3 *)take_numbers(text, NORMAL);
-        mesh->normal_count = (int)elements[NORMAL].count;
+        mesh->normals = take_numbers(text, NORMAL);
+        mesh->normal_count = (int)elements[NORMAL].row.count;
     }
     if (elements[UV].highest > 0) {
-        mesh->uvs = (double(*)[2])take_numbers(text, UV);
-        mesh->uv_count = (int)elements[UV].count;
+        mesh->uvs = take_numbers(text, UV);
+        mesh->uv_count = (int)elements[UV].row.count;
     }
 }
 
@@ -510,9 +492,7 @@ static bool allocate_triangles(const Text *text, HdMesh *mesh) {
         mesh->corner_uvs = hd_obj_allocate(memory, count, sizeof *mesh->corner_uvs);
     if (text->names.count > 1)
         mesh->material_of = hd_obj_allocate(memory, count, sizeof *mesh->material_of);
-    return mesh->corners != NULL && (mesh->normals == NULL || mesh->corner_normals != NULL) &&
-           (mesh->uvs == NULL || mesh->corner_uvs != NULL) &&
-           (text->names.count <= 1 || mesh->material_of != NULL);
+    return !memory->has_refused;
 }
 
 /* Without a direction there is no normal. */
@@ -561,9 +541,9 @@ static bool cut_face(HdMesh *mesh, const Polygon *room, const Corner *corners, c
 }
 
 static HdStatus add_faces(const Text *text, HdMesh *mesh, const Polygon *room) {
-    const Corner *corners = text->corners;
-    for (size_t i = 0; i < text->face_count; i++) {
-        const Face *face = &text->faces[i];
+    const Corner *corners = text->corners.data;
+    for (size_t i = 0; i < text->faces.count; i++) {
+        const Face *face = (const Face *)text->faces.data + i;
         if (!cut_face(mesh, room, corners, face))
             return hd_fail(text->error, HD_BAD_INPUT,
                            "%s: face %zu is not convex and has %d corners, expected at most %d",
@@ -580,8 +560,7 @@ static HdStatus take_faces(const Text *text, HdMesh *mesh) {
                           hd_obj_allocate(memory, most, sizeof *room.triangles)};
     const bool has_room =
         room.points != NULL && room.triangles != NULL && allocate_triangles(text, mesh);
-    const HdStatus status = has_room ? add_faces(text, mesh, &room)
-                                     : hd_obj_fail_memory(memory, text->path, text->error);
+    const HdStatus status = has_room ? add_faces(text, mesh, &room) : fail_memory(text);
     free(room.points);
     free(room.triangles);
     return status;
@@ -589,12 +568,10 @@ static HdStatus take_faces(const Text *text, HdMesh *mesh) {
 
 static HdStatus take_mesh(Text *text, HdMesh *mesh) {
     take_elements(text, mesh);
-    if (!hd_obj_read_materials(mesh, text->path, &text->names, text->libraries,
-                               text->libraries_size, text->memory, text->notes))
-        return hd_obj_fail_memory(text->memory, text->path, text->error);
-    const HdStatus status = take_faces(text, mesh);
-    if (status != HD_OK)
-        return status;
+    if (!hd_obj_read_materials(mesh, text->path, &text->names, text->libraries.data,
+                               text->libraries.count, text->memory, text->notes))
+        return fail_memory(text);
+    HD_TRY(take_faces(text, mesh));
     const int count = mesh->triangle_count;
     hd_mesh_drop_degenerate(mesh);
     if (mesh->triangle_count == 0)

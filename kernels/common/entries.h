@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT */
+/* Entry points for devices; their parameters are those of kernel_arguments.h, by the names there. A
+   language defines KERNEL, which begins each, SHARED before what threads of a group share, and the
+   numbers of a thread (WORKER of WORKERS), of its group (GROUP of GROUPS) and within that (THREAD
+   of THREADS). SMALL_TABLES lists the tables that DEFINE_CONSTANT and USE_CONSTANT put into
+   constant memory. Without a group size every work item renders for itself, which suits CPUs. */
+#ifndef HD_ENTRIES_H
+#define HD_ENTRIES_H
+
+/* The text has each file once, where it is asked for first: what either part needs comes before. */
+#include "division.h"
+#include "kernel_arguments.h"
+#include "scene_tables.h"
+#if HD_PROBE
+#include "probe.h"
+#else
+#include "render.h"
+#if HD_WAVEFRONT
+#include "wavefront.h"
+#endif
+#endif
+
+#if HD_PROBE
+
+KERNEL hedron_probe(HD_PROBE_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
+    probe_tuples(first, second, third, bits, count, numbers, integers, sums, counters, WORKER,
+                 WORKERS);
+}
+
+#else
+
+SMALL_TABLES(DEFINE_CONSTANT)
+
+#if HD_WAVEFRONT && HD_GROUP_SIZE
+
+KERNEL hedron_trace_take(
+    SCENE_PARAMETERS QUEUE_PARAMETERS HD_TRACE_TAKE_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
+    SHARED uint64 room[2 * HD_GROUP_SIZE];
+    SHARED uint place;
+    {
+        SMALL_TABLES(USE_CONSTANT)
+        trace_take_by_group(SCENE_ARGUMENTS QUEUE_ARGUMENTS first_item, level, first, count, to,
+                            taken_before, is_first_launch, GROUP, GROUPS, THREAD, THREADS, room,
+                            &place, taken, counts);
+    }
+}
+
+KERNEL hedron_store_batch(HD_STORE_BATCH_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
+    store_batch(header, view, sums, sum_stride, first_item, item_count, WORKER, WORKERS, pixels);
+}
+
+#elif HD_WAVEFRONT
+
+KERNEL hedron_render_by_waves(SCENE_PARAMETERS QUEUE_PARAMETERS
+                                  HD_RENDER_BY_WAVES_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
+    render_items_by_waves(SCENE_ARGUMENTS QUEUE_ARGUMENTS first_item, end_item, WORKER, WORKERS,
+                          pixels, counts);
+}
+
+#elif HD_GROUP_SIZE
+
+KERNEL hedron_render(SCENE_PARAMETERS HD_RENDER_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
+    SHARED fixed64 room[GROUP_ROOM * HD_GROUP_SIZE];
+    {
+        SMALL_TABLES(USE_CONSTANT)
+        render_by_group(SCENE_ARGUMENTS first_item, item_count, parts, GROUP, GROUPS, THREAD,
+                        THREADS, room, pixels, counts);
+    }
+}
+
+#else
+
+/* The item that is number `number` of `count`. Drivers for CPUs hand each thread hundreds of items
+   in a row, and neighbours cost alike: so runs of neighbours, which share what is in caches, are
+   read column by column of a table, and a rest comes last. */
+FN int spread_item(int number, int count) {
+    enum { RUN = 8, COLUMNS = 8 };
+    int rows = count / (RUN * COLUMNS), run = number / RUN;
+    if (number >= rows * RUN * COLUMNS)
+        return number;
+    return (run % COLUMNS * rows + run / COLUMNS) * RUN + number % RUN;
+}
+
+KERNEL hedron_render(SCENE_PARAMETERS HD_RENDER_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
+    if (WORKER < item_count) {
+        int item = first_item + spread_item(WORKER, item_count);
+        render_item(SCENE_ARGUMENTS item, pixels, counts + item);
+    }
+}
+
+#endif
+
+KERNEL hedron_sum_counts(HD_SUM_COUNTS_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
+    if (WORKER < workers)
+        sum_counts(counts, count, WORKER, workers, sums);
+}
+
+#if HD_FIRST_HITS
+
+KERNEL hedron_first_hits(SCENE_PARAMETERS HD_FIRST_HITS_ARGUMENTS(HD_PARAMETER,
+                                                                  HD_LAST_PARAMETER)) {
+    int step = WORKERS;
+    for (int item = WORKER; item < item_count; item += step) {
+        SMALL_TABLES(USE_CONSTANT)
+        find_first_hits(SCENE_ARGUMENTS first_item + item, floats, hits);
+    }
+}
+
+#endif
+
+#if HD_GROUP_SIZE
+
+KERNEL hedron_encode(HD_ENCODE_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
+    encode_pixels(pixels, count, thresholds, WORKER, WORKERS, image);
+}
+
+#endif
+
+#endif
+
+#endif
