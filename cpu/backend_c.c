@@ -144,7 +144,7 @@ static HdStatus c_open(const HdDevice *device, const HdRenderOptions *options, v
     (void)device;
     CRenderer *c = calloc(1, sizeof *c);
     if (c == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a renderer");
+        return HD_NO_ROOM(error, "a renderer");
     c->threads = options->threads > 0 ? options->threads : hd_processor_count();
     c->pipeline = options->pipeline;
     c->queue_budget = options->test.queue_bytes > 0 ? options->test.queue_bytes : QUEUE_BYTES;
@@ -154,10 +154,9 @@ static HdStatus c_open(const HdDevice *device, const HdRenderOptions *options, v
             "plain C has strict arithmetic alone, so --math fast changes nothing there");
     const bool has_queues = hd_pipeline_is_wavefront(c->pipeline);
     c->queues = has_queues ? calloc((size_t)c->threads, sizeof *c->queues) : NULL;
-    HdStatus status =
-        has_queues && c->queues == NULL
-            ? hd_fail(error, HD_FAILED, "out of memory: no room for %d queues", c->threads)
-            : hd_thread_pool_create(&c->pool, c->threads, error);
+    HdStatus status = has_queues && c->queues == NULL
+                          ? HD_NO_ROOM(error, "%d queues", c->threads)
+                          : hd_thread_pool_create(&c->pool, c->threads, error);
     if (status != HD_OK) {
         c_close(c);
         return status;
@@ -287,7 +286,7 @@ static HdStatus c_collect(void *renderer, const HdFrameTables *tables, HdFrame *
     const int items = count_items(tables);
     c->counts = hd_reserved(c->counts, sizeof *c->counts, items, &c->item_capacity);
     if (c->counts == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for %d work items", items);
+        return HD_NO_ROOM(error, "%d work items", items);
     if (c->queues != NULL)
         HD_TRY(prepare_queues(c, tables->samples, error));
     double start = hd_monotonic_seconds();

@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-#include "tables/tables.h"
+#include "tables/table.h"
 
 /* Bundles, or lit points of bundles, ready to be worked on; made by the same build; free `items`.
  */

@@ -141,8 +141,8 @@ static bool compile(HdLoopScene *scene, HdSceneFile *file, int lanes, HdError *e
                HD_OK &&
            hd_compile_scene(&scene->tables[1], &file->scene, HD_PRECISION_FLOAT, 1, error) ==
                HD_OK &&
-           hd_compile_frame(&scene->frame, &file->scene, &camera, HD_PRECISION_FLOAT, error) ==
-               HD_OK;
+           hd_compile_frame(&scene->frame, &file->scene, &camera, HD_PRECISION_FLOAT, NULL,
+                            error) == HD_OK;
 }
 
 /* Reads a scene file, for bundles of so many lanes; without `floor` its floor is left out. Prints

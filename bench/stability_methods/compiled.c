@@ -85,7 +85,7 @@ bool hd_compiled_look(HdCompiled *compiled, HdVec3 eye) {
                              .tangent_of_half_fov = 0.5};
     hd_frame_tables_free(&compiled->frame);
     HdStatus status = hd_compile_frame(&compiled->frame, &compiled->scene, &camera,
-                                       compiled->tables.precision, &error);
+                                       compiled->tables.precision, NULL, &error);
     if (status != HD_OK)
         fprintf(stderr, "%s\n", error.message);
     return status == HD_OK;

@@ -3,7 +3,7 @@
 #ifndef HD_BENCH_COMPILED_H
 #define HD_BENCH_COMPILED_H
 
-#include "tables/tables.h"
+#include "tables/table.h"
 
 /* What every face does with a ray. */
 typedef enum HdFaceKind { HD_FACE_MIRROR, HD_FACE_CLEAR, HD_FACE_OPAQUE } HdFaceKind;

@@ -4,7 +4,7 @@
 #ifndef HD_BENCH_PRODUCT_H
 #define HD_BENCH_PRODUCT_H
 
-#include "tables/tables.h"
+#include "tables/table.h"
 
 /* A face that a path met. */
 typedef struct HdBounce {

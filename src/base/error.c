@@ -22,8 +22,6 @@ void hd_error_prefix(HdError *error, const char *name) {
     hd_fail(error, error->status, "%s: %s", name, error->message);
 }
 
-/* ---- problems ---- */
-
 /* With the break; a problem names a place, a value and what was expected. */
 enum { SHORTEST_LINE = 16 };
 

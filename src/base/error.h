@@ -41,6 +41,9 @@ hd_fail(HdError *error, HdStatus status, const char *format, ...);
             return tried_;                                                                         \
     } while (0)
 
+/* Fails for want of memory for what follows: a literal format, as printf's, and its arguments. */
+#define HD_NO_ROOM(error, ...) hd_fail(error, HD_FAILED, "out of memory: no room for " __VA_ARGS__)
+
 /* Puts `name` and a colon before the message of `error`, which is cut if it gets too long. */
 void hd_error_prefix(HdError *error, const char *name);
 

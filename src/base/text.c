@@ -11,8 +11,6 @@
 
 #include "base/minmax.h"
 
-/* ---- text of others ---- */
-
 /* The longest of \u001b, \x9b and a character of UTF-8. */
 enum { LONGEST_PIECE = 6 };
 
@@ -80,8 +78,6 @@ void hd_escape_lines(const char *text, char *out, size_t size) {
     escape(text, "\n\t", out, size);
 }
 
-/* ---- numbers ---- */
-
 void hd_exact_number(double value, char out[HD_NUMBER_SIZE]) {
     for (int digits = 15; digits <= 17; digits++) {
         snprintf(out, HD_NUMBER_SIZE, "%.*g", digits, value);
@@ -111,8 +107,6 @@ const char *hd_plural(int count) {
     return count == 1 ? "" : "s";
 }
 
-/* ---- texts of several parts ---- */
-
 void hd_add_text(char *text, size_t size, const char *separator, const char *format, ...) {
     va_list arguments;
     size_t length = strlen(text);
@@ -124,8 +118,6 @@ void hd_add_text(char *text, size_t size, const char *separator, const char *for
     vsnprintf(text + length, size - length, format, arguments);
     va_end(arguments);
 }
-
-/* ---- names ---- */
 
 enum { MAX_LETTERS = 31 };
 

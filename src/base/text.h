@@ -22,8 +22,6 @@ size_t hd_escape(const char *text, char *out, size_t size);
 /* The same, but line breaks and tabs stay. */
 void hd_escape_lines(const char *text, char *out, size_t size);
 
-/* ---- numbers ---- */
-
 enum { HD_NUMBER_SIZE = 32 };
 
 /* As text with as few digits, 15 to 17, as it takes to read the same double back; 0's sign is kept.
@@ -36,14 +34,10 @@ void hd_short_number(double value, char out[HD_NUMBER_SIZE]);
 /* What a word for that many things ends in: "s", or nothing for one. */
 const char *hd_plural(int count);
 
-/* ---- texts of several parts ---- */
-
 /* Appends what printf would print, after the separator unless the text is empty; cut to `size`
    bytes with the zero byte. */
 __attribute__((format(printf, 4, 5))) void
 hd_add_text(char *text, size_t size, const char *separator, const char *format, ...);
-
-/* ---- names ---- */
 
 /* Keeps the nearest of the names that are offered one after the other. Start with the word alone.
  */

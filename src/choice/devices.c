@@ -454,7 +454,7 @@ static HdStatus open_list(HdDeviceTeam *team, const HdDeviceWish *wish, HdError 
     HdStatus status = HD_OK;
     char *copy = strdup(wish->device), *rest = copy;
     if (copy == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a list of devices");
+        return HD_NO_ROOM(error, "a list of devices");
     while (status == HD_OK && rest != NULL) {
         char *entry = rest, *comma = strchr(rest, ',');
         rest = comma != NULL ? comma + 1 : NULL;

@@ -22,8 +22,6 @@ typedef struct HdDeviceWish {
     const HdJob *job;               /* what it is to be the fastest at */
 } HdDeviceWish;
 
-/* ---- candidates ---- */
-
 enum { HD_MAX_CANDIDATES = 32 };
 
 typedef struct HdCandidates {
@@ -68,8 +66,6 @@ HdStatus hd_candidates_open(HdCandidates *candidates, HdTeamDevice *opened, HdEr
    HD_UNAVAILABLE with every reason where there are none. */
 HdStatus hd_devices_named(const char *backend, const char *device, HdDevice *devices, int *count,
                           HdError *error);
-
-/* ---- the team ---- */
 
 typedef struct HdDeviceTeam {
     HdTeamDevice list[HD_MOST_TRACERS]; /* open */

@@ -10,7 +10,7 @@
 #include "cli/options.h"
 #include "image/difference.h"
 #include "image/picture.h"
-#include "input/json/json_device_text.h"
+#include "input/json.h"
 #include "system/interrupt.h"
 #include "system/path.h"
 
@@ -280,7 +280,7 @@ static HdStatus open_map(Comparison *comparison, HdError *error) {
                            comparison->names[i]);
     comparison->errors = malloc((size_t)facts->width * sizeof *comparison->errors);
     if (comparison->errors == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a row of pixels");
+        return HD_NO_ROOM(error, "a row of pixels");
     comparison->map = (HdFrame){.width = facts->width, .height = facts->height, .is_encoded = true};
     return hd_frame_add_rgba(&comparison->map, error);
 }
@@ -294,7 +294,7 @@ static HdStatus start(Comparison *comparison, HdError *error) {
         comparison->rows[i] = malloc(width * 3 * sizeof *comparison->rows[i]);
         HD_TRY(hd_picture_reader_start(comparison->readers[i], comparison->curve, error));
         if (comparison->rows[i] == NULL)
-            return hd_fail(error, HD_FAILED, "out of memory: no room for a row of pixels");
+            return HD_NO_ROOM(error, "a row of pixels");
     }
     return comparison->options->diff != NULL ? open_map(comparison, error) : HD_OK;
 }

@@ -86,8 +86,6 @@ void hd_console_tell_loss(HdConsole *console, const HdDevice *device, const char
 void hd_console_end(HdConsole *console, const HdScene *scene, const HdDeviceTeam *team,
                     const char (*lines)[HD_RENDERER_LINE], HdStatus status);
 
-/* ---- texts ---- */
-
 /* "[####....] line", no wider than `columns`: a line that leaves no room for the bar stands alone,
    and is cut where it is too long itself. */
 void hd_progress_bar(const HdProgress *progress, const char *line, int columns, char text[160]);

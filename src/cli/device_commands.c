@@ -11,7 +11,7 @@
 #include "choice/measure.h"
 #include "cli/console.h"
 #include "cli/options.h"
-#include "input/json/json_device_text.h"
+#include "input/json.h"
 #include "output/fingerprint.h"
 #include "render/backends.h"
 #include "run/load_scene.h"

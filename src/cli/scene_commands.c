@@ -11,7 +11,7 @@
 #include "cli/options.h"
 #include "image/picture.h"
 #include "input/files.h"
-#include "input/json/json_device_text.h"
+#include "input/json.h"
 #include "input/write.h"
 #include "run/load_scene.h"
 #include "system/atomic_file.h"

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "input/json/json_device_text.h"
+#include "input/json.h"
 #include "system/atomic_file.h"
 #include "system/interrupt.h"
 
@@ -127,7 +127,7 @@ HdStatus hd_statistics_add(HdStatistics *statistics, const HdScene *scene, const
                        ? json_pack("{s:i, s:b}", "frame", stored->number, "resumed", 1)
                        : add_bound(describe_frame(scene, device, line, stored), stored->frame);
     if (told == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a line of statistics");
+        return HD_NO_ROOM(error, "a line of statistics");
     bool can_write = hd_wait_to_write(fileno(statistics->stream));
     errno = can_write ? 0 : EINTR;
     bool failed =

@@ -23,8 +23,6 @@ HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int c
     return status;
 }
 
-/* ---- options ---- */
-
 const char *const hd_pipeline_names[HD_PIPELINE_COUNT + 1] = {"auto", "mega", "wavefront",
                                                               "wavefront-uncompacted", NULL};
 
@@ -46,8 +44,6 @@ bool hd_render_options_are_possible(const HdRenderOptions *options) {
            is_within(options->launch_ms, HD_MIN_LAUNCH_MS, HD_MAX_LAUNCH_MS) &&
            options->pipeline < HD_PIPELINE_COUNT;
 }
-
-/* ---- what suits a device ---- */
 
 static const char *lanes_there_are(int most) {
     if (most == 1)
@@ -101,8 +97,6 @@ HdPipeline hd_choose_pipeline(const HdDevice *device, const HdRenderOptions *opt
                        : hd_megakernel_is_too_long(device, options) && device->has_wide_atomics;
     return is_wavefront ? HD_PIPELINE_WAVEFRONT : HD_PIPELINE_MEGA;
 }
-
-/* ---- loss ---- */
 
 static const char sentence[] =
     "the device is lost to this program (reset, stopped by the system after too long a kernel, out "

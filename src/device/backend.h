@@ -10,7 +10,7 @@
 #include "device/options.h"
 #include "image/frame.h"
 #include "kernels/common/kernel_arguments.h"
-#include "tables/tables.h"
+#include "tables/table.h"
 
 /* Frames that were submitted and not collected yet. */
 enum { HD_FRAMES_IN_FLIGHT = 2 };

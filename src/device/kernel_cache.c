@@ -48,7 +48,7 @@ static HdStatus store_binary(const HdKernelCache *cache, const unsigned char *bi
     Head head = {.stamp = ""};
     unsigned char *entry = malloc(sizeof head + size);
     if (entry == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for compiled kernels");
+        return HD_NO_ROOM(error, "compiled kernels");
     snprintf(head.stamp, sizeof head.stamp, "%s", stamp_of(cache));
     memcpy(head.maker, cache->maker, sizeof head.maker);
     memcpy(entry, &head, sizeof head);

@@ -123,8 +123,8 @@ static int queue_places(const HdWaveNeeds *needs, int batch, size_t ray_bytes) {
     int least = wave_least_capacity(needs->depth, needs->grain);
     size_t sums = WAVE_SUMS * sizeof(int64_t) * (size_t)batch;
     size_t fitting = needs->bytes > sums ? (needs->bytes - sums) / ray_bytes : 0;
-    size_t even = (size_t)((batch + needs->grain - 1) / needs->grain * needs->grain);
-    size_t useful = (size_t)wave_least_capacity(needs->depth, 1) * even;
+    int even = (batch + needs->grain - 1) / needs->grain * needs->grain;
+    size_t useful = (size_t)wave_least_capacity(needs->depth, 1) * (size_t)even;
     fitting = hd_min_size(fitting, hd_min_size(useful, MAX_STRIDE));
     return hd_max((int)fitting, least);
 }

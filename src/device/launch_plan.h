@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/limits.h"
 #include "kernels/host/shared.h"
-#include "tables/tables.h"
+#include "tables/table.h"
 
 /* ---- how much work one launch gets, on GPUs and on OpenCL's CPUs, learned from how long earlier
    ones took. On a GPU a launch keeps a display that the device drives from being drawn, and after

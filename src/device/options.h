@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "tables/tables.h"
+#include "tables/table.h"
 
 typedef enum HdMath { HD_MATH_STRICT, HD_MATH_FAST } HdMath;
 

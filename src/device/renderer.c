@@ -37,7 +37,7 @@ HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
                        device->name, obstacle);
     HdRenderer *opened = calloc(1, sizeof *opened);
     if (!opened)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a renderer");
+        return HD_NO_ROOM(error, "a renderer");
     opened->backend = device->backend;
     opened->longest_launch = -1.0;
     opened->device = *device;

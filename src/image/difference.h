@@ -54,8 +54,6 @@ void hd_difference_figures(const HdPictureDifference *difference, HdPictureFigur
 /* NULL is allowed. */
 void hd_difference_free(HdPictureDifference *difference);
 
-/* ---- a quantile of many numbers in a few MiB, whatever their count ---- */
-
 typedef struct HdQuantileBucket {
     uint64_t count;
     double largest;
@@ -76,8 +74,6 @@ void hd_quantile_add(HdQuantile *quantile, double value);
    that is larger by at most 1/2048 of it (of those from 2^-60 to 2^130); the least one exactly
    where the numbers are multiples of a step and below 2048 of it. Without numbers NaN. */
 double hd_quantile_above(const HdQuantile *quantile, uint64_t out_of);
-
-/* ---- heat maps ---- */
 
 /* Pictures of errors. The scale is logarithmic: black below 1/4 of a step of 255, then a colour for
    each doubling, from dark violet at 1/4 over red and orange to pale yellow at 256, mixed in

@@ -360,7 +360,7 @@ static void close_bytes(PngReader *reader) {
 
 static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                        const char *name, HdError *error) {
-    PngReader *reader;
+    PngReader *reader = NULL;
     HD_TRY(create_texture(texture, bytes, size, name, error));
     HD_TRY(open_bytes(&reader, bytes, size, name, error));
     const HdStatus status = read_rows(reader, texture->texels, texture->height, error);
@@ -386,7 +386,7 @@ static HdStatus load_rows(HdFrame *frame, PngReader *reader, const char *name, H
 
 static HdStatus load(HdFrame *frame, const unsigned char *bytes, size_t size, const char *name,
                      HdError *error) {
-    PngReader *reader;
+    PngReader *reader = NULL;
     HdStatus status;
     HD_TRY(open_bytes(&reader, bytes, size, name, error));
     const HdPictureFacts *facts = &reader->facts;
@@ -405,7 +405,7 @@ static HdStatus load(HdFrame *frame, const unsigned char *bytes, size_t size, co
 
 static HdStatus open_rows(void **rows, FILE *file, const char *path, HdPictureFacts *facts,
                           HdError *error) {
-    PngReader *reader;
+    PngReader *reader = NULL;
     HD_TRY(open_reader(&reader, file, path, error));
     if (reader->is_interlaced) {
         close_reader(reader);

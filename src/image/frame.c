@@ -18,8 +18,7 @@ HdStatus hd_frame_create_with(HdFrame *frame, int width, int height, int floats,
     memset(frame, 0, sizeof *frame);
     frame->rgb = calloc((size_t)width * (size_t)height * (size_t)floats, sizeof *frame->rgb);
     if (frame->rgb == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a frame of %d x %d pixels",
-                       width, height);
+        return HD_NO_ROOM(error, "a frame of %d x %d pixels", width, height);
     frame->width = width;
     frame->height = height;
     frame->floats = floats;
@@ -38,8 +37,7 @@ HdStatus hd_frame_add_rgba(HdFrame *frame, HdError *error) {
     HD_TRY(hd_frame_check_size(frame, error));
     frame->rgba = calloc((size_t)frame->width * (size_t)frame->height, 4);
     if (frame->rgba == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a picture of %d x %d pixels",
-                       frame->width, frame->height);
+        return HD_NO_ROOM(error, "a picture of %d x %d pixels", frame->width, frame->height);
     return HD_OK;
 }
 
@@ -68,8 +66,7 @@ HdStatus hd_frame_add_layers(HdFrame *frame, unsigned layers, HdError *error) {
     if (effort > 0)
         frame->effort = calloc(pixels * (size_t)effort, sizeof *frame->effort);
     if ((first > 0 && frame->first == NULL) || (effort > 0 && frame->effort == NULL))
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the layers of %d x %d pixels",
-                       frame->width, frame->height);
+        return HD_NO_ROOM(error, "the layers of %d x %d pixels", frame->width, frame->height);
     frame->layers = layers;
     frame->first_floats = first;
     return HD_OK;
@@ -119,8 +116,6 @@ uint64_t hd_frame_hash(const HdFrame *frame) {
     return hd_hash_bytes(hash, frame->rgb, values * sizeof *frame->rgb);
 }
 
-/* ---- textures ---- */
-
 HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, const char *name,
                            HdError *error) {
     if (width < 1 || width > HD_MAX_TEXTURE_SIDE || height < 1 || height > HD_MAX_TEXTURE_SIDE)
@@ -134,9 +129,8 @@ HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, 
     texture->texels =
         hd_large_allocate((size_t)width * (size_t)height * 3 * sizeof *texture->texels);
     if (texture->texels == NULL)
-        return hd_fail(error, HD_FAILED,
-                       "out of memory: no room for the texture %s of %lu x %lu pixels", name,
-                       (unsigned long)width, (unsigned long)height);
+        return HD_NO_ROOM(error, "the texture %s of %lu x %lu pixels", name, (unsigned long)width,
+                          (unsigned long)height);
     texture->width = (int)width;
     texture->height = (int)height;
     return HD_OK;

@@ -117,8 +117,6 @@ uint64_t hd_frame_rays(const HdFrame *frame);
    are the same when their hashes are. */
 uint64_t hd_frame_hash(const HdFrame *frame);
 
-/* ---- textures ---- */
-
 enum { HD_MAX_TEXTURE_PIXELS = 1 << 28 };
 
 /* Linear values, 16 bits a channel, row by row from the top: r, g, b, r, g, b, ... */

@@ -8,8 +8,6 @@
 #include "image/format.h"
 #include "system/atomic_file.h"
 
-/* ---- formats ---- */
-
 /* Each format is hd_format_NAME, and the ending of its files .NAME.
    mp4: H.264, 4:2:0; mkv: FFV1, lossless RGB; gif: 256 colours, repeats for ever.
    png: 8 or 16 bits, RGB; exr: half or float, linear; pfm: float, linear; data: 8 bits, RGBA. */
@@ -40,8 +38,6 @@ bool hd_format_is_film(const HdFormat *format);
    curve, or of a picture that cannot have so many bits. */
 HdStatus hd_format_check_style(const char *path, const HdPictureStyle *style, HdError *error);
 
-/* ---- writing frames ---- */
-
 /* Writes a frame as a picture, under a temporary name beside `path`, for hd_atomic_file_commit or
    hd_atomic_file_discard to end; missing folders are made. A film's format is an error. The data
    format: int32 width, int32 height, then r g b a, 8 bits each, little endian. PNG: RGB, with an
@@ -57,8 +53,6 @@ HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdFo
 HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, const char *path,
                           HdError *error);
 
-/* ---- textures ---- */
-
 /* Reads a texture, PNG of any kind, JPEG of 8 bits that is grey or of three colours, or the data
    format, told apart by the first bytes, and takes its values off the curve; alpha is dropped. At
    most 65535 pixels a side, and 2^28 in all. */
@@ -67,8 +61,6 @@ HdStatus hd_texture_read(HdTexture *texture, const char *path, HdCurve curve, Hd
 /* The same from memory; `name` is for messages. */
 HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                            const char *name, HdCurve curve, HdError *error);
-
-/* ---- pictures to compare ---- */
 
 /* What the display values run to. Those of 8 bits and of 16 bits are whole numbers of this scale,
    so that their differences are exact; 257 are one step of 255. */

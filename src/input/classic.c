@@ -354,11 +354,6 @@ static char first_beyond(const char *before, const char *text, size_t size) {
     return start < size ? text[start] : '\0';
 }
 
-/* Behind white space and the byte order mark. */
-static bool is_json(const char *text, size_t size) {
-    return first_beyond(" \t\r\n\xef\xbb\xbf", text, size) == '{';
-}
-
 bool hd_classic_may_be(const char *text, size_t size) {
     const char first = first_beyond(" \t\n\v\f\r", text, size);
     return first != '\0' && strchr("0123456789+-.", first) != NULL;
@@ -374,7 +369,7 @@ HdStatus hd_classic_parse(HdSceneFile *input, const char *text, size_t size, con
                        HD_CLASSIC_VARIANTS);
     if (text == NULL) /* an empty input may come without memory */
         text = "";
-    if (is_json(text, size))
+    if (first_beyond(" \t\r\n\xef\xbb\xbf", text, size) == '{')
         return hd_fail(error, HD_BAD_INPUT,
                        "%s: this looks like a scene file, which 'hedron render FILE' renders",
                        name);

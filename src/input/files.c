@@ -66,7 +66,7 @@ typedef struct Loader {
 } Loader;
 
 static HdStatus fail_memory(const Loader *loader) {
-    return hd_fail(loader->error, HD_FAILED, "out of memory: no room for the scene's meshes");
+    return HD_NO_ROOM(loader->error, "the scene's meshes");
 }
 
 /* What is wrong with a file is told along with the rest of the scene; anything else ends it. */

@@ -14,7 +14,7 @@
 #include "input/classic.h"
 #include "input/fields.h"
 #include "input/files.h"
-#include "input/json/text.h"
+#include "input/json.h"
 #include "input/report.h"
 #include "system/path.h"
 
@@ -215,7 +215,7 @@ static bool place_file(Reader *reader, char path[HD_MAX_PATH]) {
 }
 
 static void fail_memory(Reader *reader) {
-    reader->status = hd_fail(reader->error, HD_FAILED, "out of memory: no room for the scene");
+    reader->status = HD_NO_ROOM(reader->error, "the scene");
 }
 
 static void *allocate(Reader *reader, size_t count, size_t size) {

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "input/check.h"
 #include "input/fields.h"
-#include "input/json/text.h"
+#include "input/json.h"
 
 /* How JSON is read here: an integer is a number like others, however long it is. */
 #define HD_JSON_FLAGS (JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL)

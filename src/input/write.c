@@ -382,7 +382,7 @@ HdStatus hd_scene_file_print(FILE *out, const HdSceneFile *file, HdError *error)
     const size_t most = 2 * (size_t)file->scene.solid_count + (size_t)file->mesh_entry_count + 1;
     writer.materials = calloc(most, sizeof *writer.materials);
     if (writer.materials == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the names of materials");
+        return HD_NO_ROOM(error, "the names of materials");
     collect_materials(&writer, file);
     write_object(&writer, &hd_scene_fields, file);
     putc('\n', out);

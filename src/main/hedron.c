@@ -19,7 +19,7 @@ static HdStatus view(const HdOptions *options, HdError *error) {
     char folder[HD_MAX_PATH], path[HD_MAX_PATH + sizeof program + 1];
     (void)options;
     if (original_arguments == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the arguments");
+        return HD_NO_ROOM(error, "the arguments");
     if (hd_path_of_program(folder)) {
         snprintf(path, sizeof path, "%s/%s", folder, program);
         execv(path, original_arguments);

@@ -393,8 +393,7 @@ static bool allocate(Build *build, HdHierarchy *hierarchy) {
 
 static HdStatus build_all(Build *build, HdHierarchy *hierarchy) {
     if (!allocate(build, hierarchy))
-        return hd_fail(build->error, HD_FAILED,
-                       "out of memory: no room for a hierarchy over %d boxes", build->count);
+        return HD_NO_ROOM(build->error, "a hierarchy over %d boxes", build->count);
     HD_TRY(load(build));
     while (build->open_count > 0)
         HD_TRY(divide_level(build));

@@ -147,8 +147,7 @@ HdStatus hd_hierarchy_widen(HdWideHierarchy *wide, const HdHierarchy *hierarchy,
     if (widen(wide, hierarchy))
         return HD_OK;
     hd_wide_hierarchy_free(wide);
-    return hd_fail(error, HD_FAILED, "out of memory: no room for %d nodes of %d children",
-                   hierarchy->node_count, width);
+    return HD_NO_ROOM(error, "%d nodes of %d children", hierarchy->node_count, width);
 }
 
 void hd_wide_hierarchy_free(HdWideHierarchy *wide) {

@@ -422,7 +422,8 @@ static void read_file(Libraries *libraries, const char *path, const char *name) 
 
 /* Reads libraries whose names, each with a zero byte, are the `size` bytes at `names`. */
 static void read_libraries(Libraries *libraries, char *names, size_t size) {
-    for (char *name = names; name < names + size; name += strlen(name) + 1) {
+    for (size_t next = 0; next < size; next += strlen(names + next) + 1) {
+        char *name = names + next;
         fix_separators(name);
         if (!admit(libraries, name))
             continue;

@@ -12,8 +12,6 @@
 #include "base/error.h"
 #include "mesh/mesh.h"
 
-/* ---- memory, which free() frees ---- */
-
 /* Start with all zeros but `most`. */
 typedef struct HdObjMemory {
     size_t most; /* bytes at a time */
@@ -32,8 +30,6 @@ void *hd_obj_allocate(HdObjMemory *memory, size_t count, size_t size);
 /* Frees an array of so many bytes; NULL is allowed. Not needed for what lasts until the reading's
    end. */
 void hd_obj_release(HdObjMemory *memory, void *array, size_t bytes);
-
-/* ---- words ---- */
 
 /* Some bytes of a text, up to but without `end`. */
 typedef struct HdSpan {
@@ -67,8 +63,6 @@ const char *hd_number_fault(HdSpan word, double *value);
 /* What a name should have been: there, without control characters. NULL: it is. */
 const char *hd_name_fault(HdSpan name);
 
-/* ---- names, numbered in the order in which they first come up ---- */
-
 typedef struct HdName {
     HdSpan text;
     char *owned; /* the same with a zero byte; who takes it leaves NULL */
@@ -91,8 +85,6 @@ int hd_name_table_add(HdNameTable *table, HdSpan name, HdObjMemory *memory);
 int hd_name_table_find(const HdNameTable *table, HdSpan name);
 
 void hd_name_table_free(HdNameTable *table);
-
-/* ---- materials ---- */
 
 /* The material of faces before the first `usemtl`. */
 #define HD_OBJ_NO_MATERIAL "default"

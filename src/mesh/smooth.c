@@ -263,8 +263,7 @@ HdStatus hd_mesh_smooth(HdMesh *mesh, double crease_degrees, HdError *error) {
             smooth_place(&smoother, i);
         take_normals(&smoother, mesh);
     } else {
-        status = hd_fail(error, HD_FAILED, "out of memory: no room for the normals of %d triangles",
-                         mesh->triangle_count);
+        status = HD_NO_ROOM(error, "the normals of %d triangles", mesh->triangle_count);
     }
     free(smoother.place_of);
     free(smoother.begin);

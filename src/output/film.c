@@ -56,8 +56,7 @@ HdStatus hd_segments_find(HdSegments *segments, const HdOutputPlan *plan, const 
     segments->names = calloc((size_t)segments->count, sizeof *segments->names);
     segments->is_whole = calloc((size_t)segments->count, sizeof *segments->is_whole);
     if (segments->names == NULL || segments->is_whole == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a list of %d segments",
-                       segments->count);
+        return HD_NO_ROOM(error, "a list of %d segments", segments->count);
     return look_at_files(segments, plan, output, frames, error);
 }
 

@@ -49,8 +49,6 @@ void hd_segments_remove(const HdSegments *segments);
 
 void hd_segments_free(HdSegments *segments);
 
-/* ---- the film ---- */
-
 typedef struct HdFilm HdFilm;
 
 /* Starts FFmpeg for the first frames that are missing. What is pointed to must live on; `segments`

@@ -9,7 +9,7 @@
 
 #include "image/picture.h"
 #include "input/scene_file.h"
-#include "tables/tables.h"
+#include "tables/table.h"
 
 /* Of frames of a scene whose files are loaded, as strict arithmetic renders them and PNG pictures
    of that style hold them: every field of the scene file (fields.h) but names of files and

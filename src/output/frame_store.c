@@ -383,7 +383,7 @@ static HdStatus create_places(HdFrameStore *store, HdError *error) {
     store->places = calloc((size_t)count, sizeof *store->places);
     store->waiting = calloc((size_t)count, sizeof *store->waiting);
     if (store->places == NULL || store->waiting == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for %d frames", count);
+        return HD_NO_ROOM(error, "%d frames", count);
     while (store->place_count < count)
         HD_TRY(create_place(&store->places[store->place_count++], &store->plan, error));
     return HD_OK;

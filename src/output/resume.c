@@ -108,7 +108,7 @@ HdStatus hd_resume_find(HdResume *resume, const HdOutputPlan *plan, const HdFram
     resume->missing.frames = malloc(count * sizeof *resume->missing.frames);
     resume->is_finished = calloc(count, sizeof *resume->is_finished);
     if (resume->missing.frames == NULL || resume->is_finished == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a list of %zu frames", count);
+        return HD_NO_ROOM(error, "a list of %zu frames", count);
     for (int i = 0; i < plan->count; i++)
         HD_TRY(hd_segments_find(&resume->films[i], plan, &plan->list[i], frames, error));
     return look_at_frames(resume, plan, error);

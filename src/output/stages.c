@@ -92,11 +92,6 @@ static void take_work(HdStages *stages, int stage, int item) {
         stages->next[stage]++;
 }
 
-/* Nothing is left for the stage, now or later. */
-static bool is_over(const HdStages *stages, int stage) {
-    return stages->next[stage] >= (stages->ended ? wanted_end(stages) : stages->limit);
-}
-
 static void wake_all(HdStages *stages) {
     for (int i = 0; i < stages->count; i++)
         pthread_cond_broadcast(&stages->work_made[i]);
@@ -156,7 +151,9 @@ static void *worker_main(void *argument) {
     int unsettled = -1; /* the last item that may have been put off; negative: none */
     pthread_mutex_lock(&stages->mutex);
     for (;;) {
-        const bool over = is_over(stages, stage);
+        /* nothing is left for the stage, now or later */
+        const bool over =
+            stages->next[stage] >= (stages->ended ? wanted_end(stages) : stages->limit);
         const int item = over ? -1 : find_work(stages, stage);
         if (item >= 0) {
             take_work(stages, stage, item);
@@ -340,7 +337,7 @@ HdStatus hd_stages_start(HdStages **out, const HdStage *list, int count, int ite
     int reason = 0;
     *out = NULL;
     if (stages == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the stages of a run");
+        return HD_NO_ROOM(error, "the stages of a run");
     for (int i = 0; i < count && reason == 0; i++)
         reason = start_worker(stages, i);
     if (reason == 0) {

@@ -11,7 +11,7 @@
 #include "render/survey.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
-#include "tables/tables.h"
+#include "tables/table.h"
 
 /* Steps of 255 by which pictures must differ, for each step of the error that is aimed at: of
    neighbours that have one sample; of the parts of a pixel's samples; of neighbours that have
@@ -110,7 +110,7 @@ static HdStatus fill_refinement(HdRefinement *r, const HdFrameMaker *maker, HdEr
     r->chosen = calloc(pixels, sizeof *r->chosen);
     r->steps = calloc(pixels, sizeof *r->steps);
     if (!(r->order && r->pixels && r->chosen && r->steps))
-        return hd_fail(error, HD_FAILED, "out of memory: no room for %zu pixels", pixels);
+        return HD_NO_ROOM(error, "%zu pixels", pixels);
     order_pixels(r);
     return HD_OK;
 }
@@ -218,7 +218,7 @@ static HdStatus sample_chosen(HdRefinement *r, int count, int from, int samples,
     r->requests = hd_reserved(r->requests, sizeof *r->requests, all, &r->request_room);
     r->surveys = hd_reserved(r->surveys, sizeof *r->surveys, all, &r->survey_room);
     if (r->requests == NULL || r->surveys == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for surveys of %d pixels", all);
+        return HD_NO_ROOM(error, "surveys of %d pixels", all);
     hd_chunks_run(r->threads, count, request_samples, &pass);
     const double own = (double)count * (samples - from);
     const HdSurveyPass asked = {.requests = r->requests,
@@ -362,8 +362,9 @@ static void fill_frame(HdRefinement *r, HdFrame *frame) {
 static HdStatus find_first_hits(const HdFrameMaker *maker, const HdCamera *camera, HdFrame *frame,
                                 HdError *error) {
     HdFrameTables tables;
-    HdStatus status = hd_compile_frame(&tables, maker->scene, camera,
-                                       hd_renderer_options(maker->renderer)->precision, error);
+    HdStatus status =
+        hd_compile_frame(&tables, maker->scene, camera,
+                         hd_renderer_options(maker->renderer)->precision, NULL, error);
     tables.watched = (HdWatched){.watch = maker->watch}; /* worth nothing more to it */
     if (status == HD_OK)
         status = hd_renderer_first_hits(maker->renderer, &tables, frame, error);
@@ -400,7 +401,7 @@ HdStatus hd_frame_maker_open(HdFrameMaker *maker, HdError *error) {
         return HD_OK;
     maker->refinement = calloc(1, sizeof *maker->refinement);
     if (maker->refinement == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a refinement");
+        return HD_NO_ROOM(error, "a refinement");
     HdStatus status = fill_refinement(maker->refinement, maker, error);
     if (status != HD_OK)
         hd_frame_maker_close(maker);
@@ -421,8 +422,9 @@ HdStatus hd_frame_prepare(const HdFrameMaker *maker, const HdCamera *camera, HdF
     *flight = (HdFlight){.camera = *camera};
     if (maker->refinement != NULL)
         return HD_OK;
-    HdStatus status = hd_compile_frame(&flight->tables, maker->scene, camera,
-                                       hd_renderer_options(maker->renderer)->precision, error);
+    HdStatus status =
+        hd_compile_frame(&flight->tables, maker->scene, camera,
+                         hd_renderer_options(maker->renderer)->precision, NULL, error);
     flight->tables.watched = (HdWatched){maker->watch, HD_WATCH_FRAME};
     return status;
 }

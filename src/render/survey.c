@@ -45,9 +45,7 @@ static HdStatus create(HdSampleSet *set, int count, int grid_side, HdError *erro
     set->places = calloc((size_t)count, sizeof *set->places);
     set->count = count;
     set->grid_side = grid_side;
-    return set->places != NULL
-               ? HD_OK
-               : hd_fail(error, HD_FAILED, "out of memory: no room for %d samples", count);
+    return set->places != NULL ? HD_OK : HD_NO_ROOM(error, "%d samples", count);
 }
 
 HdStatus hd_sample_set_grid(HdSampleSet *set, int side, HdError *error) {
@@ -56,7 +54,7 @@ HdStatus hd_sample_set_grid(HdSampleSet *set, int side, HdError *error) {
     unsigned char *taken = calloc((size_t)count, 1);
     if (taken == NULL) {
         hd_sample_set_free(set);
-        return hd_fail(error, HD_FAILED, "out of memory: no room for %d samples", count);
+        return HD_NO_ROOM(error, "%d samples", count);
     }
     int found = 0;
     for (uint32_t i = 0; found < count; i++) {
@@ -192,7 +190,7 @@ static HdStatus reserve(HdSurveyor *surveyor, int count, HdError *error) {
     surveyor->open =
         hd_reserved(surveyor->open, sizeof *surveyor->open, count, &surveyor->open_room);
     if (surveyor->entries == NULL || surveyor->open == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a list of %d pixels", count);
+        return HD_NO_ROOM(error, "a list of %d pixels", count);
     return reserve_frame(surveyor, (at_once + HD_LISTED_WIDTH - 1) / HD_LISTED_WIDTH, error);
 }
 
@@ -275,9 +273,8 @@ static HdStatus submit(const Part *part, HdWatched watched, HdError *error) {
         .bound_cutoff = part->cutoff,
         .most_left_out = surveyor->most_left_out,
     };
-    HD_TRY(hd_compile_listed_frame(&tables, surveyor->scene, surveyor->camera,
-                                   hd_renderer_options(surveyor->renderer)->precision, &list,
-                                   error));
+    HD_TRY(hd_compile_frame(&tables, surveyor->scene, surveyor->camera,
+                            hd_renderer_options(surveyor->renderer)->precision, &list, error));
     tables.watched = watched;
     surveyor->frame.height = tables.height;
     HdStatus status = hd_renderer_render(surveyor->renderer, &tables, &surveyor->frame, error);

@@ -8,8 +8,6 @@
 #include "image/curve.h"
 #include "system/thread_pool.h"
 
-/* ---- samples ---- */
-
 /* Samples in places of a grid, each place once: column | row << 16. The first 1, 4, 16, ... samples
    are spread over the pixel as evenly as a grid of theirs. */
 typedef struct HdSampleSet {
@@ -32,8 +30,6 @@ HdStatus hd_sample_set_dense(HdSampleSet *set, int side, HdError *error);
 
 void hd_sample_set_free(HdSampleSet *set);
 
-/* ---- errors ---- */
-
 /* The radiance, after exposure, that may be missing from a pixel or sample whose darkest channel
    has `radiance` before its picture is off by `steps` of 255: on the linear curve the same
    everywhere, on sRGB's less where it is dark. It never exceeds what is allowed: the curve f grows
@@ -47,8 +43,6 @@ double hd_missing_allowed(HdCurve curve, double steps, double radiance);
 double hd_missing_steps(HdCurve curve, double missing, double radiance);
 
 float hd_darkest(const float rgb[3]);
-
-/* ---- surveys ---- */
 
 /* Samples of a pixel that follow each other in the set: their means. */
 typedef struct HdSurvey {

@@ -32,7 +32,7 @@ static HdStatus read_stream(FILE *stream, const char *name, size_t most, char **
                             HdError *error) {
     *text = malloc(most + 1);
     if (*text == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the scene");
+        return HD_NO_ROOM(error, "the scene");
     *size = fread(*text, 1, most + 1, stream);
     if (hd_interrupt_signal() != 0)
         return hd_fail(error, HD_INTERRUPTED, "interrupted while reading %s", name);

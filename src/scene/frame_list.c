@@ -86,7 +86,7 @@ static HdStatus fill_list(HdFrameList *list, const Range *ranges, int count, HdE
         total += ranges[i].last - ranges[i].first + 1;
     list->frames = malloc((size_t)total * sizeof *list->frames);
     if (list->frames == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a list of %d frames", total);
+        return HD_NO_ROOM(error, "a list of %d frames", total);
     for (int i = 0; i < count; i++)
         for (int frame = ranges[i].first; frame <= ranges[i].last; frame++)
             list->frames[list->count++] = frame;
@@ -107,7 +107,7 @@ static HdStatus parse_text(HdFrameList *list, const char *text, int frame_count,
         text += length + 1;
     }
     if (!has_room)
-        status = hd_fail(error, HD_FAILED, "out of memory: no room for a frame list");
+        status = HD_NO_ROOM(error, "a frame list");
     else if (status == HD_OK)
         status = fill_list(list, ranges, merge_ranges(ranges, count), error);
     free(ranges);

@@ -575,7 +575,7 @@ static HdStatus make_floor_mesh(HdMesh *mesh, const HdFloor *floor, int division
     mesh->materials = calloc(1, sizeof *mesh->materials);
     if (mesh->uvs == NULL || mesh->corner_uvs == NULL || mesh->materials == NULL ||
         !hd_mesh_allocate(mesh, points, triangles))
-        return hd_fail(error, HD_FAILED, "out of memory: no room for %zu triangles", triangles);
+        return HD_NO_ROOM(error, "%zu triangles", triangles);
     HD_TRY(add_material(mesh, "floor", &material, error));
     fill_floor_points(mesh, floor, divisions);
     fill_floor_triangles(mesh, divisions);
@@ -633,8 +633,7 @@ static HdStatus make(HdScene *made, const HdScene *scene, int disc_sides, int di
     made->instances = calloc(own + (size_t)scene->instance_count, sizeof *made->instances);
     made->pictures = calloc((size_t)scene->picture_count + 1, sizeof *made->pictures);
     if (made->meshes == NULL || made->instances == NULL || made->pictures == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for %zu meshes",
-                       own + (size_t)scene->mesh_count);
+        return HD_NO_ROOM(error, "%zu meshes", own + (size_t)scene->mesh_count);
     for (int s = 0; s < scene->solid_count; s++) {
         const HdSolid *solid = &scene->solids[s];
         HD_TRY(hd_triangulate_solid(&made->meshes[s], solid, disc_sides, divisions, error));

@@ -10,8 +10,6 @@
 #include "base/error.h"
 #include "system/path.h"
 
-/* ---- a file ---- */
-
 /* Whether a file outlives a power cut once it has its name. */
 typedef enum HdDurability { HD_FLEETING, HD_DURABLE } HdDurability;
 
@@ -53,8 +51,6 @@ HdStatus hd_atomic_file_commit(HdAtomicFile *file, HdDurability durability, HdEr
    to be done. */
 void hd_atomic_file_discard(HdAtomicFile *file);
 
-/* ---- the disk ---- */
-
 /* Waits until the bytes of an open file are on the disk; `path` is for the message. HD_FAILED where
    the disk says no. What no disk is behind, such as a pipe, has nothing to wait for. */
 HdStatus hd_sync_file(int descriptor, const char *path, HdError *error);
@@ -66,8 +62,6 @@ HdStatus hd_sync_folder(const char *path, HdError *error);
 
 /* Forgets the folders that were there, and synced, earlier in the run: another run begins. */
 void hd_known_folders_forget(void);
-
-/* ---- what killed programs left ---- */
 
 /* Of a longer name than this, without its folder, a temporary file's name has only the begin. */
 enum { HD_TEMPORARY_MOST_KEPT = 200 };

@@ -32,8 +32,6 @@ bool hd_wait_to_write(int descriptor);
 /* What the first signal writes to standard error at once; NULL: nothing. The text must live on. */
 void hd_interrupt_announce(const char *text);
 
-/* ---- leftovers ---- */
-
 /* Remember a file that exists, and the leader of a process group. One that finds no room, or a name
    of HD_MAX_PATH bytes, is not remembered. */
 void hd_leftovers_add_file(const char *path);

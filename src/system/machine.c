@@ -65,8 +65,6 @@ void *hd_large_allocate(size_t bytes) {
     return memory;
 }
 
-/* ---- displays ---- */
-
 static bool is_set(const char *variable) {
     const char *value = getenv(variable);
     return value != NULL && value[0] != '\0';
@@ -94,8 +92,6 @@ bool hd_display_may_be_there(const char *folder) {
     }
     return is_there;
 }
-
-/* ---- what was refused ---- */
 
 enum { MAX_SENTENCES = 8 };
 

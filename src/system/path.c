@@ -292,8 +292,7 @@ static HdStatus read_file(int descriptor, const char *what, const char *path, in
     *size = (size_t)found.st_size;
     *bytes = malloc(*size + 1);
     if (*bytes == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the %zu bytes of the %s %s",
-                       *size, what, path);
+        return HD_NO_ROOM(error, "the %zu bytes of the %s %s", *size, what, path);
     const ssize_t done = hd_read_fully(descriptor, *bytes, *size);
     if (done < 0)
         return hd_fail(error, HD_BAD_INPUT, CANNOT_READ "%s", what, path, strerror(errno));

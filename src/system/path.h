@@ -53,8 +53,6 @@ HdStatus hd_pattern_format_single(const char *name, char out[HD_MAX_PATH], HdErr
 /* Writes the name of one frame of a checked pattern. */
 HdStatus hd_pattern_format(const char *pattern, int frame, char out[HD_MAX_PATH], HdError *error);
 
-/* ---- bytes ---- */
-
 /* Reads `size` bytes unless the file ends before, whatever signals come; returns how many these
    are, or -1 and errno. */
 ssize_t hd_read_fully(int descriptor, void *bytes, size_t size);

@@ -125,7 +125,7 @@ static HdStatus start_threads(HdThreadPool *pool, int threads, HdError *error) {
     int code = 0;
     pool->threads = calloc((size_t)threads, sizeof *pool->threads);
     if (pool->threads == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for %d threads", threads);
+        return HD_NO_ROOM(error, "%d threads", threads);
     for (int i = 0; i < threads && code == 0; i++) {
         pool->threads[i] = (Thread){.pool = pool, .number = i};
         code = hd_start_thread(&pool->threads[i].thread, thread_main, &pool->threads[i]);
@@ -143,7 +143,7 @@ static HdStatus start_threads(HdThreadPool *pool, int threads, HdError *error) {
 HdStatus hd_thread_pool_create(HdThreadPool **out, int threads, HdError *error) {
     HdThreadPool *pool = calloc(1, sizeof *pool);
     if (pool == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a pool of threads");
+        return HD_NO_ROOM(error, "a pool of threads");
     pthread_mutex_init(&pool->mutex, NULL);
     pthread_cond_init(&pool->work_given, NULL);
     pthread_cond_init(&pool->work_done, NULL);

@@ -30,8 +30,6 @@ bool hd_thread_pool_run(HdThreadPool *pool, int count, HdThreadWork *work, void 
 /* Ends the threads. NULL is allowed. */
 void hd_thread_pool_destroy(HdThreadPool *pool);
 
-/* ---- items that are too small to be handed to threads one by one ---- */
-
 /* Works on the items first .. end - 1; calls with other items may run at once. */
 typedef void HdChunkWork(void *context, int first, int end);
 

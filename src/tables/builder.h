@@ -79,8 +79,6 @@ typedef struct HdFloorFrame {
     HdVec3 centre, normal, axis_a, axis_b;
 } HdFloorFrame;
 
-/* ---- solids, the floor and lights (elements.c) ---- */
-
 /* Shapes the solids, and counts objects, planes, edges, lights and pictures. */
 HdStatus hd_builder_count(HdBuilder *builder, HdError *error);
 /* Lists the lights, and groups them: halves the lights across their longest side, and the halves,
@@ -107,8 +105,6 @@ HdFloorFrame hd_floor_frame(const HdFloor *floor);
 /* No ray sees more radiance, contributions being clamped. */
 HdVec3 hd_most_radiance(const HdScene *scene);
 
-/* ---- meshes (mesh_places.c) ---- */
-
 /* Where each mesh's entries begin, the box about all instances and the hierarchy over them. */
 HdStatus hd_builder_prepare_meshes(HdBuilder *builder, HdError *error);
 void hd_builder_free_meshes(HdBuilder *builder);
@@ -120,8 +116,6 @@ HdPlacement hd_placement_of(const HdScene *scene, int instance);
 /* The middle of the box about all instances, in world space; returns half its longest side. */
 double hd_box_meshes(const HdScene *scene, HdVec3 *centre);
 bool hd_has_hierarchy(const HdScene *scene, const HdMesh *mesh);
-
-/* ---- in each precision ---- */
 
 static inline void hd_store3(real out[3], HdVec3 v) {
     out[0] = (real)v.x;
@@ -144,8 +138,6 @@ void NAMED(hd_fill_object_offsets)(const HdBuilder *builder);
 void NAMED(hd_fill_meshes)(const HdBuilder *builder);
 /* After the others: from what they stored. */
 void NAMED(hd_fill_lights)(const HdBuilder *builder);
-
-/* ---- the whole (compile.c) ---- */
 
 /* As hd_compile_scene and hd_compile_frame (tables.h), which choose one of both. `list` is NULL
    where all pixels have all places of the grid. */

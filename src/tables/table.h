@@ -9,6 +9,8 @@
 
 #include "base/error.h"
 #include "base/watch.h"
+#include "scene/camera.h"
+#include "scene/scene.h"
 
 /* Bytes for a device, laid out as the kernels' structs. Empty tables are allowed. */
 typedef struct HdTable {
@@ -95,5 +97,21 @@ HdStatus hd_check_room(const HdSceneTables *tables, const HdMemoryRoom *room, Hd
 /* Memory for table->bytes, zeroed and aligned for the widest loads; at least one unit, so that no
    table is NULL. `what` names it in a message: "scene's triangles". */
 HdStatus hd_table_allocate(HdTable *table, const char *what, HdError *error);
+
+/* Compiles a scene that hd_scene_validate accepted. All geometry is computed in double; differences
+   of centres are formed before they are rounded to the kernels' precision. `lanes` is what
+   hd_renderer_lanes tells; a scene without meshes may be compiled for any number. HD_UNAVAILABLE
+   where this machine has less memory than the tables need, HD_FAILED where it is taken. */
+HdStatus hd_compile_scene(HdSceneTables *tables, const HdScene *scene, HdPrecision precision,
+                          int lanes, HdError *error);
+
+/* Compiles one frame of the same scene: the samples of the grid, or, of a surveyed scene, those
+   that are listed, 1 or more. `list` may be NULL. */
+HdStatus hd_compile_frame(HdFrameTables *tables, const HdScene *scene, const HdCamera *camera,
+                          HdPrecision precision, const HdSampleList *list, HdError *error);
+
+/* Of a surveyed scene: no more than this, after exposure, is left out of a sample in all. It goes
+   through all lights and materials, so ask once for a scene. */
+double hd_most_left_out(const HdScene *scene);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "tables/tables.h"
+#include "tables/table.h"
 
 #include <math.h>
 #include <string.h>
@@ -42,8 +42,8 @@ HdStatus hd_compile_scene(HdSceneTables *tables, const HdScene *scene, HdPrecisi
     return status;
 }
 
-static HdStatus compile_frame(HdFrameTables *tables, const HdScene *scene, const HdCamera *camera,
-                              HdPrecision precision, const HdSampleList *list, HdError *error) {
+HdStatus hd_compile_frame(HdFrameTables *tables, const HdScene *scene, const HdCamera *camera,
+                          HdPrecision precision, const HdSampleList *list, HdError *error) {
     memset(tables, 0, sizeof *tables);
     tables->precision = precision;
     tables->width = list != NULL ? HD_LISTED_WIDTH : scene->width;
@@ -58,15 +58,4 @@ static HdStatus compile_frame(HdFrameTables *tables, const HdScene *scene, const
     if (status != HD_OK)
         hd_frame_tables_free(tables);
     return status;
-}
-
-HdStatus hd_compile_frame(HdFrameTables *tables, const HdScene *scene, const HdCamera *camera,
-                          HdPrecision precision, HdError *error) {
-    return compile_frame(tables, scene, camera, precision, NULL, error);
-}
-
-HdStatus hd_compile_listed_frame(HdFrameTables *tables, const HdScene *scene,
-                                 const HdCamera *camera, HdPrecision precision,
-                                 const HdSampleList *list, HdError *error) {
-    return compile_frame(tables, scene, camera, precision, list, error);
 }

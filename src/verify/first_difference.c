@@ -85,12 +85,18 @@ static HdStatus compare(Search *search, int depth, bool splits, bool *differs, H
     return status;
 }
 
+static uint32_t bits_of(float value) {
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
 /* The number of the first value that differs in the last comparison, row by row, bit by bit: a NaN
    is the same as itself. */
 static int first_value(const Search *search) {
     const HdFrame *found = &search->frames[DEVICE], *expected = &search->frames[PLAIN_C];
     for (int i = 0; i < found->width * found->height * found->floats; i++)
-        if (memcmp(&found->rgb[i], &expected->rgb[i], sizeof *found->rgb) != 0)
+        if (bits_of(found->rgb[i]) != bits_of(expected->rgb[i]))
             return i;
     return NOWHERE;
 }

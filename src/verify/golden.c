@@ -481,8 +481,7 @@ HdStatus hd_golden_build(const HdGoldenFrame *frame, HdScene *scene, HdCamera *c
                          HdError *error) {
     if (!frame->base(scene, camera, frame->variant)) {
         hd_scene_free(scene);
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the golden frame '%s'",
-                       frame->name);
+        return HD_NO_ROOM(error, "the golden frame '%s'", frame->name);
     }
     change(frame, scene, camera);
     return HD_OK;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "verify/probe.h"
 
+#include "verify/probe_operands.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -8,7 +10,6 @@
 #include <string.h>
 
 #include "base/hash.h"
-#include "verify/probe_operands.h"
 
 #define WORDS(name, words) words,
 static const char *const number_words[] = {HD_PROBE_NUMBERS(WORDS)};
@@ -189,7 +190,7 @@ static HdStatus probe_once(HdRenderer *renderer, int tuples, HdProbeReport *repo
     const HdKernelShape *shape = &hd_renderer_kernels(renderer)->shape;
     Memory *memory = calloc(1, sizeof *memory);
     if (memory == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the arithmetic probe");
+        return HD_NO_ROOM(error, "the arithmetic probe");
     Probe probe = probe_in(memory, shape->precision, report);
     *report = (HdProbeReport){.hash = HD_HASH_START};
     HdStatus status = run(renderer, &probe, tuples, error);
@@ -203,7 +204,7 @@ static HdStatus probe_once(HdRenderer *renderer, int tuples, HdProbeReport *repo
 /* What is still wrong then is told as it was without. */
 static void try_by_fma(HdRenderer *renderer, int tuples, HdProbeReport *report) {
     HdKernelShape *shape = &hd_renderer_kernels(renderer)->shape;
-    HdProbeReport healed;
+    HdProbeReport healed = {0};
     HdError ignored;
     bool only_rounding_differs;
     shape->rounds_by_fma = true;
@@ -217,6 +218,7 @@ HdStatus hd_probe(HdRenderer *renderer, int tuples, HdProbeReport *report, HdErr
     HdKernelCache *kernels = hd_renderer_kernels(renderer);
     const HdDevice *device = hd_renderer_device(renderer);
     bool only_rounding_differs = false;
+    *report = (HdProbeReport){0};
     HdStatus status = probe_once(renderer, tuples, report, &only_rounding_differs, error);
     kernels->is_settled = false;
     if (status != HD_OK)

@@ -290,8 +290,7 @@ static HdStatus build_random(uint64_t seed, HdScene *scene, HdCamera *camera, Hd
     for (;;) {
         if (!draw_scene(&lots, scene, camera)) {
             hd_scene_free(scene);
-            return hd_fail(error, HD_FAILED,
-                           "out of memory: no room for the scene of seed %" PRIu64, seed);
+            return HD_NO_ROOM(error, "the scene of seed %" PRIu64, seed);
         }
         if (hd_scene_validate(scene, &ignored) == HD_OK)
             return HD_OK;

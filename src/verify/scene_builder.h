@@ -29,8 +29,6 @@ bool build_texture(HdTexture *texture, int width, int height);
 /* Looks from `eye` at `target`, z up. */
 void build_camera(HdCamera *camera, HdVec3 eye, HdVec3 target, double field_of_view_degrees);
 
-/* ---- meshes ---- */
-
 /* Makes room in a scene; the caller frees it with the scene. */
 bool build_meshes(HdScene *scene, int meshes, int instances, int pictures);
 

@@ -7,7 +7,7 @@
 #include "device/kernel_cache.h"
 #include "render/frame.h"
 #include "system/machine.h"
-#include "tables/tables.h"
+#include "tables/table.h"
 #include "verify/golden.h"
 #include "verify/probe.h"
 
@@ -28,7 +28,7 @@ static HdStatus render_hash(HdRenderer *renderer, const HdSceneTables *tables, c
                             const HdCamera *camera, uint64_t *hash, HdError *error) {
     HdFrameTables view;
     HdFrame image;
-    HD_TRY(hd_compile_frame(&view, scene, camera, tables->precision, error));
+    HD_TRY(hd_compile_frame(&view, scene, camera, tables->precision, NULL, error));
     view.floats = tables->surveyed ? HD_SURVEY_FLOATS : HD_RADIANCE_FLOATS;
     HdStatus status = hd_frame_create_with(&image, scene->width, scene->height, view.floats, error);
     if (status == HD_OK) {

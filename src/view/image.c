@@ -25,7 +25,7 @@ HdStatus hd_view_image_resize(HdViewImage *image, int width, int height, HdError
         return HD_OK;
     uint8_t *rgba = calloc(4 * (size_t)width, (size_t)height);
     if (rgba == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a picture to show");
+        return HD_NO_ROOM(error, "a picture to show");
     if (image->width > 0)
         copy_fitted(image, rgba, width, height, width);
     free(image->rgba);

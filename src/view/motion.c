@@ -74,8 +74,6 @@ void hd_pose_print(FILE *out, const HdPose *pose, double field_of_view_degrees) 
     fputs("}\n", out);
 }
 
-/* ---- how fine ---- */
-
 /* Before anything was measured: what two cores take for a common scene. */
 #define USUAL_SECONDS 2e-6
 

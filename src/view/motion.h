@@ -31,8 +31,6 @@ void hd_pose_apply(const HdPose *pose, HdScene *scene);
    numbers. */
 void hd_pose_print(FILE *out, const HdPose *pose, double field_of_view_degrees);
 
-/* ---- size, samples and depth of a picture that is there in time while something moves ---- */
-
 /* Seconds for a moving picture: 38 in a second, for above 25 are wanted, and times vary. */
 #define HD_MOVING_SECONDS 0.026
 

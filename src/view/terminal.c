@@ -304,7 +304,7 @@ static HdStatus open_terminal(Terminal *t, HdError *error) {
     if (tcgetattr(t->file, &t->before) != 0)
         return hd_fail(error, HD_UNAVAILABLE, "--terminal needs a terminal: %s", strerror(errno));
     t->out = isatty(STDOUT_FILENO) ? open_memstream(&t->said, &t->said_size) : stdout;
-    return t->out != NULL ? HD_OK : hd_fail(error, HD_FAILED, "out of memory: no room for a view");
+    return t->out != NULL ? HD_OK : HD_NO_ROOM(error, "a view");
 }
 
 static HdStatus take_terminal(Terminal *t, HdError *error) {

@@ -538,7 +538,7 @@ HdStatus hd_viewer_open(HdViewer **viewer, const HdScenePlan *scene, const HdDev
                         FILE *out, HdError *error) {
     HdViewer *v = calloc(1, sizeof *v);
     if (v == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a view");
+        return HD_NO_ROOM(error, "a view");
     v->out = out;
     v->gain = FIRST_GAIN;
     v->change = 1;

@@ -55,8 +55,6 @@ int hd_viewer_lines(HdViewer *viewer, char lines[HD_VIEW_LINES][HD_VIEW_LINE]);
 /* Waits for what is under way. NULL is allowed. */
 void hd_viewer_close(HdViewer *viewer);
 
-/* ---- the whole of it; what the plans point to must live on ---- */
-
 /* Shows the scene until the user closes the window. HD_UNAVAILABLE where there is no display,
    HD_INTERRUPTED after a signal. Names of saved pictures and cameras go to standard output. */
 HdStatus hd_view_in_window(const HdScenePlan *scene, const HdDevicePlan *devices, HdError *error);

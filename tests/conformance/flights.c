@@ -30,7 +30,7 @@ static void open_views(Views *views, const Target *target) {
         fail(frame_name, &error);
     for (int i = 0; i < VIEWS; i++) {
         views->alone[i] = render_scene(target, &scene, &camera, frame_name);
-        if (hd_compile_frame(&views->tables[i], &scene, &camera, target->precision, &error) !=
+        if (hd_compile_frame(&views->tables[i], &scene, &camera, target->precision, NULL, &error) !=
             HD_OK)
             fail(frame_name, &error);
         if (hd_frame_add_rgba(&views->alone[i], &error) != HD_OK)

@@ -9,8 +9,6 @@
 
 #include "base/error.h"
 
-/* ---- driver ---- */
-
 typedef unsigned int HdCuResult; /* enumerations are as wide and as signed as this */
 typedef unsigned int HdCuAttribute;
 typedef unsigned int HdCuJitOption;
@@ -121,8 +119,6 @@ HdStatus hd_cuda_fail(const HdCudaDriver *driver, const char *function, HdCuResu
 
 /* "CUDA_ERROR_OUT_OF_MEMORY" */
 const char *hd_cuda_error_name(const HdCudaDriver *driver, HdCuResult code);
-
-/* ---- NVRTC ---- */
 
 typedef unsigned int HdNvrtcResult;
 typedef struct _nvrtcProgram *HdNvrtcProgram;

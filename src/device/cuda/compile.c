@@ -280,7 +280,7 @@ static HdStatus copy_image(HdCudaCode *code, const HdNvrtc *nvrtc, HdNvrtcProgra
     code->image = malloc(code->size);
     code->log = copy_log(nvrtc, program);
     if (!code->image || !code->log)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for compiled kernels");
+        return HD_NO_ROOM(error, "compiled kernels");
     result = target.is_ptx ? functions->ptx(program, code->image)
                            : functions->cubin(program, code->image);
     return result == 0 ? HD_OK

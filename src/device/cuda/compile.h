@@ -10,8 +10,6 @@
 #include "device/cuda/api.h"
 #include "device/kernel_source.h"
 
-/* ---- the library ---- */
-
 typedef struct HdNvrtc {
     HdNvrtcFunctions functions;
     int major, minor;
@@ -40,8 +38,6 @@ HdStatus hd_nvrtc_check(const char *device, int arch, int driver_major, HdError 
 
 /* Remembers that the library compiles for sm_`arch`. What cannot be remembered is not. */
 void hd_nvrtc_remember(const char *library, int arch, int driver_major);
-
-/* ---- what it compiles ---- */
 
 typedef struct HdCudaCode {
     char *image; /* owned; machine code, or PTX with its NUL */

@@ -6,8 +6,6 @@
 
 #include "tables/table.h"
 
-/* ---- memory ---- */
-
 enum { LEAST_TABLE_BYTES = 16 };
 
 HdStatus hd_gpu_refuse(const HdGpu *gpu, HdGpuPlace place, size_t bytes, const char *what,
@@ -71,8 +69,6 @@ void hd_gpu_release(const HdGpu *gpu, HdGpuMemory *memory) {
         gpu->driver->release(gpu->handle, memory);
     *memory = (HdGpuMemory){0};
 }
-
-/* ---- a wavefront's queue ---- */
 
 static void release_rays(HdGpuWaveQueue *queue, const HdGpu *gpu) {
     for (int i = 0; i < HD_WAVE_BUFFERS; i++)

@@ -99,8 +99,6 @@ HdStatus hd_gpu_build_probe(HdGpuProgram *program, const HdGpu *gpu, HdError *er
     return build(program, gpu, error);
 }
 
-/* ---- the arithmetic probe ---- */
-
 HD_GPU_ARGUMENTS(Probe, add_probe, HD_PROBE_ARGUMENTS)
 
 enum { PARTS = 8 };

@@ -51,7 +51,7 @@ static HdStatus gpu_open(const HdDevice *device, const HdRenderOptions *options,
     const HdGpuDriver *driver = device->backend->driver;
     HdGpuRenderer *renderer = calloc(1, sizeof *renderer + driver->bytes);
     if (!renderer)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a renderer");
+        return HD_NO_ROOM(error, "a renderer");
     HdGpu *gpu = &renderer->gpu;
     renderer->device = *device;
     renderer->options = *options;

@@ -5,7 +5,7 @@
 #include <jansson.h>
 
 #include "cli/statistics.h"
-#include "input/json/json_device_text.h"
+#include "input/json.h"
 #include "render/backends.h"
 #include "test_folder.h"
 

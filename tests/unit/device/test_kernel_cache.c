@@ -147,7 +147,8 @@ TEST(what_is_wrong_is_refused_and_frames_under_way_are_dropped) {
     assert_int_equal(hd_compile_scene(&tables, &scene, HD_PRECISION_FLOAT, 1, &error), HD_OK);
     assert_int_equal(hd_renderer_upload(renderer, &tables, &error), HD_OK);
     assert_int_equal(hd_camera_at(&camera, &scene, 0, &error), HD_OK);
-    assert_int_equal(hd_compile_frame(&view, &scene, &camera, HD_PRECISION_FLOAT, &error), HD_OK);
+    assert_int_equal(hd_compile_frame(&view, &scene, &camera, HD_PRECISION_FLOAT, NULL, &error),
+                     HD_OK);
     hd_renderer_drop(renderer);
     assert_int_equal(fake.dropped, 0);
     assert_int_equal(hd_renderer_submit(renderer, &view, &radiance, &error), HD_BAD_INPUT);

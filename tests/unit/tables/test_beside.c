@@ -3,7 +3,7 @@
    be beside, and much is. */
 #include "kernels/host/shared.h"
 #include "scene_text.h"
-#include "tables/tables.h"
+#include "tables/table.h"
 
 #define GLASS "\"material\": \"glass\""
 /* To be filled in: more lights, by lot. */

@@ -3,7 +3,7 @@
 
 #include "kernels/host/shared.h"
 #include "small_scene.h"
-#include "tables/tables.h"
+#include "tables/table.h"
 #include "unit_test.h"
 
 static HdError error;

@@ -9,7 +9,6 @@
 #include "device/renderer.h"
 #include "kernels/host/shared.h"
 #include "small_scene.h"
-#include "tables/tables.h"
 #include "unit_test.h"
 #include "wrapped.h"
 

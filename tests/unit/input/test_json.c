@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "input/json/text.h"
+#include "input/json.h"
 
 #include "scene_text.h"
 

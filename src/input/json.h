@@ -2,8 +2,8 @@
 /* What the parser of JSON does not do: a limit of values (a small text may ask for much memory),
    hints for what people take for JSON, telling lack of memory from wrong text, and the words for
    values and their places in messages. */
-#ifndef HD_INPUT_JSON_TEXT_H
-#define HD_INPUT_JSON_TEXT_H
+#ifndef HD_INPUT_JSON_H
+#define HD_INPUT_JSON_H
 
 #include <jansson.h>
 #include <stdbool.h>
@@ -45,5 +45,22 @@ void hd_json_memory_watch(void);
 
 /* True where one failed since. */
 bool hd_json_memory_failed(void);
+
+/* A new JSON string. Where the bytes are no UTF-8, each that is not ASCII becomes a question mark.
+   NULL where there is no memory. */
+json_t *hd_json_device_text(const char *bytes);
+
+/* The same; JSON's null for NULL and "". */
+json_t *hd_json_text_or_null(const char *bytes);
+
+/* JSON's null unless it is positive. */
+json_t *hd_json_count_or_null(int count);
+
+/* Appends, takes both and returns the list: NULL where either is, or there is no memory. */
+json_t *hd_json_append(json_t *list, json_t *item);
+
+/* Prints `root`, which it takes, on standard output. NULL stands for what could not be put together
+   for want of memory: no room for `what`. */
+HdStatus hd_json_print(json_t *root, const char *what, HdError *error);
 
 #endif
