@@ -129,24 +129,24 @@ static void close_reader(void *rows) {
 /* Reads the head of a file that stands at its begin, which lives on, as the name does. Chunks
    without measure are refused, and all but those of pixels and sRGB are passed over. A file of more
    than 16 MiB and twice what its pixels take is wrong, and not read on. What is wrong with the file
-   is HD_BAD_INPUT, here and below; HD_FAILED: memory is short. */
-static HdStatus open_reader(PngReader **out, FILE *file, const char *name, HdError *error) {
+   is HD_BAD_INPUT, here and below; HD_FAILED: memory is short. Returns NULL after an error. */
+static PngReader *open_reader(FILE *file, const char *name, HdError *error) {
     PngReader *reader = malloc(sizeof *reader);
-    if (reader == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
+    if (reader == NULL) {
+        hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
+        return NULL;
+    }
     *reader =
         (PngReader){.file = file, .allowed = MAX_BESIDES, .name = name, .message = "out of memory"};
     reader->png =
         png_create_read_struct(PNG_LIBPNG_VER_STRING, reader->message, on_error, on_warning);
     if (reader->png != NULL)
         reader->info = png_create_info_struct(reader->png);
-    if (reader->info != NULL && try_head(reader)) {
-        *out = reader;
-        return HD_OK;
-    }
-    const HdStatus status = fail_reading(reader, error);
+    if (reader->info != NULL && try_head(reader))
+        return reader;
+    fail_reading(reader, error);
     close_reader(reader);
-    return status;
+    return NULL;
 }
 
 /* The bytes lie in the row that they become: PNG's 16 bits are big endian, and 8 bits fill the
@@ -342,15 +342,17 @@ static HdStatus create_texture(HdTexture *texture, const unsigned char *bytes, s
                              get_uint32(bytes + SIZE_OFFSET + 4), name, error);
 }
 
-static HdStatus open_bytes(PngReader **reader, const unsigned char *bytes, size_t size,
-                           const char *name, HdError *error) {
+static PngReader *open_bytes(const unsigned char *bytes, size_t size, const char *name,
+                             HdError *error) {
     FILE *file = fmemopen((void *)bytes, size, "rb"); /* nothing writes to it */
-    if (file == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
-    const HdStatus status = open_reader(reader, file, name, error);
-    if (status != HD_OK)
+    if (file == NULL) {
+        hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
+        return NULL;
+    }
+    PngReader *reader = open_reader(file, name, error);
+    if (reader == NULL)
         fclose(file);
-    return status;
+    return reader;
 }
 
 static void close_bytes(PngReader *reader) {
@@ -360,9 +362,10 @@ static void close_bytes(PngReader *reader) {
 
 static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                        const char *name, HdError *error) {
-    PngReader *reader = NULL;
     HD_TRY(create_texture(texture, bytes, size, name, error));
-    HD_TRY(open_bytes(&reader, bytes, size, name, error));
+    PngReader *reader = open_bytes(bytes, size, name, error);
+    if (reader == NULL)
+        return error->status;
     const HdStatus status = read_rows(reader, texture->texels, texture->height, error);
     close_bytes(reader);
     return status;
@@ -386,9 +389,10 @@ static HdStatus load_rows(HdFrame *frame, PngReader *reader, const char *name, H
 
 static HdStatus load(HdFrame *frame, const unsigned char *bytes, size_t size, const char *name,
                      HdError *error) {
-    PngReader *reader = NULL;
     HdStatus status;
-    HD_TRY(open_bytes(&reader, bytes, size, name, error));
+    PngReader *reader = open_bytes(bytes, size, name, error);
+    if (reader == NULL)
+        return error->status;
     const HdPictureFacts *facts = &reader->facts;
     if (facts->width != frame->width || facts->height != frame->height || facts->bits != 8 ||
         reader->is_interlaced)
@@ -405,8 +409,9 @@ static HdStatus load(HdFrame *frame, const unsigned char *bytes, size_t size, co
 
 static HdStatus open_rows(void **rows, FILE *file, const char *path, HdPictureFacts *facts,
                           HdError *error) {
-    PngReader *reader = NULL;
-    HD_TRY(open_reader(&reader, file, path, error));
+    PngReader *reader = open_reader(file, path, error);
+    if (reader == NULL)
+        return error->status;
     if (reader->is_interlaced) {
         close_reader(reader);
         return hd_fail(error, HD_BAD_INPUT,

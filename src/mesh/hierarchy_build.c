@@ -309,7 +309,7 @@ static int larger_first(const void *a, const void *b) {
 static HdStatus build_subtrees(Build *build) {
     for (int i = 0; i < build->task_count; i++)
         build->top->turns[i] = &build->top->tasks[i];
-    qsort(build->top->turns, (size_t)build->task_count, sizeof *build->top->turns, larger_first);
+    qsort(build->top->turns, (size_t)build->task_count, sizeof(void *), larger_first);
     return run(build, build->task_count, build_task);
 }
 

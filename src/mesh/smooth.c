@@ -69,12 +69,12 @@ static bool find_places(Smoother *smoother) {
     const HdVec3 *vertices = smoother->mesh->vertices;
     const size_t count = (size_t)smoother->mesh->vertex_count;
     int32_t *place_of = smoother->place_of; /* first the vertex that names the place first */
-    const HdVec3 **sorted = allocate(count, sizeof *sorted);
+    const HdVec3 **sorted = allocate(count, sizeof(void *));
     if (sorted == NULL)
         return false;
     for (size_t i = 0; i < count; i++)
         sorted[i] = &vertices[i];
-    qsort(sorted, count, sizeof *sorted, compare_places);
+    qsort(sorted, count, sizeof(void *), compare_places);
     const HdVec3 *place = NULL;
     for (size_t i = 0; i < count; i++) {
         if (i == 0 || place->x != sorted[i]->x || place->y != sorted[i]->y ||
