@@ -31,6 +31,8 @@ HdStatus hd_renderer_fail(HdRenderer *renderer, HdStatus status, HdError *error)
 HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
                           const HdRenderOptions *options, HdError *error) {
     *renderer = NULL;
+    if (!hd_render_options_are_possible(options))
+        return hd_fail(error, HD_BAD_INPUT, "no device can have such lanes, threads or launches");
     const char *obstacle = hd_device_obstacle(device, options);
     if (obstacle != NULL)
         return hd_fail(error, HD_UNAVAILABLE, "%s: %s cannot do this: %s", device->backend->name,
@@ -84,7 +86,23 @@ HdStatus hd_renderer_compute(HdRenderer *renderer, const HdProbeBatch *batch,
     return hd_renderer_fail(renderer, status, error);
 }
 
+/* Must hold for `what` to be done: tables as the renderer needs them, and few enough frames. */
+static HdStatus check_use(const HdRenderer *renderer, const char *what, HdPrecision precision,
+                          int most_in_flight, HdError *error) {
+    if (precision != renderer->options.precision)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the tables of the %s are not in the precision of the renderer", what);
+    if (renderer->in_flight > most_in_flight)
+        return hd_fail(error, HD_BAD_INPUT, "a %s came while %d frames were in flight, at most %d",
+                       what, renderer->in_flight, most_in_flight);
+    return HD_OK;
+}
+
 HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, HdError *error) {
+    HD_TRY(check_use(renderer, "scene", tables->precision, 0, error));
+    if (tables->lanes != hd_renderer_lanes(renderer))
+        return hd_fail(error, HD_BAD_INPUT, "a scene was compiled for %d lanes, not %d",
+                       tables->lanes, hd_renderer_lanes(renderer));
     HdStatus status = renderer->backend->functions->upload(renderer->state, tables, error);
     renderer->has_scene = status == HD_OK;
     return hd_renderer_fail(renderer, status, error);
@@ -115,6 +133,7 @@ static HdStatus check_frame_tables(const HdRenderer *renderer, const HdFrameTabl
 HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
                             const HdFrameWish *wish, HdError *error) {
     HD_TRY(check_frame_tables(renderer, tables, error));
+    HD_TRY(check_use(renderer, "frame", tables->precision, HD_FRAMES_IN_FLIGHT - 1, error));
     HdStatus status = renderer->backend->functions->submit(renderer->state, tables, wish, error);
     if (status == HD_OK)
         renderer->flights[renderer->in_flight++] = tables;
@@ -128,8 +147,15 @@ double hd_renderer_take_longest_launch(HdRenderer *renderer) {
 }
 
 HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *error) {
-    HdStatus status =
-        renderer->backend->functions->collect(renderer->state, renderer->flights[0], frame, error);
+    const HdFrameTables *tables = renderer->flights[0];
+    if (renderer->in_flight == 0)
+        return hd_fail(error, HD_BAD_INPUT, "a frame was collected and none was in flight");
+    if (frame->floats != tables->floats || frame->width != tables->width ||
+        frame->height != tables->height)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "a frame of %d x %d pixels was given for one of %d x %d", frame->width,
+                       frame->height, tables->width, tables->height);
+    HdStatus status = renderer->backend->functions->collect(renderer->state, tables, frame, error);
     if (status == HD_OK && frame->longest_launch > renderer->longest_launch)
         renderer->longest_launch = frame->longest_launch;
     renderer->in_flight--;

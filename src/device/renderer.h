@@ -20,8 +20,9 @@ HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, H
 
 /* Begins a frame, for the device to work on meanwhile; fewer than HD_FRAMES_IN_FLIGHT are under
    way. The tables must live until the frame is collected or dropped; after a failure they need not,
-   and earlier frames are still under way. HD_BAD_INPUT, as of hd_renderer_first_hits, for too large
-   a picture and for kernels that are neither accepted nor on trial (kernel_cache.h). */
+   and earlier frames are still under way. HD_BAD_INPUT for misuse of this function and those
+   beside it, for too large a picture and for kernels that are neither accepted nor on trial
+   (kernel_cache.h). */
 HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
                             const HdFrameWish *wish, HdError *error);
 

@@ -220,14 +220,20 @@ void hd_curve_encode16(HdCurve curve, const float *values, size_t count, uint16_
         out[i] = srgb16(values[i]);
 }
 
+static uint16_t decoded16[65536]; /* by code */
+
+static void fill_decoded16(void) {
+    for (int code = 0; code < 65536; code++)
+        decoded16[code] = (uint16_t)(srgb_to_linear(code / 65535.0) * 65535.0 + 0.5);
+}
+
 void hd_curve_decode16(HdCurve curve, uint16_t *values, size_t count) {
-    uint16_t decoded[65536] = {0}; /* by code; 0: it was not met, or is next to black */
-    for (size_t i = 0; i < count && curve == HD_CURVE_SRGB; i++) {
-        const uint16_t code = values[i];
-        if (decoded[code] == 0)
-            decoded[code] = (uint16_t)(srgb_to_linear(code / 65535.0) * 65535.0 + 0.5);
-        values[i] = decoded[code];
-    }
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    if (curve == HD_CURVE_LINEAR)
+        return;
+    pthread_once(&once, fill_decoded16);
+    for (size_t i = 0; i < count; i++)
+        values[i] = decoded16[values[i]];
 }
 
 double hd_curve_to_display(HdCurve curve, double linear) {

@@ -3,10 +3,8 @@
 
 #include "image/picture.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "system/path.h"
 
@@ -115,17 +113,13 @@ struct HdPictureReader {
     HdPictureValue *by_code; /* owned; CODES of them, of a picture on a curve */
 };
 
-/* A named pipe would stop the program before it is refused. */
 static HdStatus open_file(HdPictureReader *reader, HdError *error) {
     struct stat found;
-    const bool is_there = stat(reader->path, &found) == 0;
-    if (is_there && !S_ISREG(found.st_mode))
-        return hd_fail(error, HD_BAD_INPUT, "cannot read the picture %s: it is not a regular file",
-                       reader->path);
-    reader->file = is_there ? fopen(reader->path, "rb") : NULL;
+    const char *reason;
+    reader->file = hd_file_open(reader->path, &found, &reason);
     return reader->file != NULL ? HD_OK
                                 : hd_fail(error, HD_BAD_INPUT, "cannot read the picture %s: %s",
-                                          reader->path, strerror(errno));
+                                          reader->path, reason);
 }
 
 static HdStatus open_format(HdPictureReader *reader, HdError *error) {

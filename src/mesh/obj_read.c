@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "mesh/obj_reading.h"
 #include "system/path.h"
@@ -120,15 +119,10 @@ fail_at(Text *text, size_t line, const char *format, ...) {
 
 static bool open_file(Text *text) {
     struct stat found;
-    /* Before it is opened: a named pipe would wait for somebody who writes. */
-    if (stat(text->path, &found) != 0)
-        return fail_reading(text, strerror(errno));
-    if (S_ISDIR(found.st_mode))
-        return fail_reading(text, strerror(EISDIR));
-    if (!S_ISREG(found.st_mode))
-        return fail_reading(text, "it is not a regular file");
-    text->file = fopen(text->path, "rbe");
-    return text->file != NULL || fail_reading(text, strerror(errno));
+    const char *reason;
+    text->file = hd_file_open(text->path, &found, &reason);
+    return text->file != NULL ||
+           fail_reading(text, S_ISDIR(found.st_mode) ? strerror(EISDIR) : reason);
 }
 
 static bool has_next(Text *text) {

@@ -11,7 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 #include <sys/types.h>
 #include <unistd.h>
 
@@ -279,17 +278,24 @@ ssize_t hd_read_fully(int descriptor, void *bytes, size_t size) {
     return (ssize_t)done;
 }
 
-static HdStatus read_file(int descriptor, const char *what, const char *path, int64_t most,
-                          unsigned char **bytes, size_t *size, HdError *error) {
-    struct stat found;
-    if (descriptor < 0 || fstat(descriptor, &found) != 0)
-        return hd_fail(error, HD_BAD_INPUT, CANNOT_READ "%s", what, path, strerror(errno));
-    if (!S_ISREG(found.st_mode))
-        return hd_fail(error, HD_BAD_INPUT, CANNOT_READ "it is not a regular file", what, path);
-    if (found.st_size > most || (uintmax_t)found.st_size >= SIZE_MAX)
+FILE *hd_file_open(const char *path, struct stat *found, const char **reason) {
+    const int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    *found = (struct stat){0};
+    const bool is_known = descriptor >= 0 && fstat(descriptor, found) == 0;
+    const bool is_regular = is_known && S_ISREG(found->st_mode);
+    FILE *file = is_regular ? fdopen(descriptor, "rb") : NULL;
+    *reason = is_known && !is_regular ? "it is not a regular file" : strerror(errno);
+    if (file == NULL && descriptor >= 0)
+        close(descriptor);
+    return file;
+}
+
+static HdStatus read_file(int descriptor, const char *what, const char *path, int64_t has,
+                          int64_t most, unsigned char **bytes, size_t *size, HdError *error) {
+    if (has > most || (uintmax_t)has >= SIZE_MAX)
         return hd_fail(error, HD_BAD_INPUT, CANNOT_READ "it has %lld bytes, expected at most %lld",
-                       what, path, (long long)found.st_size, (long long)most);
-    *size = (size_t)found.st_size;
+                       what, path, (long long)has, (long long)most);
+    *size = (size_t)has;
     *bytes = malloc(*size + 1);
     if (*bytes == NULL)
         return HD_NO_ROOM(error, "the %zu bytes of the %s %s", *size, what, path);
@@ -304,12 +310,15 @@ static HdStatus read_file(int descriptor, const char *what, const char *path, in
 
 HdStatus hd_file_read(const char *path, const char *what, int64_t most, unsigned char **bytes,
                       size_t *size, HdError *error) {
-    /* Not blocking, lest a named pipe stops the program before it is refused. */
-    const int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    struct stat found;
+    const char *reason;
+    FILE *file = hd_file_open(path, &found, &reason);
     *bytes = NULL;
-    const HdStatus status = read_file(descriptor, what, path, most, bytes, size, error);
-    if (descriptor >= 0)
-        close(descriptor);
+    if (file == NULL)
+        return hd_fail(error, HD_BAD_INPUT, CANNOT_READ "%s", what, path, reason);
+    const HdStatus status =
+        read_file(fileno(file), what, path, found.st_size, most, bytes, size, error);
+    fclose(file);
     if (status != HD_OK) {
         free(*bytes);
         *bytes = NULL;

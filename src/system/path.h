@@ -7,6 +7,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <sys/stat.h>
 #include <sys/types.h>
 
 #include "base/error.h"
@@ -52,6 +54,10 @@ HdStatus hd_pattern_format_single(const char *name, char out[HD_MAX_PATH], HdErr
 
 /* Writes the name of one frame of a checked pattern. */
 HdStatus hd_pattern_format(const char *pattern, int frame, char out[HD_MAX_PATH], HdError *error);
+
+/* Opens a regular file for reading, without waiting at a named pipe; children do not get it.
+   NULL: it cannot be read, and `*reason` says why. `found` is 0 unless something is there. */
+FILE *hd_file_open(const char *path, struct stat *found, const char **reason);
 
 /* Reads `size` bytes unless the file ends before, whatever signals come; returns how many these
    are, or -1 and errno. */

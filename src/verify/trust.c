@@ -56,7 +56,7 @@ typedef struct Proof {
 
 static HdStatus judge(Proof *proof, const HdGoldenFrame *frame, uint64_t hash, HdError *error) {
     const HdDevice *device = hd_renderer_device(proof->renderer);
-    HdGoldenHashes expected;
+    HdGoldenHashes expected = {0};
     hd_golden_find_hashes(frame->name, proof->like->precision, &expected);
     proof->is_wrong = hash != expected.frame;
     proof->frames += !proof->is_wrong;

@@ -137,11 +137,14 @@ TEST(the_wavefront_takes_over_unless_it_is_wrong_too) {
 
 TEST(what_is_wrong_is_refused_and_frames_under_way_are_dropped) {
     static const HdFrameWish radiance = {.radiance = true};
+    static const HdRenderOptions impossible = {.block = 33};
+    HdFrame small = {.width = 1, .height = 1, .floats = HD_RADIANCE_FLOATS};
     HdRenderer *renderer;
     HdScene scene;
     HdSceneTables tables;
     HdCamera camera;
     HdFrameTables view;
+    assert_int_equal(hd_renderer_open(&renderer, &device, &impossible, &error), HD_BAD_INPUT);
     assert_int_equal(hd_renderer_open(&renderer, &device, &options, &error), HD_OK);
     assert_int_equal(small_scene(&scene, kind, &error), HD_OK);
     assert_int_equal(hd_compile_scene(&tables, &scene, HD_PRECISION_FLOAT, 1, &error), HD_OK);
@@ -155,9 +158,24 @@ TEST(what_is_wrong_is_refused_and_frames_under_way_are_dropped) {
     expect_contains(error.message, "by kernels that are not tested");
     assert_int_equal(hd_put_tables(renderer, &tables, &error), HD_OK);
     assert_int_equal(hd_renderer_submit(renderer, &view, &radiance, &error), HD_OK);
+    assert_int_equal(hd_renderer_submit(renderer, &view, &radiance, &error), HD_OK);
+    assert_int_equal(hd_renderer_submit(renderer, &view, &radiance, &error), HD_BAD_INPUT);
+    expect_contains(error.message, "a frame came while 2 frames were in flight, at most 1");
+    assert_int_equal(hd_renderer_upload(renderer, &tables, &error), HD_BAD_INPUT);
+    expect_contains(error.message, "a scene came while 2 frames were in flight, at most 0");
+    assert_int_equal(hd_renderer_collect(renderer, &small, &error), HD_BAD_INPUT);
+    expect_contains(error.message, "a frame of 1 x 1 pixels was given for one of 16 x 16");
     hd_renderer_drop(renderer);
     hd_renderer_drop(renderer);
     assert_int_equal(fake.dropped, 1);
+    assert_int_equal(hd_renderer_collect(renderer, &small, &error), HD_BAD_INPUT);
+    expect_contains(error.message, "none was in flight");
+    tables.lanes = 4;
+    assert_int_equal(hd_renderer_upload(renderer, &tables, &error), HD_BAD_INPUT);
+    expect_contains(error.message, "a scene was compiled for 4 lanes, not 1");
+    view.precision = HD_PRECISION_DOUBLE;
+    assert_int_equal(hd_renderer_submit(renderer, &view, &radiance, &error), HD_BAD_INPUT);
+    expect_contains(error.message, "the frame are not in the precision of the renderer");
     hd_frame_tables_free(&view);
     hd_renderer_close(renderer);
     hd_scene_tables_free(&tables);
