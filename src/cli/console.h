@@ -77,7 +77,8 @@ void hd_console_release(HdConsole *console);
 
 /* On any thread: a renderer got the scene and says `line` of itself (hd_renderer_describe); a
    device is left out of the rest of the run; a frame is stored. Of the last there is a line of its
-   own where programs read it, "hedron: frame 17 stored, 3 of 40", as docs/farm.md promises. */
+   own where programs read it, "hedron: frame 17 stored, 3 of 40", as
+   docs/development/many-machines.md promises. */
 void hd_console_tell_upload(HdConsole *console, const HdRenderer *renderer, const char *line,
                             const HdSceneTables *tables);
 void hd_console_tell_loss(HdConsole *console, const HdDevice *device, const char *why);
