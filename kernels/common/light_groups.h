@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What is decided for a bundle of points and many lights near each other: that none of these can
    reach any of the points, or, for bundles of several lanes, that nothing of a solid lies between.
-   All of it is conservative (docs/numerics.md, Groups of lights): lights are left out, and solids
+   All of it is conservative (docs/numerics.md, Light culling): lights are left out, and solids
    not looked at, only where each pair by itself would come to the same. */
 #ifndef HD_LIGHT_GROUPS_H
 #define HD_LIGHT_GROUPS_H

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Correctly rounded division and roots of fused operations, for devices whose own are not
    (dialect.h includes it there). Digits are found to within a unit of their last place, what is
-   left is known exactly, and its size tells the way to round; docs/numerics.md has the proof. */
+   left is known exactly, and its size tells the way to round; docs/proofs.md has the proof. */
 #ifndef HD_ROUNDED_H
 #define HD_ROUNDED_H
 

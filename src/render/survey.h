@@ -13,7 +13,7 @@
    255: on the linear curve the same everywhere, on sRGB's less where it is dark. That is
    floor + slope * radiance for a step, times the number of steps. It never exceeds what is allowed:
    the curve f grows by at most e where radiance grows by no more than e / f', for f is concave; and
-   1 / f' is above the straight line (docs/numerics.md). Being linear, it holds for the mean of
+   1 / f' is above the straight line (docs/proofs.md). Being linear, it holds for the mean of
    samples if it holds for each of them. */
 typedef struct HdErrorBudget {
     double floor, slope;

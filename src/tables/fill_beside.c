@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What is known beforehand of where objects are to each other (docs/numerics.md, Beside and apart);
+/* What is known beforehand of where objects are to each other (docs/numerics.md, Occlusion masks);
    compiled for each precision. */
 #include "tables/builder.h"
 
