@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The dialect of the shared kernels: the contract of what each language has for them, and what is
    built from that. Kernel text is written for a bundle of HD_LANES lanes: with one lane a bundle is
-   a scalar, with more it is a vector of the language. docs/dialect.md is the manual.
+   a scalar, with more it is a vector of the language. docs/development/dialect.md is the manual.
 
    A language has, in a dialect.h beside its entry point (kernels/cuda, kernels/opencl, cpu):
 

@@ -71,7 +71,7 @@ void hd_console_watch(HdConsole *console, const HdWatch *watch);
 
 /* Between the two something else may be written where the bar is, not for long. The second tells
    that a frame is stored, unless that is NULL: programs have a line for each, "hedron: frame 17
-   stored, 3 of 40", as docs/farm.md promises. */
+   stored, 3 of 40", as docs/development/many-machines.md promises. */
 void hd_console_hold(HdConsole *console);
 void hd_console_release(HdConsole *console, const HdStoredFrame *stored);
 
