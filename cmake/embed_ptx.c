@@ -16,7 +16,7 @@
     .ptx_arch = HD_CUDA_PTX_ARCH, .math = HD_MATH_STRICT
 #define PROBE(is_double)                                                                           \
     { COMMON, .precision = PRECISION(is_double), .is_probe = true }
-#define RENDERER(is_double, is_wavefront, has_survey)                                              \
+#define RENDERER(is_double, is_wavefront, has_bound)                                               \
     {                                                                                              \
         COMMON, .precision = PRECISION(is_double), .wavefront = (is_wavefront),                    \
                 .first_hits = true, .needs = {                                                     \
@@ -26,7 +26,7 @@
                     .refracts = true,                                                              \
                     .lit_from_behind = true,                                                       \
                     .many_lights = true,                                                           \
-                    .surveyed = (has_survey)                                                       \
+                    .bounded = (has_bound)                                                         \
                 }                                                                                  \
     }
 #define PRECISION(is_double) ((is_double) ? HD_PRECISION_DOUBLE : HD_PRECISION_FLOAT)
@@ -78,11 +78,11 @@ static void write_table(FILE *file, int count, const HdNvrtc *nvrtc) {
                 ".math = (HdMath)%d, "
                 ".group_size = %d, .ptx_arch = %d,\n"
                 "               .needs = {.plane_bound = %d, .depth_bound = %d, "
-                ".node_stack_bound = %d, .surveyed = %d}},\n"
+                ".node_stack_bound = %d, .bounded = %d}},\n"
                 "     .maker = \"NVRTC %d.%d\", .text = text_%d, .size = sizeof text_%d},\n",
                 shape->is_probe, shape->wavefront, shape->first_hits, (int)shape->precision,
                 (int)shape->math, shape->group_size, shape->ptx_arch, shape->needs.plane_bound,
-                shape->needs.depth_bound, shape->needs.node_stack_bound, shape->needs.surveyed,
+                shape->needs.depth_bound, shape->needs.node_stack_bound, shape->needs.bounded,
                 nvrtc->major, nvrtc->minor, i, i);
     }
     fprintf(file, "%s};\nconst int hd_cuda_ptx_count = %d;\n", count > 0 ? "" : "    {.size = 0}\n",

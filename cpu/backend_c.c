@@ -67,7 +67,7 @@ static const CpuBuild *find_build(int lanes, HdPrecision precision) {
     return NULL;
 }
 
-static int most_lanes(HdPrecision precision) {
+static int max_lanes(HdPrecision precision) {
     int most = 1;
     for (const CpuBuild *build = builds; build < builds + BUILD_COUNT; build++)
         if (build->lanes > most && build->precision == precision &&
@@ -124,7 +124,7 @@ static HdStatus c_enumerate(HdDevice *devices, int capacity, int *count, HdError
     snprintf(device->driver, sizeof device->driver, "plain C, %s, %d cores",
              hd_cpu_best_instruction_set(), hd_processor_count());
     for (int p = HD_PRECISION_FLOAT; p <= HD_PRECISION_DOUBLE; p++)
-        device->most_lanes[p] = most_lanes((HdPrecision)p);
+        device->max_lanes[p] = max_lanes((HdPrecision)p);
     return HD_OK;
 }
 
@@ -218,7 +218,7 @@ static HdStatus prepare_queues(CRenderer *c, int samples, HdError *error) {
         .depth = c->scene.depth,
         .grain = c->build->lanes,
         .samples = HD_BLOCK_PIXELS * samples,
-        .samples_at_once = HD_WAVE_BUNDLE,
+        .samples_at_once = HD_WAVE_PACKET,
     };
     HdWavePlan plan = hd_wave_plan(&needs);
     size_t ints = padded(plan.bytes[0]), sums = ints + padded(plan.bytes[1]);
@@ -238,9 +238,9 @@ static HdStatus prepare_queues(CRenderer *c, int samples, HdError *error) {
 }
 
 /* A frame is rendered when it is collected. */
-static HdStatus c_submit(void *renderer, const HdFrameTables *tables, const HdFrameWish *wish,
+static HdStatus c_submit(void *renderer, const HdFrameTables *tables, const HdFrameRequest *request,
                          HdError *error) {
-    (void)renderer, (void)tables, (void)wish, (void)error;
+    (void)renderer, (void)tables, (void)request, (void)error;
     return HD_OK;
 }
 

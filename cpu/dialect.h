@@ -14,7 +14,7 @@
 #endif
 
 #if HD_LANES > 1
-#include "cpu/bundles.h"
+#include "cpu/packets.h"
 #else
 
 #include "kernels/common/lanes.h"

@@ -9,16 +9,16 @@
 HdCpuKernel HD_KERNEL_NAME;
 
 /* Two functions: in one of both the compiler makes slower code for each. */
-FN_APART RayCounts render_by_trees(const HdTable *scene, const HdTable *frame, int item,
-                                   float *pixels) {
+FN_NOINLINE RayCounts render_by_trees(const HdTable *scene, const HdTable *frame, int item,
+                                      float *pixels) {
     HD_DECLARE_TABLES(scene, frame)
     RayCounts counted;
     render_item(SCENE_ARGUMENTS item, pixels, &counted);
     return counted;
 }
 
-FN_APART RayCounts render_by_waves(const HdTable *scene, const HdTable *frame, int item,
-                                   const HdCpuQueue *queue, float *pixels) {
+FN_NOINLINE RayCounts render_by_waves(const HdTable *scene, const HdTable *frame, int item,
+                                      const HdCpuQueue *queue, float *pixels) {
     HD_DECLARE_TABLES(scene, frame)
     RayCounts counted;
     render_item_by_waves(SCENE_ARGUMENTS queue->reals, queue->ints, queue->sums,

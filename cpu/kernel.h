@@ -19,7 +19,7 @@ typedef struct HdCpuQueue {
 } HdCpuQueue;
 
 /* Renders one work item: its pixels, and number `item` of `counts`, which are HdRayCounts. Without
-   a queue (NULL) a bundle follows its whole tree of rays, with one the tree is traced level by
+   a queue (NULL) a packet follows its whole tree of rays, with one the tree is traced level by
    level. */
 typedef void HdCpuKernel(const HdTable *scene, const HdTable *frame, int item,
                          const HdCpuQueue *queue, float *pixels, void *counts);

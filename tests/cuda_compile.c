@@ -3,7 +3,7 @@
    it:
 
        cuda_compile --arch N [--nvrtc LIBRARY] [--double] [--fast] [--wavefront] [--refracts]
-                    [--lit-from-behind] [--many-lights] [--meshes] [--surveyed] [--block N]
+                    [--lit-from-behind] [--many-lights] [--meshes] [--bounded] [--block N]
                     [--registers N]
 
    Exits 0 when they compile and no convergence barrier is saved to a register (docs/lost-light.md),
@@ -41,7 +41,7 @@ static bool parse(Options *options, int argc, char **argv) {
                  {"--refracts", &shape->needs.refracts},
                  {"--lit-from-behind", &shape->needs.lit_from_behind},
                  {"--many-lights", &shape->needs.many_lights},
-                 {"--surveyed", &shape->needs.surveyed}};
+                 {"--bounded", &shape->needs.bounded}};
     const struct {
         const char *name;
         int *number;

@@ -30,7 +30,7 @@
 #include "system/thread_pool.h"
 #include "verify/trust.h"
 
-enum { MOST_ROUNDS = 99, MOST_CHANGES = 32, MOST_SWITCHES = 64, SKIPPED = 77, USAGE = 2 };
+enum { MAX_ROUNDS = 99, MAX_CHANGES = 32, MAX_SWITCHES = 64, SKIPPED = 77, USAGE = 2 };
 
 /* What is measured against what the program does by itself. */
 typedef struct Switch {
@@ -38,7 +38,7 @@ typedef struct Switch {
     HdPipeline pipeline;
     int registers, block; /* 0: what suits */
     size_t queue_bytes;   /* of the wavefront; 0: what suits */
-    bool is_surveyed;     /* for surveyed scenes only */
+    bool is_bounded;      /* for surveyed scenes only */
     bool is_cuda;         /* for CUDA only */
 } Switch;
 
@@ -59,8 +59,8 @@ static const Switch switches[] = {
     {"block-256", MEGA, .block = 256},
     {"registers-64+block-32", MEGA, .registers = 64, .block = 32, .is_cuda = true},
     {"wavefront", WAVEFRONT},
-    {"wavefront-4GiB", WAVEFRONT, .queue_bytes = 4 * GIB, .is_surveyed = true},
-    {"wavefront-16GiB", WAVEFRONT, .queue_bytes = 16 * GIB, .is_surveyed = true},
+    {"wavefront-4GiB", WAVEFRONT, .queue_bytes = 4 * GIB, .is_bounded = true},
+    {"wavefront-16GiB", WAVEFRONT, .queue_bytes = 16 * GIB, .is_bounded = true},
 };
 enum { SWITCH_COUNT = sizeof switches / sizeof *switches };
 
@@ -82,7 +82,7 @@ typedef struct Contender {
     HdFrameMaker maker;
     HdStatus status;
     HdError error;
-    double build_seconds, ms[MOST_ROUNDS];
+    double build_seconds, ms[MAX_ROUNDS];
     int count;
 } Contender;
 
@@ -109,7 +109,7 @@ static HdStatus open_contender(Contender *contender, const Bench *bench, HdError
         .test = {.queue_bytes = is->queue_bytes},
     };
     HdFrameMaker *maker = &contender->maker;
-    *maker = (HdFrameMaker){.scene = &bench->file.scene, .wish = {true, HD_CURVE_SRGB, 0}};
+    *maker = (HdFrameMaker){.scene = &bench->file.scene, .request = {true, HD_CURVE_SRGB, 0}};
     HD_TRY(hd_renderer_open(&maker->renderer, &bench->device, &options, error));
     HD_TRY(hd_put_scene(maker->renderer, maker->scene, NULL, error));
     return hd_frame_maker_open(maker, error);
@@ -148,13 +148,13 @@ static HdStatus open_all(const Bench *bench, Contender *contenders, int count, H
 /* ---- rounds ---- */
 
 static bool render(Contender *contender, Bench *bench, uint64_t *hash) {
-    HdFlight flight;
+    HdFrameInFlight in_flight;
     HdStatus status =
-        hd_frame_prepare(&contender->maker, &bench->camera, &flight, &contender->error);
+        hd_frame_prepare(&contender->maker, &bench->camera, &in_flight, &contender->error);
     if (status == HD_OK)
-        status = hd_frame_begin(&contender->maker, &flight, &contender->error);
+        status = hd_frame_begin(&contender->maker, &in_flight, &contender->error);
     if (status == HD_OK)
-        status = hd_frame_end(&contender->maker, &flight, &bench->frame, &contender->error);
+        status = hd_frame_end(&contender->maker, &in_flight, &bench->frame, &contender->error);
     contender->status = status;
     *hash = status == HD_OK ? hd_frame_hash(&bench->frame) : 0;
     return status == HD_OK;
@@ -249,8 +249,8 @@ static bool is_named(const char *names, const char *name) {
 
 static bool is_wanted(const Bench *bench, const Switch *is) {
     bool is_cuda = strcmp(bench->backend->name, "cuda") == 0;
-    bool is_surveyed = hd_scene_is_surveyed(&bench->file.scene);
-    if ((is->is_cuda && !is_cuda) || (is->is_surveyed && !is_surveyed))
+    bool is_bounded = hd_scene_has_error_bound(&bench->file.scene);
+    if ((is->is_cuda && !is_cuda) || (is->is_bounded && !is_bounded))
         return false;
     return (bench->only == NULL || is_named(bench->only, is->name)) &&
            (bench->without == NULL || !is_named(bench->without, is->name));
@@ -287,7 +287,7 @@ static bool parse_option(Bench *bench, const char *name, const char *value) {
         bench->without = value;
     else
         return false;
-    return bench->rounds > 0 && bench->rounds <= MOST_ROUNDS && bench->threads > 0;
+    return bench->rounds > 0 && bench->rounds <= MAX_ROUNDS && bench->threads > 0;
 }
 
 /* Returns where the scene is among the arguments; 0 where they are wrong. */
@@ -301,11 +301,11 @@ static int parse(Bench *bench, int argc, char **argv) {
         else
             i++;
     }
-    return i < argc && argc - i - 1 <= MOST_CHANGES ? i : 0;
+    return i < argc && argc - i - 1 <= MAX_CHANGES ? i : 0;
 }
 
 int main(int argc, char **argv) {
-    static Contender contenders[MOST_SWITCHES];
+    static Contender contenders[MAX_SWITCHES];
     static Bench bench;
     HdError error;
     int count = 0;

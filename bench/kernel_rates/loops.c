@@ -12,10 +12,10 @@
 #define OF_BUILD(name) HD_PASTE(HD_BUILD, _##name)
 #define NOT_INLINED    __attribute__((noinline))
 
-typedef struct Bundle {
+typedef struct Packet {
     Ray ray;
     int is_eye;
-} Bundle;
+} Packet;
 
 typedef struct Points {
     Surface surface;
@@ -23,10 +23,10 @@ typedef struct Points {
     Vec3 mirrored;
 } Points;
 
-/* A bundle of the view and what it meets. */
+/* A packet of the view and what it meets. */
 typedef struct Sight {
     Ray ray;
-    Reference reference;
+    LocalOrigin local_origin;
     Hit hit;
     vmask struck, on_solid;
 } Sight;
@@ -42,7 +42,7 @@ static int sum_of_lanes(vint a) {
     return sum;
 }
 
-/* The bundle that begins at sample `first` of an item; 0 where it lies outside of the picture. */
+/* The packet that begins at sample `first` of an item; 0 where it lies outside of the picture. */
 static int look(const HdTable *scene, const HdTable *frame, int item, int first, Sight *sight) {
     HD_DECLARE_TABLES(scene, frame)
     Vec3 direction;
@@ -50,14 +50,14 @@ static int look(const HdTable *scene, const HdTable *frame, int item, int first,
     if (!any_lane(alive))
         return 0;
     sight->ray = eye_ray(direction, alive);
-    sight->reference = reference_of(SCENE_ARGUMENTS sight->ray.touched, 1);
-    sight->hit = closest_hit(SCENE_ARGUMENTS & sight->ray, sight->reference);
+    sight->local_origin = local_origin_of(SCENE_ARGUMENTS sight->ray.last_hit, 1);
+    sight->hit = closest_hit(SCENE_ARGUMENTS & sight->ray, sight->local_origin);
     sight->struck = alive & ~lt_int(sight->hit.object, splat_int(0));
     sight->on_solid = sight->struck & lt_int(sight->hit.object, splat_int(header->solid_count));
     return 1;
 }
 
-/* What passes over the view's bundles: the first time to count those wanted, the second to take
+/* What passes over the view's packets: the first time to count those wanted, the second to take
    `most` of them evenly. */
 typedef struct Walk {
     int most;
@@ -108,13 +108,13 @@ static void visit_rays(const HdTable *scene, const HdTable *frame, const Sight *
     (void)frame;
     if (!any_lane(sight->on_solid))
         return;
-    Bundle *bundle = take(walk);
-    if (bundle != NULL)
-        *bundle = (Bundle){.ray = sight->ray, .is_eye = 1};
+    Packet *packet = take(walk);
+    if (packet != NULL)
+        *packet = (Packet){.ray = sight->ray, .is_eye = 1};
 }
 
 static HdWork make_rays(const HdTable *scene, const HdTable *frame, int most) {
-    Walk walk = {.most = most, .size = sizeof(Bundle)};
+    Walk walk = {.most = most, .size = sizeof(Packet)};
     return walk_twice(scene, frame, visit_rays, &walk);
 }
 
@@ -127,7 +127,7 @@ static void visit_points(const HdTable *scene, const HdTable *frame, const Sight
         return;
     Hit hit = sight->hit;
     points.surface =
-        surface_at(SCENE_ARGUMENTS & sight->ray, sight->reference, &hit, sight->struck);
+        surface_at(SCENE_ARGUMENTS & sight->ray, sight->local_origin, &hit, sight->struck);
     const LaneMaterial *material = &points.surface.material;
     Vec3 direction = sight->ray.direction;
     vreal zero = splat(R(0.0));
@@ -151,10 +151,10 @@ static HdWork make_points(const HdTable *scene, const HdTable *frame, int most) 
 }
 
 static uint64_t live_rays(const HdWork *rays) {
-    const Bundle *bundles = rays->items;
+    const Packet *packets = rays->items;
     uint64_t live = 0;
     for (int i = 0; i < rays->count; i++)
-        live += (uint64_t)sum_of_lanes(live_lanes(bundles[i].ray.alive));
+        live += (uint64_t)sum_of_lanes(live_lanes(packets[i].ray.alive));
     return live;
 }
 
@@ -166,14 +166,15 @@ NOT_INLINED uint64_t OF_BUILD(light)(const HdTable *scene, const HdTable *frame,
 NOT_INLINED uint64_t OF_BUILD(search)(const HdTable *scene, const HdTable *frame,
                                       const HdWork *rays) {
     HD_DECLARE_TABLES(scene, frame)
-    const Bundle *bundles = rays->items;
+    const Packet *packets = rays->items;
     vreal nearest = splat(REAL_LARGE);
     vint mixed = splat_int(0);
     for (int i = 0; i < rays->count; i++) {
-        const Ray *ray = &bundles[i].ray;
-        Reference reference = reference_of(SCENE_ARGUMENTS ray->touched, bundles[i].is_eye);
-        Hit hit = closest_hit(SCENE_ARGUMENTS ray, reference);
-        nearest = lesser(hit.t, nearest);
+        const Ray *ray = &packets[i].ray;
+        LocalOrigin local_origin =
+            local_origin_of(SCENE_ARGUMENTS ray->last_hit, packets[i].is_eye);
+        Hit hit = closest_hit(SCENE_ARGUMENTS ray, local_origin);
+        nearest = vmin(hit.t, nearest);
         mixed = mixed + count_lanes(hit.object & hit.face, hit.entering);
     }
     return (uint64_t)(sum_of_lanes(mixed) + (int)lane_real(&nearest, 0));

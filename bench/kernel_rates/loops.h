@@ -8,7 +8,7 @@
 
 #include "tables/table.h"
 
-/* Bundles, or lit points of bundles, ready to be worked on; made by the same build; free `items`.
+/* Packets, or lit points of packets, ready to be worked on; made by the same build; free `items`.
  */
 typedef struct HdWork {
     void *items; /* owned; laid out as the build's lanes */
@@ -20,14 +20,14 @@ typedef struct HdLoops {
     int lanes;
     const char *search_symbol, *light_symbol; /* of the functions below, for a disassembler */
 
-    /* At most `most` of the view's bundles of which some lane meets a solid, taken evenly; count 0
+    /* At most `most` of the view's packets of which some lane meets a solid, taken evenly; count 0
        where there are none or no memory. */
     HdWork (*make_rays)(const HdTable *scene, const HdTable *frame, int most);
     /* Likewise the surface points that primary rays meet and that lights can reach. */
     HdWork (*make_points)(const HdTable *scene, const HdTable *frame, int most);
-    /* Live lanes of the bundles. */
+    /* Live lanes of the packets. */
     uint64_t (*live_rays)(const HdWork *rays);
-    /* One closest-hit search for each bundle. The result depends on every hit. */
+    /* One closest-hit search for each packet. The result depends on every hit. */
     uint64_t (*search)(const HdTable *scene, const HdTable *frame, const HdWork *rays);
     /* Direct light at each point from all lights; returns the shadow tests, as frames count them,
        and writes what depends on every result to `sum`. */

@@ -32,17 +32,17 @@
 HD_BUILDS
 #undef X
 
-/* Bundles of rays and of points: enough to be like the view, few enough for the second-level cache.
+/* Packets of rays and of points: enough to be like the view, few enough for the second-level cache.
  */
-enum { MOST_RAYS = 512, MOST_POINTS = 64 };
+enum { MAX_RAYS = 512, MAX_POINTS = 64 };
 /* What is stepped through, which takes up to 0.2 ms an instruction. */
 enum { COUNTED_RAYS = 24, COUNTED_POINTS = 4 };
-enum { MOST_SCENES = 16, MOST_MEASURES = 64 };
+enum { MAX_SCENES = 16, MAX_MEASURES = 64 };
 
 /* The tables of a scene's first frame. */
 typedef struct HdLoopScene {
     const char *name;        /* of its file, without folder and ending */
-    HdSceneTables tables[2]; /* for bundles; for single lanes */
+    HdSceneTables tables[2]; /* for packets; for single lanes */
     HdFrameTables frame;
 } HdLoopScene;
 
@@ -60,8 +60,8 @@ typedef struct Bench {
     int rounds;
     bool counts;
     int scene_count, measure_count;
-    HdLoopScene scenes[MOST_SCENES]; /* the first has no floor, and rays search it */
-    HdMeasure measures[MOST_MEASURES];
+    HdLoopScene scenes[MAX_SCENES]; /* the first has no floor, and rays search it */
+    HdMeasure measures[MAX_MEASURES];
 } Bench;
 
 /* ---- counting the instructions that a function executes, one by one ---- */
@@ -86,7 +86,7 @@ static _Noreturn void run_child(void (*work)(void *), void *context) {
 }
 
 /* Steps the child, which is stopped, to its end. */
-static bool follow(HdSteps *steps, uintptr_t start, pid_t child) {
+static bool trace_and_shade(HdSteps *steps, uintptr_t start, pid_t child) {
     int status;
     while (ptrace(PTRACE_SINGLESTEP, child, NULL, NULL) == 0 &&
            waitpid(child, &status, 0) == child) {
@@ -114,7 +114,7 @@ static bool count_steps(HdSteps *steps, uintptr_t start, void (*work)(void *), v
         run_child(work, context);
     if (child < 0 || waitpid(child, &status, 0) != child)
         return false;
-    return WIFSTOPPED(status) && follow(steps, start, child);
+    return WIFSTOPPED(status) && trace_and_shade(steps, start, child);
 }
 
 #else
@@ -145,7 +145,7 @@ static bool compile(HdLoopScene *scene, HdSceneFile *file, int lanes, HdError *e
                             error) == HD_OK;
 }
 
-/* Reads a scene file, for bundles of so many lanes; without `floor` its floor is left out. Prints
+/* Reads a scene file, for packets of so many lanes; without `floor` its floor is left out. Prints
    what is wrong and returns false on failure. */
 static bool read_loop_scene(HdLoopScene *scene, const char *path, bool floor, int lanes) {
     const HdSceneSource source = {.loads_files = true};
@@ -254,7 +254,7 @@ static void add_search(Bench *bench, const HdLoops *loops) {
     HdMeasure measure = {
         .unit = "searches", .loops = loops, .scene = scene, .what = HD_MEASURE_SEARCH};
     measure.work = loops->make_rays(tables_for(scene, loops->lanes), scene->frame.table,
-                                    bench->counts ? COUNTED_RAYS : MOST_RAYS);
+                                    bench->counts ? COUNTED_RAYS : MAX_RAYS);
     add_measure(bench, measure, "search", "meeting");
 }
 
@@ -262,7 +262,7 @@ static void add_light(Bench *bench, const HdLoops *loops, const HdLoopScene *sce
     char name[64];
     HdMeasure measure = {.unit = "pairs", .loops = loops, .scene = scene, .what = HD_MEASURE_LIGHT};
     measure.work = loops->make_points(tables_for(scene, loops->lanes), scene->frame.table,
-                                      bench->counts ? COUNTED_POINTS : MOST_POINTS);
+                                      bench->counts ? COUNTED_POINTS : MAX_POINTS);
     snprintf(name, sizeof name, "%.*s", (int)strcspn(scene->name, "."), scene->name);
     add_measure(bench, measure, "light", name);
 }
@@ -337,7 +337,7 @@ static int read_arguments(Bench *bench, int count, char **words) {
             bench->seconds = strtod(words[++i], NULL);
         else if (strcmp(words[i], "--rounds") == 0 && i + 1 < count)
             bench->rounds = atoi(words[++i]);
-        else if (words[i][0] == '-' || bench->scene_count == MOST_SCENES)
+        else if (words[i][0] == '-' || bench->scene_count == MAX_SCENES)
             return 2;
         else if (!read_scene(bench, words[i]))
             return 1;

@@ -12,11 +12,11 @@
 #include "studies.h"
 #include "triangle_tests.h"
 
-enum { MOST_METHODS = 12, RAYS_A_TURN = 50, MOST_TRIES = 100 };
+enum { MAX_METHODS = 12, RAYS_A_TURN = 50, MAX_TRIES = 100 };
 
 /* From where rays come, in sizes; how far off a hit may be before it counts as misplaced. */
 static const double distance = 3.0, tolerance = 1e-3;
-static const double least_facing = 0.05, least_graze = 1e-4, most_graze = 1e-2;
+static const double min_facing = 0.05, min_graze = 1e-4, max_graze = 1e-2;
 
 typedef struct Tally {
     const char *name;
@@ -24,13 +24,13 @@ typedef struct Tally {
 } Tally;
 
 typedef enum Surroundings { PLATONIC, NEEDLE, ZERO_AREAS, DUPLICATES, T_JUNCTIONS } Surroundings;
-typedef enum Way { ANY_WAY, GRAZING, ALONG_AXES } Way;
+typedef enum RayOctant { ANY_WAY, GRAZING, ALONG_AXES } RayOctant;
 
 typedef struct Case {
     const char *name;
     Surroundings shape;
     HdAimKind aim; /* HD_AIM_KINDS: each in turn */
-    Way way;
+    RayOctant way;
 } Case;
 
 static const Case cases[] = {
@@ -50,9 +50,9 @@ typedef struct Stage {
     HdShape shape;
     HdPlace place;
     HdVec3 centre;
-    HdVec3 in_world[HD_MOST_SHAPE_VERTICES], in_mesh[HD_MOST_SHAPE_VERTICES]; /* rounded to float */
-    HdFloatTriangle triangles[HD_MOST_SHAPE_TRIANGLES];
-    HdVec3 world_corners[HD_MOST_SHAPE_TRIANGLES][3], mesh_corners[HD_MOST_SHAPE_TRIANGLES][3];
+    HdVec3 in_world[HD_MAX_SHAPE_VERTICES], in_mesh[HD_MAX_SHAPE_VERTICES]; /* rounded to float */
+    HdFloatTriangle triangles[HD_MAX_SHAPE_TRIANGLES];
+    HdVec3 world_corners[HD_MAX_SHAPE_TRIANGLES][3], mesh_corners[HD_MAX_SHAPE_TRIANGLES][3];
     bool has_solid;
     HdSolidKind kind;
     HdVec3 degrees;
@@ -116,7 +116,7 @@ static void put(Stage *stage, HdPlace place, const HdTriangleTests *tests) {
 }
 
 /* A direction from the point back to where the ray comes from. */
-static HdVec3 way_back(const HdShape *shape, const HdAim *aim, Way way, uint64_t *random) {
+static HdVec3 way_back(const HdShape *shape, const HdAim *aim, RayOctant way, uint64_t *random) {
     HdVec3 normal = shape->normals[aim->triangle];
     if (way == ALONG_AXES) {
         double x = fabs(normal.x), y = fabs(normal.y), z = fabs(normal.z);
@@ -126,14 +126,14 @@ static HdVec3 way_back(const HdShape *shape, const HdAim *aim, Way way, uint64_t
                       : hd_vec3(0.0, 0.0, copysign(1.0, normal.z));
     }
     if (way == GRAZING) {
-        double angle = least_graze * pow(most_graze / least_graze, random_between(random, 0, 1));
+        double angle = min_graze * pow(max_graze / min_graze, random_between(random, 0, 1));
         HdVec3 along = hd_normalize(hd_cross(normal, hd_random_direction(random)));
         return hd_add(hd_scale(along, cos(angle)), hd_scale(normal, sin(angle)));
     }
     HdVec3 away = normal;
-    for (int i = 0; i < MOST_TRIES; i++) {
+    for (int i = 0; i < MAX_TRIES; i++) {
         away = hd_normalize(hd_add(normal, hd_random_direction(random)));
-        if (hd_aim_facing(shape, aim, away) > least_facing)
+        if (hd_aim_facing(shape, aim, away) > min_facing)
             break;
     }
     return away; /* at a needle's tip there is none */
@@ -149,7 +149,7 @@ static Aimed aim_ray(const Stage *stage, const Case *each, int number, uint64_t 
     double scale = stage->place.scale;
     Aimed ray = {.origin = hd_add(target, hd_scale(away, distance))};
     ray.is_silhouette =
-        each->way != GRAZING && hd_aim_facing(&stage->shape, &aim, away) < least_facing;
+        each->way != GRAZING && hd_aim_facing(&stage->shape, &aim, away) < min_facing;
     ray.direction = hd_scale(away, -1.0);
     ray.eye = hd_add(stage->centre, hd_scale(ray.origin, scale));
     ray.world_origin = hd_round(ray.eye);
@@ -247,7 +247,7 @@ static bool try_ray(Stage *stage, const Case *each, const Aimed *ray, bool contr
 }
 
 static void print_tallies(const Case *each, HdPlace place, const Tally *tallies) {
-    for (int i = 0; i < MOST_METHODS && tallies[i].name != NULL; i++)
+    for (int i = 0; i < MAX_METHODS && tallies[i].name != NULL; i++)
         printf(
             "crossings %s %s %g %g tried=%lld missed=%lld twice=%lld wrong=%lld misplaced=%lld\n",
             each->name, tallies[i].name, place.scale, place.offset, tallies[i].rays,
@@ -266,7 +266,7 @@ static bool compile_solid(Stage *stage) {
 }
 
 static bool study_case(Stage *stage, const Case *each, HdPlace place, int count, bool contracts) {
-    Tally tallies[MOST_METHODS] = {{0}};
+    Tally tallies[MAX_METHODS] = {{0}};
     uint64_t random = 1;
     bool done = true;
     for (int i = 0; i < count && done; i++) {

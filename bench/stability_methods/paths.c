@@ -16,16 +16,16 @@
 /* ---- mirrored solids, and the paths of rays between them in double: independent of the kernels
  * ---- */
 
-enum { MOST_ROOM_SOLIDS = 3 };
+enum { MAX_ROOM_SOLIDS = 3 };
 
 /* Convex solids, of circumradius 1 about the origin the first, whose faces mirror on both sides;
    the others lie within the first. */
 typedef struct Room {
     int count;
-    HdSolidKind kind[MOST_ROOM_SOLIDS];
-    HdVec3 degrees[MOST_ROOM_SOLIDS], centre[MOST_ROOM_SOLIDS];
-    double radius[MOST_ROOM_SOLIDS];
-    HdPlatonic shape[MOST_ROOM_SOLIDS]; /* turned, of circumradius 1 */
+    HdSolidKind kind[MAX_ROOM_SOLIDS];
+    HdVec3 degrees[MAX_ROOM_SOLIDS], centre[MAX_ROOM_SOLIDS];
+    double radius[MAX_ROOM_SOLIDS];
+    HdPlatonic shape[MAX_ROOM_SOLIDS]; /* turned, of circumradius 1 */
 } Room;
 
 typedef enum RoomKind { ROOM_EMPTY, ROOM_WITH_SOLIDS, ROOM_KINDS } RoomKind;
@@ -118,8 +118,8 @@ static void enter(const Room *room, int solid, HdVec3 origin, HdVec3 direction, 
 }
 
 /* The faces that a path meets, `count` of them. */
-static void follow(const Room *room, HdVec3 origin, HdVec3 direction, int count,
-                   HdBounce *bounces) {
+static void trace_and_shade(const Room *room, HdVec3 origin, HdVec3 direction, int count,
+                            HdBounce *bounces) {
     int last = -1;
     for (int i = 0; i < count; i++) {
         Next next = {.t = 1e30};
@@ -138,13 +138,13 @@ static void follow(const Room *room, HdVec3 origin, HdVec3 direction, int count,
 /* ---- paths of mirrors as others follow them: triangles and rays in float, in world coordinates,
    and something against meeting the surface that a ray leaves; none is part of the product ---- */
 
-enum { MOST_PLAIN_TRIANGLES = 128 };
+enum { MAX_PLAIN_TRIANGLES = 128 };
 
 typedef struct PlainScene {
     int count;
-    HdFloatTriangle triangles[MOST_PLAIN_TRIANGLES];
-    HdFloat3 normals[MOST_PLAIN_TRIANGLES]; /* unit, outward */
-    HdBounce faces[MOST_PLAIN_TRIANGLES];
+    HdFloatTriangle triangles[MAX_PLAIN_TRIANGLES];
+    HdFloat3 normals[MAX_PLAIN_TRIANGLES]; /* unit, outward */
+    HdBounce faces[MAX_PLAIN_TRIANGLES];
 } PlainScene;
 
 enum { AVOIDANCES = 8 };
@@ -174,7 +174,7 @@ static void make_plain_scene(PlainScene *scene, const Room *room, HdVec3 centre,
     scene->count = 0;
     for (int s = 0; s < room->count; s++) {
         HdShape shape;
-        HdVec3 at[HD_MOST_SHAPE_VERTICES];
+        HdVec3 at[HD_MAX_SHAPE_VERTICES];
         hd_shape_of_platonic(&shape, &room->shape[s]);
         for (int v = 0; v < shape.vertex_count; v++) {
             HdVec3 p = hd_add(room->centre[s], hd_scale(shape.vertices[v], room->radius[s]));
@@ -326,7 +326,7 @@ static const char *method_name(int method) {
 
 static bool compile(Stage *stage, int method) {
     HdCompiled *compiled = &stage->compiled[method - OURS_SOLIDS];
-    HdSolid solids[MOST_ROOM_SOLIDS];
+    HdSolid solids[MAX_ROOM_SOLIDS];
     const Room *room = &stage->room;
     for (int s = 0; s < room->count; s++)
         solids[s] = hd_plain_solid(
@@ -394,7 +394,7 @@ static void make_paths(Stage *stage, RoomKind kind, int turn, int count, uint64_
         Path *path = &stage->paths[i];
         path->eye = find_eye(&stage->room, random);
         path->direction = hd_round(hd_random_direction(random));
-        follow(&stage->room, path->eye, path->direction, MANY_BOUNCES, path->truth);
+        trace_and_shade(&stage->room, path->eye, path->direction, MANY_BOUNCES, path->truth);
     }
 }
 

@@ -21,7 +21,7 @@ static HdBounce bounce_of(const HdTable *scene, const Ray *next) {
     const Header *header = scene[HD_TABLE_header].data;
     const Object *objects = scene[HD_TABLE_objects].data;
     const Instance *instances = scene[HD_TABLE_instances].data;
-    int object = next->touched;
+    int object = next->last_hit;
     if (object >= header->floor_end) {
         int number = object - header->floor_end;
         return (HdBounce){number, next->face - instances[number].first_face};
@@ -38,7 +38,7 @@ static int mirror_path(const HdTable *scene, const HdTable *frame, HdVec3 direct
     int count = 0;
     while (count < most) {
         Ray mirror, through;
-        follow(SCENE_ARGUMENTS & ray, count, &sample, &mirror, &through);
+        trace_and_shade(SCENE_ARGUMENTS & ray, count, &sample, &mirror, &through);
         if (!any_lane(mirror.alive))
             break;
         bounces[count++] = bounce_of(scene, &mirror);
@@ -51,12 +51,12 @@ static HdCrossings pierce(const HdTable *scene, const HdTable *frame, HdVec3 dir
     enum { MOST = 16 };
     HD_DECLARE_TABLES(scene, frame)
     Ray ray = eye_ray(rounded(direction), mask_all());
-    Hit hit = closest_hit(SCENE_ARGUMENTS & ray, reference_of(SCENE_ARGUMENTS ray.touched, 1));
+    Hit hit = closest_hit(SCENE_ARGUMENTS & ray, local_origin_of(SCENE_ARGUMENTS ray.last_hit, 1));
     HdCrossings crossings = {.first = (double)hit.t};
     Sample sample = no_sample();
     for (int level = 0; level < MOST; level++) {
         Ray mirror, through;
-        follow(SCENE_ARGUMENTS & ray, level, &sample, &mirror, &through);
+        trace_and_shade(SCENE_ARGUMENTS & ray, level, &sample, &mirror, &through);
         if (!any_lane(through.alive))
             break;
         if (any_lane(through.inside))
@@ -72,7 +72,7 @@ static HdCrossings cross_triangles(HdVec3 (*corners)[3], int count, HdVec3 origi
                                    HdVec3 direction) {
     HdCrossings crossings = {.first = (double)REAL_LARGE};
     Vec3 from = rounded(origin), along = rounded(direction);
-    LastAxis last = nearest_axis(along);
+    DominantAxis last = dominant_axis(along);
     from = turn(last, from);
     along = turn(last, along);
     RayFrame frame = ray_frame(from, along);
@@ -123,7 +123,8 @@ static double transmittance(const HdTable *scene, const HdLitPoint *point, int l
     vint outer[SOLID_BOUND(header)];
     uint some_outer[SOLID_BOUND(header)];
     vmask open_to[SOLID_BOUND(header)];
-    measure_planes(SCENE_ARGUMENTS & surface, &points, 0, coordinates, outer, some_outer, open_to);
+    classify_against_planes(SCENE_ARGUMENTS & surface, &points, 0, coordinates, outer, some_outer,
+                            open_to);
     LightRows rows = light_rows(points.object);
     Vec3 to_light = vec3_sub(light_position(SCENE_ARGUMENTS & rows, light), surface.point);
     Vec3 white = vec3_splat(R(1.0), R(1.0), R(1.0));

@@ -48,7 +48,7 @@ typedef struct Tally {
 typedef struct Stage {
     HdPlatonic solid;
     HdShape shape;
-    HdFloatTriangle triangles[HD_MOST_SHAPE_TRIANGLES];
+    HdFloatTriangle triangles[HD_MAX_SHAPE_TRIANGLES];
     HdVec3 centre;
     double scale;
     HdVec3 light[FREE_LIGHTS]; /* on faces, in sizes about the centre */

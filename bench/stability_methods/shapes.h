@@ -8,15 +8,15 @@
 
 #include "scene/platonic.h"
 
-enum { HD_MOST_SHAPE_VERTICES = 64, HD_MOST_SHAPE_TRIANGLES = 256 };
+enum { HD_MAX_SHAPE_VERTICES = 64, HD_MAX_SHAPE_TRIANGLES = 256 };
 
 typedef struct HdShape {
     int vertex_count, triangle_count;
-    HdVec3 vertices[HD_MOST_SHAPE_VERTICES];
-    int corners[HD_MOST_SHAPE_TRIANGLES][3]; /* counterclockwise from outside */
-    int face_of[HD_MOST_SHAPE_TRIANGLES];    /* -1: it has no area */
-    HdVec3 normals[HD_MOST_SHAPE_TRIANGLES]; /* of the triangles; unit, or 0 */
-    int copies;                              /* how often the surface is there */
+    HdVec3 vertices[HD_MAX_SHAPE_VERTICES];
+    int corners[HD_MAX_SHAPE_TRIANGLES][3]; /* counterclockwise from outside */
+    int face_of[HD_MAX_SHAPE_TRIANGLES];    /* -1: it has no area */
+    HdVec3 normals[HD_MAX_SHAPE_TRIANGLES]; /* of the triangles; unit, or 0 */
+    int copies;                             /* how often the surface is there */
 } HdShape;
 
 /* A point of a shape's surface that a ray is aimed at. */

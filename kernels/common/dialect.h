@@ -1,27 +1,27 @@
 /* SPDX-License-Identifier: MIT */
 /* The dialect of the shared kernels: the contract of what each language has for them, and what is
-   built from that. Kernel text is written for a bundle of HD_LANES lanes: with one lane a bundle is
+   built from that. Kernel text is written for a packet of HD_LANES lanes: with one lane a packet is
    a scalar, with more it is a vector of the language. docs/development/dialect.md is the manual.
 
    A language has, in a dialect.h beside its entry point (kernels/cuda, kernels/opencl, cpu):
 
-   words    FN begins every function (static and inlined); FN_APART one that is kept out of its
+   words    FN begins every function (static and inlined); FN_NOINLINE one that is kept out of its
             callers where that helps. GLOBAL and LOCAL stand before the type that a pointer to a
             table, or to memory of a group, points to. RESTRICT, ALIGNED_16. BARRIER() waits for the
             group.
    scalars  uint, uint64 and fixed64 of 32, 64 and 64 bits; real_bits: an integer as wide as real
-   bundles  vreal of real; vint: int, or with several lanes integers as wide as real, to be used as
+   packets  vreal of real; vint: int, or with several lanes integers as wide as real, to be used as
             if they had 32 bits; vmask: opaque, 0 or -1 in each lane, or a bit for each; vfix of
             fixed64; vbits of real_bits
 
-   Operators + - * and, on integers and masks, & | ^ ~ >> work on bundles as on scalars; a scalar
+   Operators + - * and, on integers and masks, & | ^ ~ >> work on packets as on scalars; a scalar
    real may stand beside a vreal. Everything else is a function, division too, which is correctly
    rounded in strict builds like the rest. Of each language:
 
    splat(a), splat_int(a)         the same value in every lane
    lt(a, b), le(a, b)             mask of a < b, a <= b; false where either is NaN
    eq_int(a, b), lt_int(a, b)     masks of integers
-   pick(m, a, b), pick_int        a where m is set, else b, bit for bit; both are evaluated
+   vselect(m, a, b), vselect_int        a where m is set, else b, bit for bit; both are evaluated
    any_lane(m)                    non-zero where a lane of m is set
    lane_real(&a, i), lane_int, lane_fix    read one lane; not of a mask
    set_lane_int(&a, i, x)         writes one lane
@@ -70,14 +70,14 @@ FN int first_lane(vmask m) {
 }
 #endif
 
-FN vmask pick_mask(vmask m, vmask a, vmask b) {
+FN vmask vselect_mask(vmask m, vmask a, vmask b) {
     return (m & a) | (~m & b);
 }
 
 /* A bit for each lane of a mask, the first lane's the lowest. */
 #ifndef HD_OWN_LANE_BITS
 FN uint lane_bits(vmask m) {
-    vint chosen = pick_int(m, splat_int(1), splat_int(0));
+    vint chosen = vselect_int(m, splat_int(1), splat_int(0));
     uint bits = 0;
     for (int lane = 0; lane < HD_LANES; lane++)
         bits |= (uint)lane_int(&chosen, lane) << lane;
@@ -110,7 +110,7 @@ FN int must_visit(vmask m) {
 
 /* `counts`, one more in the lanes of `m`. */
 FN vint count_lanes(vint counts, vmask m) {
-    return counts + pick_int(m, splat_int(1), splat_int(0));
+    return counts + vselect_int(m, splat_int(1), splat_int(0));
 }
 
 /* All lanes added up. */
@@ -141,19 +141,19 @@ FN vmask lanes_below(int count) {
 /* Selects: vendors differ in what their min and max make of NaN and -0. Where a is NaN or both are
    0, the result is b, as x86's instructions have it. */
 #ifndef HD_OWN_LESSER
-FN vreal lesser(vreal a, vreal b) {
-    return pick(lt(a, b), a, b);
+FN vreal vmin(vreal a, vreal b) {
+    return vselect(lt(a, b), a, b);
 }
-FN vreal greater(vreal a, vreal b) {
-    return pick(lt(b, a), a, b);
+FN vreal vmax(vreal a, vreal b) {
+    return vselect(lt(b, a), a, b);
 }
 #endif
 
-FN vint least_int(vint a, vint b) {
-    return pick_int(lt_int(a, b), a, b);
+FN vint min_int(vint a, vint b) {
+    return vselect_int(lt_int(a, b), a, b);
 }
-FN vint greatest_int(vint a, vint b) {
-    return pick_int(lt_int(b, a), a, b);
+FN vint max_int(vint a, vint b) {
+    return vselect_int(lt_int(b, a), a, b);
 }
 
 /* `a`, negated where `sign` is negative. */
@@ -163,9 +163,9 @@ FN vreal times_sign_of(vreal a, vreal sign) {
 
 /* The least and the greatest of the lanes of `m`, of which there are some; numbers but infinite
    ones or NaN. */
-#ifndef HD_OWN_LEAST_LANE
-FN real least_lane(vreal a, vmask m) {
-    vreal kept = pick(m, a, splat(REAL_LARGE));
+#ifndef HD_OWN_MIN_LANE
+FN real min_lane(vreal a, vmask m) {
+    vreal kept = vselect(m, a, splat(REAL_LARGE));
     real least = lane_real(&kept, 0);
     for (int lane = 1; lane < HD_LANES; lane++) {
         real other = lane_real(&kept, lane);
@@ -173,8 +173,8 @@ FN real least_lane(vreal a, vmask m) {
     }
     return least;
 }
-FN real greatest_lane(vreal a, vmask m) {
-    return -least_lane(-a, m);
+FN real max_lane(vreal a, vmask m) {
+    return -min_lane(-a, m);
 }
 #endif
 
@@ -236,7 +236,7 @@ FN void prefetch_bytes(GLOBAL const char *from, int count) {
 
 /* Where each lane of `m` is when they are stored side by side; returns how many these are. */
 FN int lane_offsets(vmask m, int offset[HD_LANES]) {
-    vint chosen = pick_int(m, splat_int(1), splat_int(0));
+    vint chosen = vselect_int(m, splat_int(1), splat_int(0));
     int count = 0;
     for (int lane = 0; lane < HD_LANES; lane++) {
         offset[lane] = count;
@@ -245,7 +245,7 @@ FN int lane_offsets(vmask m, int offset[HD_LANES]) {
     return count;
 }
 
-/* Stores them so, which may overwrite as much as a bundle. */
+/* Stores them so, which may overwrite as much as a packet. */
 #ifndef HD_OWN_STORE_LANES
 FN void store_lanes(GLOBAL real *to, vmask m, const int offset[HD_LANES], const vreal *a) {
     (void)m;

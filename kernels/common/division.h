@@ -53,7 +53,7 @@ FN vreal reciprocal_root(vreal a) {
 #define BITS_OF_FIRST  0x000fffffffffffff         /* of the digits */
 #define BITS_OF_POWER  0x7ff0000000000000         /* of the exponent */
 #define LAST_PLACE     R(2.220446049250313e-16)   /* 2^-52 */
-#define LEAST_NORMAL   R(2.2250738585072014e-308) /* 2^-1022 */
+#define MIN_NORMAL     R(2.2250738585072014e-308) /* 2^-1022 */
 #define NORMALISER     R(18014398509481984.0)     /* 2^54 */
 #define NORMALISER_LOG R(54.0)
 #define EXPONENT_BASE  R(4503599627370496.0)      /* 2^52 */
@@ -65,7 +65,7 @@ FN vreal reciprocal_root(vreal a) {
 #define BITS_OF_FIRST  0x007fffff
 #define BITS_OF_POWER  0x7f800000
 #define LAST_PLACE     R(1.1920928955078125e-7)  /* 2^-23 */
-#define LEAST_NORMAL   R(1.1754943508222875e-38) /* 2^-126 */
+#define MIN_NORMAL     R(1.1754943508222875e-38) /* 2^-126 */
 #define NORMALISER     R(16777216.0)             /* 2^24 */
 #define NORMALISER_LOG R(24.0)
 #define EXPONENT_BASE  R(8388608.0)     /* 2^23 */
@@ -81,10 +81,10 @@ FN vreal power_of_two(vreal n) {
 
 /* A positive number as digits in [1, 2), returned, times 2^exponent. */
 FN vreal split_number(vreal a, vreal *exponent) {
-    vmask is_small = lt(a, splat(LEAST_NORMAL));
-    vbits bits = bits_of(pick(is_small, a * splat(NORMALISER), a));
+    vmask is_small = lt(a, splat(MIN_NORMAL));
+    vbits bits = bits_of(vselect(is_small, a * splat(NORMALISER), a));
     vbits field = (bits >> MANTISSA_BITS) | bits_of(splat(EXPONENT_BASE));
-    vreal above = pick(is_small, splat(NORMALISER_LOG), splat(R(0.0)));
+    vreal above = vselect(is_small, splat(NORMALISER_LOG), splat(R(0.0)));
     *exponent = from_bits(field) - splat(EXPONENT_BASE + R(1.0) * EXPONENT_BIAS) - above;
     return from_bits((bits & splat_bits(BITS_OF_FIRST)) | splat_bits(BITS_OF_ONE));
 }
@@ -96,7 +96,7 @@ FN vreal quotient_digits(vreal a, vreal b, vreal *left) {
     vreal digits = multiply_add(multiply_add(-b, guess, a), inverse, guess);
     vreal rest = multiply_add(-b, digits, a), middle = b * splat(R(0.5) * LAST_PLACE);
     vmask is_low = lt(middle, rest), is_high = lt(rest, -middle);
-    vreal up = pick(is_low, step, pick(is_high, -step, splat(R(0.0))));
+    vreal up = vselect(is_low, step, vselect(is_high, -step, splat(R(0.0))));
     digits = digits + up;
     *left = multiply_add(-b, up, rest);
     return digits;
@@ -108,12 +108,12 @@ FN vreal small_quotient(vreal digits, vreal left, vreal exponent) {
     vreal one = splat(R(1.0)), zero = splat(R(0.0)), step = splat(LAST_PLACE);
     vreal middle = splat(R(0.5) * LAST_PLACE);
     vreal n = exponent + splat(EXPONENT_BIAS - R(1.0));
-    n = greater(n, splat(R(-2.0) * NORMALISER_LOG));
+    n = vmax(n, splat(R(-2.0) * NORMALISER_LOG));
     vreal scaled = digits * power_of_two(n);
     vreal sum = scaled + one, lost = scaled - (sum - one);
     vmask is_up = le(middle, lost) & lt(zero, left), is_down = le(lost, -middle) & lt(left, zero);
-    sum = sum + pick(is_up, step, pick(is_down, -step, zero));
-    return (sum - one) * splat(LEAST_NORMAL);
+    sum = sum + vselect(is_up, step, vselect(is_down, -step, zero));
+    return (sum - one) * splat(MIN_NORMAL);
 }
 
 /* a / b of positive numbers, neither 0 nor infinite. */
@@ -121,14 +121,14 @@ FN vreal positive_quotient(vreal a, vreal b) {
     vreal exponent_a, exponent_b, left;
     vreal digits_a = split_number(a, &exponent_a), digits_b = split_number(b, &exponent_b);
     vmask is_less = lt(digits_a, digits_b);
-    digits_a = pick(is_less, digits_a + digits_a, digits_a);
-    vreal exponent = exponent_a - exponent_b - pick(is_less, splat(R(1.0)), splat(R(0.0)));
+    digits_a = vselect(is_less, digits_a + digits_a, digits_a);
+    vreal exponent = exponent_a - exponent_b - vselect(is_less, splat(R(1.0)), splat(R(0.0)));
     vreal digits = quotient_digits(digits_a, digits_b, &left);
     vreal least = splat(R(1.0) - EXPONENT_BIAS), most = splat(R(1.0) * EXPONENT_BIAS);
-    vreal kept = lesser(greater(exponent, least), most);
-    vreal beyond = lesser(exponent - kept, most);
-    vreal normal = digits * power_of_two(kept) * power_of_two(greater(beyond, splat(R(0.0))));
-    return pick(lt(exponent, least), small_quotient(digits, left, exponent), normal);
+    vreal kept = vmin(vmax(exponent, least), most);
+    vreal beyond = vmin(exponent - kept, most);
+    vreal normal = digits * power_of_two(kept) * power_of_two(vmax(beyond, splat(R(0.0))));
+    return vselect(lt(exponent, least), small_quotient(digits, left, exponent), normal);
 }
 
 FN vreal quotient(vreal a, vreal b) {
@@ -139,10 +139,10 @@ FN vreal quotient(vreal a, vreal b) {
     vmask zero_a = le(size_a, zero), zero_b = le(size_b, zero);
     vmask infinite_a = le(infinite, size_a), infinite_b = le(infinite, size_b);
     vreal found = positive_quotient(size_a, size_b);
-    found = pick(zero_a | infinite_b, zero, found);
-    found = pick(zero_b | infinite_a, infinite, found);
+    found = vselect(zero_a | infinite_b, zero, found);
+    found = vselect(zero_b | infinite_a, infinite, found);
     vmask has_any = le(size_a, infinite) & le(size_b, infinite);
-    found = pick((zero_a & zero_b) | (infinite_a & infinite_b) | ~has_any, nan, found);
+    found = vselect((zero_a & zero_b) | (infinite_a & infinite_b) | ~has_any, nan, found);
     return from_bits(bits_of(found) ^ sign);
 }
 
@@ -153,13 +153,13 @@ FN vreal root_digits(vreal a) {
     vreal digits = multiply_add(rest, inverse * splat(R(0.5)), guess);
     rest = multiply_add(-digits, digits, a);
     vmask is_low = lt(digits * step, rest), is_high = le(rest, -(digits * step));
-    return digits + pick(is_low, step, pick(is_high, -step, splat(R(0.0))));
+    return digits + vselect(is_low, step, vselect(is_high, -step, splat(R(0.0))));
 }
 
 FN vreal square_root(vreal a) {
     vreal zero = splat(R(0.0)), infinite = from_bits(splat_bits(BITS_OF_POWER));
-    vmask is_small = lt(a, splat(LEAST_NORMAL));
-    vreal normal = pick(is_small, a * splat(NORMALISER), a);
+    vmask is_small = lt(a, splat(MIN_NORMAL));
+    vreal normal = vselect(is_small, a * splat(NORMALISER), a);
     vbits power_bits = ((bits_of(normal) & splat_bits(BITS_OF_POWER)) >> 1) +
                        splat_bits((real_bits)BITS_OF_ONE >> 1);
     vreal power = from_bits(power_bits & splat_bits(BITS_OF_POWER));
@@ -167,9 +167,9 @@ FN vreal square_root(vreal a) {
         from_bits(splat_bits(2 * (real_bits)EXPONENT_BIAS * ((real_bits)1 << MANTISSA_BITS)) -
                   (power_bits & splat_bits(BITS_OF_POWER)));
     vreal found = root_digits(normal * inverse * inverse) * power;
-    found = pick(is_small, found * splat(INVERSE_ROOT), found);
-    found = pick(lt(zero, a) & lt(a, infinite), found, a);
-    return pick(lt(a, zero), infinite - infinite, found);
+    found = vselect(is_small, found * splat(INVERSE_ROOT), found);
+    found = vselect(lt(zero, a) & lt(a, infinite), found, a);
+    return vselect(lt(a, zero), infinite - infinite, found);
 }
 
 FN real shared_quotient(real a, real b) {

@@ -33,15 +33,15 @@ SMALL_TABLES(DEFINE_CONSTANT)
 
 #if HD_WAVEFRONT && HD_GROUP_SIZE
 
-KERNEL hedron_trace_take(
-    SCENE_PARAMETERS QUEUE_PARAMETERS HD_TRACE_TAKE_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
-    SHARED uint64 room[2 * HD_GROUP_SIZE];
+KERNEL hedron_trace_chunk(
+    SCENE_PARAMETERS QUEUE_PARAMETERS HD_TRACE_CHUNK_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
+    SHARED uint64 scratch[2 * HD_GROUP_SIZE];
     SHARED uint place;
     {
         SMALL_TABLES(USE_CONSTANT)
-        trace_take_by_group(SCENE_ARGUMENTS QUEUE_ARGUMENTS first_item, level, first, count, to,
-                            taken_before, is_first_launch, GROUP, GROUPS, THREAD, THREADS, room,
-                            &place, taken, counts);
+        trace_chunk_by_group(SCENE_ARGUMENTS QUEUE_ARGUMENTS first_item, level, first, count, to,
+                             taken_before, is_first_launch, GROUP, GROUPS, THREAD, THREADS, scratch,
+                             &place, taken, counts);
     }
 }
 
@@ -60,11 +60,11 @@ KERNEL hedron_render_by_waves(SCENE_PARAMETERS QUEUE_PARAMETERS
 #elif HD_GROUP_SIZE
 
 KERNEL hedron_render(SCENE_PARAMETERS HD_RENDER_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
-    SHARED fixed64 room[GROUP_ROOM * HD_GROUP_SIZE];
+    SHARED fixed64 scratch[GROUP_SCRATCH * HD_GROUP_SIZE];
     {
         SMALL_TABLES(USE_CONSTANT)
         render_by_group(SCENE_ARGUMENTS first_item, item_count, parts, GROUP, GROUPS, THREAD,
-                        THREADS, room, pixels, counts);
+                        THREADS, scratch, pixels, counts);
     }
 }
 

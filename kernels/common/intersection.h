@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Closest hit of a bundle of rays with the solids and the floor. There is no epsilon: a ray carries
+/* Closest hit of a packet of rays with the solids and the floor. There is no epsilon: a ray carries
    the object it touched last and the side it runs on (docs/numerics.md). */
 #ifndef HD_INTERSECTION_H
 #define HD_INTERSECTION_H
@@ -11,7 +11,7 @@ typedef struct {
     Vec3 origin; /* relative to the object touched last, of meshes to the instance, or to the eye */
     Vec3 direction; /* unit, up to rounding */
     Vec3 weight;    /* what this ray's radiance is multiplied by on its way to the eye */
-    vint touched;   /* number of the object touched last; only in rays that left an object */
+    vint last_hit;  /* number of the object touched last; only in rays that left an object */
     vint face;      /* and of its face; of account in scenes with meshes only */
     vmask inside;   /* runs inside the solid touched last */
     vmask alive;
@@ -31,11 +31,11 @@ typedef struct {
     vint row;      /* first entry of the lane's object in object_offsets */
     int first_row; /* the first lane's */
     Vec3 start; /* where the lane's mesh instance is, relative to its object, the meshes' centre */
-} Reference;
+} LocalOrigin;
 
 /* Where numbers may be those of mesh instances: the object that these belong to. */
 FN vint object_of(SCENE_PARAMETERS vint number) {
-    return MESHES(header) ? least_int(number, splat_int(header->floor_end)) : number;
+    return MESHES(header) ? min_int(number, splat_int(header->floor_end)) : number;
 }
 
 /* Where mesh instances are, relative to the meshes' centre; other objects: zero. */
@@ -47,40 +47,40 @@ FN Vec3 start_of_instance(SCENE_PARAMETERS vint number) {
         return vec3_zero();
     GLOBAL const real *starts = instances->start;
     FourReals start =
-        fetch_four_reals(starts, pick_int(is_instance, instance, splat_int(0)) * STRIDE);
-    return vec3_pick(is_instance, vec3(start.number[0], start.number[1], start.number[2]),
-                     vec3_zero());
+        fetch_four_reals(starts, vselect_int(is_instance, instance, splat_int(0)) * STRIDE);
+    return vec3_select(is_instance, vec3(start.number[0], start.number[1], start.number[2]),
+                       vec3_zero());
 }
 
-FN Reference reference_of(SCENE_PARAMETERS vint object, int is_eye) {
-    Reference reference;
-    reference.start = vec3_zero();
+FN LocalOrigin local_origin_of(SCENE_PARAMETERS vint object, int is_eye) {
+    LocalOrigin local_origin;
+    local_origin.start = vec3_zero();
     if (MESHES(header) && !is_eye)
-        reference.start = start_of_instance(SCENE_ARGUMENTS object);
+        local_origin.start = start_of_instance(SCENE_ARGUMENTS object);
     object = object_of(SCENE_ARGUMENTS object);
-    reference.is_eye = is_eye;
-    reference.same = is_eye || all_same(object);
-    reference.first_row = is_eye ? 0 : lane_int(&object, 0) * header->object_count;
-    reference.row = object * header->object_count;
-    return reference;
+    local_origin.is_eye = is_eye;
+    local_origin.same = is_eye || all_same(object);
+    local_origin.first_row = is_eye ? 0 : lane_int(&object, 0) * header->object_count;
+    local_origin.row = object * header->object_count;
+    return local_origin;
 }
 
-/* The point `point`, relative to `reference`, made relative to the object `to`. */
-FN Vec3 move_to_object(SCENE_PARAMETERS Reference reference, Vec3 point, int to) {
-    GLOBAL const Vector *table = reference.is_eye ? eye_offsets : object_offsets;
+/* The point `point`, relative to `local_origin`, made relative to the object `to`. */
+FN Vec3 move_to_object(SCENE_PARAMETERS LocalOrigin local_origin, Vec3 point, int to) {
+    GLOBAL const Vector *table = local_origin.is_eye ? eye_offsets : object_offsets;
     if (MESHES(header))
-        point = vec3_add(point, reference.start);
-    if (reference.same)
-        return vec3_add(point, vec3_of(&table[reference.first_row + to].x));
-    return vec3_add(point, fetch_vector(table, reference.row + to));
+        point = vec3_add(point, local_origin.start);
+    if (local_origin.same)
+        return vec3_add(point, vec3_of(&table[local_origin.first_row + to].x));
+    return vec3_add(point, fetch_vector(table, local_origin.row + to));
 }
 
 FN void keep_closer(Hit *hit, vmask candidate, vreal t, int object, vint face, vmask entering) {
     vmask closer = candidate & lt(t, hit->t);
-    hit->t = pick(closer, t, hit->t);
-    hit->object = pick_int(closer, splat_int(object), hit->object);
-    hit->face = pick_int(closer, face, hit->face);
-    hit->entering = pick_mask(closer, entering, hit->entering);
+    hit->t = vselect(closer, t, hit->t);
+    hit->object = vselect_int(closer, splat_int(object), hit->object);
+    hit->face = vselect_int(closer, face, hit->face);
+    hit->entering = vselect_mask(closer, entering, hit->entering);
 }
 
 /* Lanes whose rays certainly miss a sphere about the object's centre: they pass it by, or are
@@ -110,11 +110,11 @@ FN vmask is_before(Crossing a, Crossing b) {
     return lt(a.distance * absolute(b.slope), b.distance * absolute(a.slope));
 }
 
-FN Crossing pick_crossing(vmask m, Crossing a, Crossing b) {
+FN Crossing select_crossing(vmask m, Crossing a, Crossing b) {
     Crossing picked;
-    picked.distance = pick(m, a.distance, b.distance);
-    picked.slope = pick(m, a.slope, b.slope);
-    picked.plane = pick_int(m, a.plane, b.plane);
+    picked.distance = vselect(m, a.distance, b.distance);
+    picked.slope = vselect(m, a.slope, b.slope);
+    picked.plane = vselect_int(m, a.plane, b.plane);
     return picked;
 }
 
@@ -129,14 +129,14 @@ FN Crossing crossing(real distance, real slope, int plane) {
 /* The slabs between a solid's parallel planes (Kay and Kajiya 1986): a ray leaves each by the plane
    that it runs towards from inside, and enters it by the other one. Lanes of `inside` start in the
    solid; whether others are beyond a plane is found on the way. */
-FN void hit_solid(SCENE_PARAMETERS const Ray *ray, Reference reference, int object, Hit *hit) {
+FN void hit_solid(SCENE_PARAMETERS const Ray *ray, LocalOrigin local_origin, int object, Hit *hit) {
     GLOBAL const Object *solid = objects + object;
-    vmask own = reference.is_eye ? mask_none() : eq_int(ray->touched, splat_int(object));
+    vmask own = local_origin.is_eye ? mask_none() : eq_int(ray->last_hit, splat_int(object));
     vmask own_inside = own & ray->inside;
     if (!any_lane(ray->alive & (~own | own_inside)))
         return; /* a convex solid is not met again from its outside */
 
-    Vec3 origin = move_to_object(SCENE_ARGUMENTS reference, ray->origin, object);
+    Vec3 origin = move_to_object(SCENE_ARGUMENTS local_origin, ray->origin, object);
     vmask outside = ray->alive & ~own &
                     ~misses_sphere(splat(solid->circumradius_squared), origin, ray->direction);
     int from_outside = any_lane(outside);
@@ -155,34 +155,34 @@ FN void hit_solid(SCENE_PARAMETERS const Ray *ray, Reference reference, int obje
         vreal to_exit = width - forward, to_entry = -width - forward;
         if (!solid->paired) {
             vmask against = lt(next.slope, zero);
-            to_exit = pick(against, splat(REAL_LARGE), to_exit);
-            to_entry = pick(against, to_entry, splat(-REAL_LARGE));
+            to_exit = vselect(against, splat(REAL_LARGE), to_exit);
+            to_entry = vselect(against, to_entry, splat(-REAL_LARGE));
         }
         /* From inside an exit lies at t >= 0, though rounding may have put the origin outside. */
-        next.distance = greater(to_exit, zero);
-        exit = pick_crossing(is_before(next, exit), next, exit);
+        next.distance = vmax(to_exit, zero);
+        exit = select_crossing(is_before(next, exit), next, exit);
         if (from_outside) {
             beyond = beyond | lt(to_exit, zero);
             next.distance = to_entry;
-            entry = pick_crossing(is_before(entry, next), next, entry);
+            entry = select_crossing(is_before(entry, next), next, entry);
         }
     }
     vmask enters = ~own & ~lt_int(entry.plane, splat_int(0));
     vmask meets = outside & ~beyond & is_before(entry, exit);
-    Crossing met = pick_crossing(enters, entry, exit);
+    Crossing met = select_crossing(enters, entry, exit);
     /* The slope is negative where the ray enters by the first of two planes or leaves by the
      * second. */
     vint face = met.plane + met.plane;
-    face = pick_int(enters ^ lt(met.slope, zero), face + 1, face);
+    face = vselect_int(enters ^ lt(met.slope, zero), face + 1, face);
     keep_closer(hit, meets | own_inside, crossing_time(met), object, face, enters);
 }
 
-FN void hit_floor(SCENE_PARAMETERS const Ray *ray, Reference reference, int object, Hit *hit) {
-    vmask own = reference.is_eye ? mask_none() : eq_int(ray->touched, splat_int(object));
+FN void hit_floor(SCENE_PARAMETERS const Ray *ray, LocalOrigin local_origin, int object, Hit *hit) {
+    vmask own = local_origin.is_eye ? mask_none() : eq_int(ray->last_hit, splat_int(object));
     if (!any_lane(ray->alive & ~own))
         return;
     int first = objects[object].first_plane;
-    Vec3 origin = move_to_object(SCENE_ARGUMENTS reference, ray->origin, object);
+    Vec3 origin = move_to_object(SCENE_ARGUMENTS local_origin, ray->origin, object);
     vreal zero = splat(R(0.0)), least = splat(R(1e-30)); /* of a slope that is none */
     vreal distance = along_normal(planes + first, origin);
     vreal slope = along_normal(planes + first, ray->direction);

@@ -23,7 +23,7 @@
 
 /* The queue and the batch's sums as structures of arrays: ray_reals has WAVE_REALS arrays of
    queue_stride numbers, ray_ints WAVE_INTS, sums WAVE_SUMS of sum_stride. `compact` is 0 where rays
-   are appended with the dead ones of their bundle or group, to see what leaving them out is worth.
+   are appended with the dead ones of their packet or group, to see what leaving them out is worth.
  */
 #define HD_QUEUE_ARGUMENTS(X)                                                                      \
     X(BUFFER, real, ray_reals)                                                                     \
@@ -33,8 +33,8 @@
     X(NUMBER, int, sum_stride)                                                                     \
     X(NUMBER, int, compact)
 
-/* hedron_trace_take: TABLES, HD_QUEUE_ARGUMENTS, then these (trace_take_by_group). */
-#define HD_TRACE_TAKE_ARGUMENTS(X, LAST)                                                           \
+/* hedron_trace_chunk: TABLES, HD_QUEUE_ARGUMENTS, then these (trace_chunk_by_group). */
+#define HD_TRACE_CHUNK_ARGUMENTS(X, LAST)                                                          \
     X(NUMBER, int, first_item)                                                                     \
     X(NUMBER, int, level)                                                                          \
     X(NUMBER, int, first)                                                                          \
@@ -110,15 +110,15 @@
     X(quotient, "a / b")                                                                           \
     X(root, "the square root of a")                                                                \
     X(fused, "fma(a, b, c)")                                                                       \
-    X(apart, "a * b + c, rounded twice,")                                                          \
-    X(apart_from, "c - a * b, rounded twice,")                                                     \
+    X(unfused, "a * b + c, rounded twice,")                                                        \
+    X(unfused_from, "c - a * b, rounded twice,")                                                   \
     X(in_order, "(a + b) + c")                                                                     \
     X(lost, "(a + b) - a")                                                                         \
     X(nothing, "a - a")                                                                            \
     X(plus_zero, "a + 0")                                                                          \
     X(absolute, "the absolute value of a")                                                         \
-    X(lesser, "the lesser of a and b")                                                             \
-    X(greater, "the greater of a and b")                                                           \
+    X(vmin, "the lesser of a and b")                                                               \
+    X(vmax, "the greater of a and b")                                                              \
     X(signed, "a times the sign of b")                                                             \
     X(picked, "a <= b ? c : a")                                                                    \
     X(of_int, "(real) n")                                                                          \
@@ -172,8 +172,8 @@ enum {
 #define REFRACTS(header)        HD_REFRACTS
 #define LIT_FROM_BEHIND(header) HD_LIT_FROM_BEHIND
 #define MANY_LIGHTS(header)     HD_MANY_LIGHTS
-#define SURVEYED(header)        HD_SURVEYED
-#define PIXEL_SUMS              (HD_SURVEYED ? HD_SURVEY_SUMS : HD_RADIANCE_SUMS)
+#define BOUNDED(header)         HD_BOUNDED
+#define PIXEL_SUMS              (HD_BOUNDED ? HD_BOUNDED_SUMS : HD_RADIANCE_SUMS)
 #define MESHES(header)          (HD_NODE_STACK > 0 && (header)->instance_count > 0)
 #define NODE_STACK(header)      (HD_NODE_STACK + 1)
 #define WIDE_STACK(header)      (HD_WIDE_STACK + 1)
@@ -187,8 +187,8 @@ enum {
 #define REFRACTS(header)        (!HD_PLAIN && (header)->refracts)
 #define LIT_FROM_BEHIND(header) (!HD_PLAIN && (header)->lit_from_behind)
 #define MANY_LIGHTS(header)     1
-#define SURVEYED(header)        ((header)->surveyed)
-#define PIXEL_SUMS              HD_SURVEY_SUMS
+#define BOUNDED(header)         ((header)->bounded)
+#define PIXEL_SUMS              HD_BOUNDED_SUMS
 #define MESHES(header)          (!HD_PLAIN && (header)->instance_count > 0)
 #define NODE_STACK(header)      ((header)->node_stack + 1)
 #define WIDE_STACK(header)      ((header)->wide_stack + 1)

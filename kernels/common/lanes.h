@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What languages do not differ in of the contract (dialect.h): all of it where a bundle is one
-   lane; masks of more where a language compares vectors by its operators; and rows. Bundles of more
+/* What languages do not differ in of the contract (dialect.h): all of it where a packet is one
+   lane; masks of more where a language compares vectors by its operators; and rows. Packets of more
    lanes have their types before this, and HD_OWN_MASKS where their masks are others. */
 #ifndef HD_LANES_H
 #define HD_LANES_H
@@ -41,10 +41,10 @@ FN vmask eq_int(vint a, vint b) {
 FN vmask lt_int(vint a, vint b) {
     return a < b ? -1 : 0;
 }
-FN vreal pick(vmask m, vreal a, vreal b) {
+FN vreal vselect(vmask m, vreal a, vreal b) {
     return m ? a : b;
 }
-FN vint pick_int(vmask m, vint a, vint b) {
+FN vint vselect_int(vmask m, vint a, vint b) {
     return m ? a : b;
 }
 FN int any_lane(vmask m) {

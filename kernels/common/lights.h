@@ -5,14 +5,14 @@
 
 #include "surface.h"
 
-/* ---- groups of lights ----
+/* ---- clusters of lights ----
 
-   What is decided for a bundle of points and many lights near each other: that none of these can
-   reach any of the points, or, for bundles of several lanes, that nothing of a solid lies between.
-   All of it is conservative (docs/numerics.md, Groups of lights): lights are left out, and solids
+   What is decided for a packet of points and many lights near each other: that none of these can
+   reach any of the points, or, for packets of several lanes, that nothing of a solid lies between.
+   All of it is conservative (docs/numerics.md, Light culling): lights are left out, and solids
    not looked at, only where each pair by itself would come to the same. */
 
-/* The lit points of a bundle. */
+/* The lit points of a packet. */
 typedef struct {
     vint object;  /* what the points lie on */
     vint face;    /* and which face of it */
@@ -20,16 +20,17 @@ typedef struct {
     vmask active;
 } LitPoints;
 
-/* Of a light or a group of lights: a bit for each of the first objects, that it is not between; and
-   one more, that the group is dark. */
-#define GROUP_IS_DARK ((int)1 << HD_JUDGED_OBJECTS)
+/* Of a light or a cluster of lights: a bit for each of the first objects, that it is not between;
+   and one more, that the cluster is culled. */
+#define CLUSTER_IS_CULLED ((int)1 << HD_MASKED_OBJECTS)
 
-FN int is_beside(int beside, int object) {
-    return object < HD_JUDGED_OBJECTS && beside >> object & 1;
+FN int cannot_occlude(int nonoccluders, int object) {
+    return object < HD_MASKED_OBJECTS && nonoccluders >> object & 1;
 }
 
-FN int floor_may_block(GLOBAL const Header *header, int beside) {
-    return header->solid_count < header->floor_end && !is_beside(beside, header->solid_count);
+FN int floor_may_block(GLOBAL const Header *header, int nonoccluders) {
+    return header->solid_count < header->floor_end &&
+           !cannot_occlude(nonoccluders, header->solid_count);
 }
 
 #if HD_LANES == 1
@@ -41,7 +42,7 @@ FN vreal sum_of_sides(Vec3 v) {
 
 /* Whether all lights of the run that begins with number `light` are too far away from a point on an
    object, or behind it. */
-FN int run_is_dark(SCENE_PARAMETERS Vec3 point, Vec3 normal, int object, int light) {
+FN int run_is_culled(SCENE_PARAMETERS Vec3 point, Vec3 normal, int object, int light) {
     GLOBAL const LightRun *run = light_runs + object * header->light_count + light;
     Vec3 way = vec3_sub(vec3_of(run->place), point);
     vreal radius = splat(run->radius);
@@ -67,9 +68,9 @@ FN vreal length_of(Vec3 v) {
     return square_root(vec3_dot(v, v));
 }
 
-FN vreal most_distance(const Vec3 *points, Vec3 from, vmask m) {
+FN vreal max_distance(const Vec3 *points, Vec3 from, vmask m) {
     Vec3 way = vec3_sub(*points, from);
-    return square_root(splat(greatest_lane(vec3_dot(way, way), m)));
+    return square_root(splat(max_lane(vec3_dot(way, way), m)));
 }
 
 FN PointBall ball_about(const Vec3 *points, const Vec3 *normals, vmask active) {
@@ -77,77 +78,78 @@ FN PointBall ball_about(const Vec3 *points, const Vec3 *normals, vmask active) {
     int lane = first_lane(active);
     ball.middle = lane_of(points, lane);
     ball.normal = lane_of(normals, lane);
-    ball.radius = most_distance(points, ball.middle, active);
-    ball.spread = most_distance(normals, ball.normal, active);
+    ball.radius = max_distance(points, ball.middle, active);
+    ball.spread = max_distance(normals, ball.normal, active);
     return ball;
 }
 
-/* As many groups as there are lanes. */
+/* As many clusters as there are lanes. */
 typedef struct {
     Vec3 place; /* relative to an object */
     vreal radius, reach;
-} Groups;
+} Clusters;
 
-FN Groups load_groups(GLOBAL const real *light_groups, int object, int first, int count) {
-    GLOBAL const real *row = light_groups + object * HD_GROUP_ROWS * count + first;
-    Groups groups;
-    groups.place = vec3(load_reals(row + HD_GROUP_X * count), load_reals(row + HD_GROUP_Y * count),
-                        load_reals(row + HD_GROUP_Z * count));
-    groups.radius = load_reals(row + HD_GROUP_RADIUS * count);
-    groups.reach = load_reals(row + HD_GROUP_REACH * count);
-    return groups;
+FN Clusters load_clusters(GLOBAL const real *light_clusters, int object, int first, int count) {
+    GLOBAL const real *row = light_clusters + object * HD_CLUSTER_ROWS * count + first;
+    Clusters clusters;
+    clusters.place =
+        vec3(load_reals(row + HD_CLUSTER_X * count), load_reals(row + HD_CLUSTER_Y * count),
+             load_reals(row + HD_CLUSTER_Z * count));
+    clusters.radius = load_reals(row + HD_CLUSTER_RADIUS * count);
+    clusters.reach = load_reals(row + HD_CLUSTER_REACH * count);
+    return clusters;
 }
 
 /* Groups that are too far away, or behind the points. */
-FN vmask dark_groups(const PointBall *ball, const Groups *groups) {
-    Vec3 way = vec3_sub(groups->place, ball->middle);
-    vreal distance = length_of(way), size = groups->radius + ball->radius;
+FN vmask culled_clusters(const PointBall *ball, const Clusters *clusters) {
+    Vec3 way = vec3_sub(clusters->place, ball->middle);
+    vreal distance = length_of(way), size = clusters->radius + ball->radius;
     vreal slack = (distance + size + length_of(ball->middle)) * R(1e-4);
     vreal height = vec3_dot(ball->normal, way);
-    vreal most_height = multiply_add(ball->spread, distance + size, height + size);
-    return lt(groups->reach + size + slack, distance) | lt(most_height + slack, splat(R(0.0)));
+    vreal max_height = multiply_add(ball->spread, distance + size, height + size);
+    return lt(clusters->reach + size + slack, distance) | lt(max_height + slack, splat(R(0.0)));
 }
 
 /* Groups whose segments to the points all lie beyond one plane that a sphere about the solid is
    before: a plane across the way from the solid's centre, which places are relative to, to the
    middle segment. */
-FN vmask groups_beside(vreal solid_radius, const PointBall *ball, Vec3 middle,
-                       const Groups *groups) {
-    Vec3 way = vec3_sub(groups->place, middle);
-    vreal squared = greater(vec3_dot(way, way), splat(R(1e-30)));
-    vreal along = lesser(-vec3_dot(middle, way) * reciprocal(squared), splat(R(1.0)));
-    Vec3 across = vec3_scale_add(way, greater(along, splat(R(0.0))), middle);
+FN vmask unoccluded_clusters(vreal solid_radius, const PointBall *ball, Vec3 middle,
+                             const Clusters *clusters) {
+    Vec3 way = vec3_sub(clusters->place, middle);
+    vreal squared = vmax(vec3_dot(way, way), splat(R(1e-30)));
+    vreal along = vmin(-vec3_dot(middle, way) * reciprocal(squared), splat(R(1.0)));
+    Vec3 across = vec3_scale_add(way, vmax(along, splat(R(0.0))), middle);
     vreal length = length_of(across), told = splat(R(1e-15)); /* from one that rounded to 0 */
     vreal least = solid_radius + (length_of(middle) + ball->radius) * R(1e-4);
     return lt(told, length) & lt(length * (least + ball->radius), vec3_dot(across, middle)) &
-           lt(length * (least + groups->radius), vec3_dot(across, groups->place));
+           lt(length * (least + clusters->radius), vec3_dot(across, clusters->place));
 }
 
-/* What is known of each group, for points that lie on one object; `open_to` are the points from
+/* What is known of each cluster, for points that lie on one object; `may_cross` are the points from
    which segments may cross a solid. */
-FN_APART void judge_groups(SCENE_PARAMETERS const Vec3 *points, const Vec3 *normals,
-                           const LitPoints *lit_points, const vmask *open_to, int *known) {
-    const int count = HD_LIGHT_GROUPS(header->light_count);
+FN_NOINLINE void cull_clusters(SCENE_PARAMETERS const Vec3 *points, const Vec3 *normals,
+                               const LitPoints *lit_points, const vmask *may_cross, int *known) {
+    const int count = HD_LIGHT_CLUSTERS(header->light_count);
     vint numbers = object_of(SCENE_ARGUMENTS lit_points->object);
     int object = lane_int(&numbers, 0);
-    int solids = header->solid_count < HD_JUDGED_OBJECTS ? header->solid_count : HD_JUDGED_OBJECTS;
+    int solids = header->solid_count < HD_MASKED_OBJECTS ? header->solid_count : HD_MASKED_OBJECTS;
     PointBall ball = ball_about(points, normals, lit_points->active);
     for (int first = 0; first < count; first += HD_LANES) {
-        Groups groups = load_groups(light_groups, object, first, count);
-        vmask dark = dark_groups(&ball, &groups);
-        vint found = pick_int(dark, splat_int(GROUP_IS_DARK), splat_int(0));
+        Clusters clusters = load_clusters(light_clusters, object, first, count);
+        vmask dark = culled_clusters(&ball, &clusters);
+        vint found = vselect_int(dark, splat_int(CLUSTER_IS_CULLED), splat_int(0));
         for (int s = 0; s < solids && any_lane(~dark); s++) {
-            vmask beside = mask_all();
-            if (any_lane(open_to[s])) {
+            vmask nonoccluders = mask_all();
+            if (any_lane(may_cross[s])) {
                 if (s == object)
                     continue; /* from inside of it */
                 GLOBAL const Vector *offset = object_offsets + object * header->object_count + s;
-                groups = load_groups(light_groups, s, first, count);
-                beside = groups_beside(
+                clusters = load_clusters(light_clusters, s, first, count);
+                nonoccluders = unoccluded_clusters(
                     splat(objects[s].radius_about), &ball,
-                    vec3_add(ball.middle, vec3_splat(offset->x, offset->y, offset->z)), &groups);
+                    vec3_add(ball.middle, vec3_splat(offset->x, offset->y, offset->z)), &clusters);
             }
-            found = found | pick_int(beside, splat_int((int)1 << s), splat_int(0));
+            found = found | vselect_int(nonoccluders, splat_int((int)1 << s), splat_int(0));
         }
         for (int lane = 0; lane < HD_LANES; lane++)
             known[first + lane] = lane_int(&found, lane);
@@ -161,13 +163,14 @@ FN_APART void judge_groups(SCENE_PARAMETERS const Vec3 *points, const Vec3 *norm
      coordinates[plane]   n.X of a solid's plane, the distance to a floor's
      outer[solid]         a bit for each face, from the solid's first one on, that the point is not
                           strictly inside of
-     some_outer[solid]    joined over all lanes
-     open_to[solid]       the points from which a segment may cross it
+     some_outside[solid]    joined over all lanes
+     may_cross[solid]       the points from which a segment may cross it
    A point seen from inside its own solid is inside, whatever rounding says, and has no bits there.
  */
-FN void measure_planes(SCENE_PARAMETERS const Surface *surface, const LitPoints *points, int beside,
-                       vreal *coordinates, vint *outer, uint *some_outer, vmask *open_to) {
-    Reference reference = reference_of(SCENE_ARGUMENTS points->object, 0);
+FN void classify_against_planes(SCENE_PARAMETERS const Surface *surface, const LitPoints *points,
+                                int nonoccluders, vreal *coordinates, vint *outside_planes,
+                                uint *some_outside, vmask *may_cross) {
+    LocalOrigin local_origin = local_origin_of(SCENE_ARGUMENTS points->object, 0);
     vreal zero = splat(R(0.0));
     vint first_side = splat_int(1), second_side = splat_int(2);
     for (int object = 0; object < header->solid_count; object++) {
@@ -176,37 +179,36 @@ FN void measure_planes(SCENE_PARAMETERS const Surface *surface, const LitPoints 
         vmask own_inside = own & points->inside;
         vint not_inside = splat_int(0);
         uint some = 0;
-        outer[object] = not_inside;
-        some_outer[object] = some;
-        open_to[object] = mask_none();
-        if (is_beside(beside, object))
+        outside_planes[object] = not_inside;
+        some_outside[object] = some;
+        may_cross[object] = mask_none();
+        if (cannot_occlude(nonoccluders, object))
             continue;
-        open_to[object] = points->active & (~own | own_inside);
-        if (!any_lane(open_to[object]))
+        may_cross[object] = points->active & (~own | own_inside);
+        if (!any_lane(may_cross[object]))
             continue; /* no segment crosses the solid that it leaves */
-        Vec3 point = move_to_object(SCENE_ARGUMENTS reference, surface->point, object);
+        Vec3 point = move_to_object(SCENE_ARGUMENTS local_origin, surface->point, object);
         int has_inside = any_lane(own_inside);
         for (int i = solid->plane_count - 1; i >= 0; i--) {
             GLOBAL const Plane *plane = planes + solid->first_plane + i;
             vreal width = splat(plane->distance), coordinate = along_normal(plane, point);
             if (has_inside) {
                 vreal least = solid->paired ? -width : splat(-REAL_LARGE);
-                coordinate =
-                    pick(own_inside, lesser(greater(coordinate, least), width), coordinate);
+                coordinate = vselect(own_inside, vmin(vmax(coordinate, least), width), coordinate);
             }
             coordinates[solid->first_plane + i] = coordinate;
             vmask outside = le(zero, nearness(solid, plane, coordinate)) & ~own_inside;
-            vint side = pick_int(lt(coordinate, zero), second_side, first_side);
-            not_inside = not_inside * 4 | pick_int(outside, side, splat_int(0));
+            vint side = vselect_int(lt(coordinate, zero), second_side, first_side);
+            not_inside = not_inside * 4 | vselect_int(outside, side, splat_int(0));
             some = some * 2 | (any_lane(outside) ? 1u : 0u);
         }
-        outer[object] = not_inside;
-        some_outer[object] = some;
+        outside_planes[object] = not_inside;
+        some_outside[object] = some;
     }
     for (int object = header->solid_count; object < header->floor_end; object++) {
-        if (is_beside(beside, object))
+        if (cannot_occlude(nonoccluders, object))
             continue;
-        Vec3 point = move_to_object(SCENE_ARGUMENTS reference, surface->point, object);
+        Vec3 point = move_to_object(SCENE_ARGUMENTS local_origin, surface->point, object);
         int first = objects[object].first_plane;
         for (int k = first; k < first + objects[object].plane_count; k++)
             coordinates[k] = plane_distance(planes + k, point);
@@ -253,24 +255,24 @@ FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const rea
             vreal least = splat(planes[k].distance - solid->rim_depth);
             near_planes = count_lanes(near_planes, lt(least, height));
         }
-        passes = pick(lt_int(splat_int(1), near_planes), splat(R(0.0)), passes);
+        passes = vselect(lt_int(splat_int(1), near_planes), splat(R(0.0)), passes);
     }
     Vec3 filtered = vec3_scale(*light, passes);
     filtered = vec3_mul(filtered, vec3_of(face->colour));
-    *light = vec3_pick(crossing, filtered, *light);
+    *light = vec3_select(crossing, filtered, *light);
 }
 
 /* Where the segments enter a solid, as a quotient: only planes count that a point is outside of. */
-FN Crossing segment_entry(SCENE_PARAMETERS GLOBAL const Object *solid, uint some_outer,
+FN Crossing segment_entry(SCENE_PARAMETERS GLOBAL const Object *solid, uint some_outside,
                           GLOBAL const real *light_row, const vreal *coordinates) {
     Crossing entry = crossing(R(0.0), R(1.0), 0); /* at the point */
-    for (uint left = some_outer; left; left &= left - 1) {
+    for (uint left = some_outside; left; left &= left - 1) {
         int k = solid->first_plane + lowest_bit(left);
         Crossing next;
         next.distance = nearness(solid, planes + k, coordinates[k]);
         next.slope = splat(light_row[k]) - coordinates[k];
         next.plane = splat_int(k);
-        entry = pick_crossing(is_before(entry, next), next, entry);
+        entry = select_crossing(is_before(entry, next), next, entry);
     }
     return entry;
 }
@@ -289,7 +291,7 @@ FN Crossing segment_exit(SCENE_PARAMETERS GLOBAL const Object *solid, uint light
         next.slope = bit & 1 ? from - to : to - from;
         next.plane = splat_int(k);
         vmask before = lt(next.distance * exit.slope, exit.distance * next.slope);
-        exit = pick_crossing(before, next, exit);
+        exit = select_crossing(before, next, exit);
     }
     return exit;
 }
@@ -297,23 +299,23 @@ FN Crossing segment_exit(SCENE_PARAMETERS GLOBAL const Object *solid, uint light
 /* Lets the segments from the points to the light pass one solid. A segment misses it when neither
    end is inside of one plane, which settles most of them before anything is computed. */
 FN void cross_solid(SCENE_PARAMETERS int object, GLOBAL const LightSides *sides,
-                    GLOBAL const real *light_row, const vreal *coordinates, vint outer,
-                    uint some_outer, vmask open, Vec3 *light) {
+                    GLOBAL const real *light_row, const vreal *coordinates, vint outside_planes,
+                    uint some_outside, vmask open, Vec3 *light) {
     GLOBAL const Object *solid = objects + object;
-    vint ruled_out = outer & splat_int((int)(sides->outside | sides->on_plane));
+    vint ruled_out = outside_planes & splat_int((int)(sides->outside | sides->on_plane));
     vmask crosses = open & eq_int(ruled_out, splat_int(0));
     if (!any_lane(crosses))
         return;
-    Crossing entry = segment_entry(SCENE_ARGUMENTS solid, some_outer, light_row, coordinates);
+    Crossing entry = segment_entry(SCENE_ARGUMENTS solid, some_outside, light_row, coordinates);
     Crossing exit = segment_exit(SCENE_ARGUMENTS solid, sides->outside, light_row, coordinates);
-    if (some_outer) {
+    if (some_outside) {
         crosses = crosses & ~is_before(exit, entry);
         if (!any_lane(crosses))
             return;
     }
     /* Sides are named as for a ray that looks from the point to the light. */
     GLOBAL const Material *face = materials + solid->face_material;
-    if (some_outer)
+    if (some_outside)
         cross_face(SCENE_ARGUMENTS solid, light_row, coordinates,
                    crosses & lt(splat(R(0.0)), entry.distance), entry, face->transmission, light);
     if (sides->outside)
@@ -338,10 +340,10 @@ FN vreal power(vreal x, vint n, int common) {
         return result;
     }
     vint zero = splat_int(0);
-    vreal result = pick(eq_int(n & 1, zero), splat(R(1.0)), x);
+    vreal result = vselect(eq_int(n & 1, zero), splat(R(1.0)), x);
     for (vint rest = n >> 1; any_lane(lt_int(zero, rest)); rest = rest >> 1) {
-        x = pick(lt_int(zero, rest), x * x, x);
-        result = pick(eq_int(rest & 1, zero), result, result * x);
+        x = vselect(lt_int(zero, rest), x * x, x);
+        result = vselect(eq_int(rest & 1, zero), result, result * x);
     }
     return result;
 }
@@ -356,10 +358,10 @@ FN Vec3 phong(const LaneMaterial *material, int shines, vint shininess, int comm
     if (!shines)
         return reflected;
     vreal x = mirror_cosine * inverse;
-    vmask too_small = lt(x, material->least_highlight);
+    vmask too_small = lt(x, material->min_highlight);
     if (!any_lane(~too_small))
         return reflected;
-    x = pick(too_small, splat(R(0.0)), x);
+    x = vselect(too_small, splat(R(0.0)), x);
     vreal specular = material->specular * (share * power(x, shininess, common_shininess));
     return vec3_add(reflected, vec3(specular, specular, specular));
 }
@@ -369,11 +371,11 @@ FN vreal falloff_at(GLOBAL const Light *light, vreal squared) {
     vreal one = splat(R(1.0)), scale = splat(light->inverse_falloff_squared);
     vreal most = splat(REAL_LARGE); /* beyond it nothing is left to be told apart */
     if (light->inverse_falloff_squared < R(0.0)) {
-        vreal rest = greater(multiply_add(squared, scale, one), splat(R(0.0)));
+        vreal rest = vmax(multiply_add(squared, scale, one), splat(R(0.0)));
         return rest * rest;
     }
     if (light->inverse_falloff_squared > R(0.0))
-        return reciprocal(lesser(multiply_add(squared, scale, one), most));
+        return reciprocal(vmin(multiply_add(squared, scale, one), most));
     return one;
 }
 
@@ -387,21 +389,21 @@ FN vmask beyond_falloff(GLOBAL const Light *light, vreal squared) {
 /* What of `light`, of any colour, passes the solids, the floor and the meshes on its way to the
    points of `lit`. */
 FN Vec3 passing_light(SCENE_PARAMETERS int number, Vec3 light, Vec3 to_light,
-                      const Surface *surface, const vreal *coordinates, const vint *outer,
-                      const uint *some_outer, const vmask *open_to, const LitPoints *points,
+                      const Surface *surface, const vreal *coordinates, const vint *outside_planes,
+                      const uint *some_outside, const vmask *may_cross, const LitPoints *points,
                       int known, vmask lit) {
     GLOBAL const real *light_row = light_coordinates + number * header->plane_count;
     GLOBAL const LightSides *sides = light_sides + number * header->object_count;
     for (int object = 0; object < header->solid_count; object++) {
-        if (is_beside(known, object))
+        if (cannot_occlude(known, object))
             continue;
-        cross_solid(SCENE_ARGUMENTS object, sides + object, light_row, coordinates, outer[object],
-                    some_outer[object], open_to[object] & lit, &light);
+        cross_solid(SCENE_ARGUMENTS object, sides + object, light_row, coordinates,
+                    outside_planes[object], some_outside[object], may_cross[object] & lit, &light);
     }
     if (floor_may_block(header, known)) {
         vmask blocked =
             floor_blocks(SCENE_ARGUMENTS header->solid_count, light_row, coordinates, points);
-        light = vec3_pick(blocked, vec3_zero(), light);
+        light = vec3_select(blocked, vec3_zero(), light);
         lit = lit & ~blocked;
     }
     if (MESHES(header) && must_visit(lit))
@@ -419,7 +421,7 @@ FN vmask holds_light(GLOBAL const Light *light, const LitPoints *points) {
            eq_int(points->face, splat_int(light->own_face[1]));
 }
 
-/* The objects that a bundle's points lie on, each once, and its points. */
+/* The objects that a packet's points lie on, each once, and its points. */
 typedef struct {
     int count;
     int object[HD_LANES];
@@ -447,31 +449,33 @@ FN Vec3 light_position(SCENE_PARAMETERS const LightRows *rows, int light) {
     Vec3 position = vec3_splat(v->x, v->y, v->z);
     for (int i = 1; i < rows->count; i++) {
         v = light_offsets + rows->object[i] * header->light_count + light;
-        position = vec3_pick(rows->points[i], vec3_splat(v->x, v->y, v->z), position);
+        position = vec3_select(rows->points[i], vec3_splat(v->x, v->y, v->z), position);
     }
     return position;
 }
 
-/* What is beside the ways to a bundle's points of light number `entry` - 1, or, of entry 0, of all
+/* What is beside the ways to a packet's points of light number `entry` - 1, or, of entry 0, of all
    lights. */
-FN int beside_ways(SCENE_PARAMETERS const LightRows *rows, int entry) {
-    return rows->count > 1 ? 0 : light_ways[rows->object[0] * (header->light_count + 1) + entry];
+FN int occlusion_mask(SCENE_PARAMETERS const LightRows *rows, int entry) {
+    return rows->count > 1 ? 0
+                           : occlusion_masks[rows->object[0] * (header->light_count + 1) + entry];
 }
 
 /* Radiance that the points send to the viewer by diffuse and specular reflection of all lights.
    Lights are the outer loop and lanes the points, so that everything about a light is the same for
-   a bundle. `mirrored` is the viewing ray's mirror direction, unit. */
+   a packet. `mirrored` is the viewing ray's mirror direction, unit. */
 FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *points,
                      Vec3 mirrored, vint *shadow_tests) {
     Vec3 sum = vec3_zero();
     vreal coordinates[PLANE_BOUND(header)];
-    vint outer[SOLID_BOUND(header)];
-    uint some_outer[SOLID_BOUND(header)];
-    vmask open_to[SOLID_BOUND(header)];
+    vint outside_planes[SOLID_BOUND(header)];
+    uint some_outside[SOLID_BOUND(header)];
+    vmask may_cross[SOLID_BOUND(header)];
     vreal zero = splat(R(0.0));
     LightRows rows = light_rows(object_of(SCENE_ARGUMENTS points->object));
-    measure_planes(SCENE_ARGUMENTS surface, points, beside_ways(SCENE_ARGUMENTS & rows, 0),
-                   coordinates, outer, some_outer, open_to);
+    classify_against_planes(SCENE_ARGUMENTS surface, points,
+                            occlusion_mask(SCENE_ARGUMENTS & rows, 0), coordinates, outside_planes,
+                            some_outside, may_cross);
     Vec3 point = surface->point;
     if (MESHES(header))
         point = vec3_add(point, start_of_instance(SCENE_ARGUMENTS points->object));
@@ -480,31 +484,31 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
     int shines = any_lane(points->active & lt(zero, surface->material.specular));
     /* Of the solids and the floor. */
     const int judged =
-        header->floor_end < HD_JUDGED_OBJECTS ? ((int)1 << header->floor_end) - 1 : -1;
+        header->floor_end < HD_MASKED_OBJECTS ? ((int)1 << header->floor_end) - 1 : -1;
 #if HD_LANES > 1
-    int group_known[HD_MOST_LIGHT_GROUPS];
-    group_known[0] = 0; /* of all lights, where there are no groups */
-    if (HD_LIGHT_GROUPS(header->light_count) > 0 && rows.count == 1) {
+    int cluster_masks[HD_MAX_LIGHT_CLUSTERS];
+    cluster_masks[0] = 0; /* of all lights, where there are no clusters */
+    if (HD_LIGHT_CLUSTERS(header->light_count) > 0 && rows.count == 1) {
         /* Copies: what a pointer is handed out to cannot stay in registers. */
         Vec3 at = point, normal = surface->normal;
         LitPoints lit_points = *points;
-        judge_groups(SCENE_ARGUMENTS & at, &normal, &lit_points, open_to, group_known);
+        cull_clusters(SCENE_ARGUMENTS & at, &normal, &lit_points, may_cross, cluster_masks);
     } else {
-        for (int g = 1; g < HD_LIGHT_GROUPS(header->light_count); g++)
-            group_known[g] = 0;
+        for (int g = 1; g < HD_LIGHT_CLUSTERS(header->light_count); g++)
+            cluster_masks[g] = 0;
     }
 #endif
     for (int i = 0; i < header->light_count; i++) {
 #if HD_LANES > 1
-        int known = group_known[lights[i].group];
-        if (known & GROUP_IS_DARK) {
+        int known = cluster_masks[lights[i].cluster];
+        if (known & CLUSTER_IS_CULLED) {
             i += lights[i].run - 1;
             continue;
         }
 #else
         int known = 0, run = MANY_LIGHTS(header) ? lights[i].run : 0;
-        if (run > 0 && run_is_dark(SCENE_ARGUMENTS point, surface->normal,
-                                   object_of(SCENE_ARGUMENTS points->object), i)) {
+        if (run > 0 && run_is_culled(SCENE_ARGUMENTS point, surface->normal,
+                                     object_of(SCENE_ARGUMENTS points->object), i)) {
             i += run - 1;
             continue;
         }
@@ -517,12 +521,12 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
         if (!any_lane(lit))
             continue;
         *shadow_tests = count_lanes(*shadow_tests, lit);
-        known |= beside_ways(SCENE_ARGUMENTS & rows, i + 1);
+        known |= occlusion_mask(SCENE_ARGUMENTS & rows, i + 1);
         Vec3 light = vec3_of(lights[i].intensity);
         if (MESHES(header) || ~known & judged)
-            light = passing_light(SCENE_ARGUMENTS i, light, to_light, surface, coordinates, outer,
-                                  some_outer, open_to, points, known, lit);
-        vreal share = pick(lit, falloff_at(lights + i, squared), zero);
+            light = passing_light(SCENE_ARGUMENTS i, light, to_light, surface, coordinates,
+                                  outside_planes, some_outside, may_cross, points, known, lit);
+        vreal share = vselect(lit, falloff_at(lights + i, squared), zero);
         Vec3 reflected = phong(&surface->material, shines, shininess, common_shininess, cosine,
                                vec3_dot(mirrored, to_light), squared, share);
         sum = vec3_mul_add(light, reflected, sum);

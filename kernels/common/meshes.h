@@ -4,13 +4,13 @@
 #define HD_MESHES_H
 
 #include "intersection.h"
-#include "mesh_walk_wide.h"
+#include "mesh_traversal_packet.h"
 
 /* Rays relative to the meshes' centre. */
 typedef struct {
     Vec3 origin, direction;
-    Vec3 own_origin;    /* relative to the instance that was touched last */
-    vint touched, face; /* the object touched last, -1: none, and which face of it */
+    Vec3 own_origin;     /* relative to the instance that was touched last */
+    vint last_hit, face; /* the object touched last, -1: none, and which face of it */
     vmask inside;
     int is_shadow;     /* for what filters light, not for what is hit first */
     int light_face[2]; /* a light's own faces, -1: none */
@@ -38,25 +38,26 @@ FN Vec3 transform_normal(const GLOBAL real (*rows)[3], Vec3 n) {
  */
 FN Vec3 origin_in_mesh(GLOBAL const Instance *instance, Vec3 origin, vmask own, Vec3 own_origin) {
     Vec3 start = vec3_of(instance->start);
-    return transform_vector(instance->to_mesh, vec3_pick(own, own_origin, vec3_sub(origin, start)));
+    return transform_vector(instance->to_mesh,
+                            vec3_select(own, own_origin, vec3_sub(origin, start)));
 }
 
 FN MeshRays rays_in_mesh(SCENE_PARAMETERS const WorldRays *world, int number) {
     GLOBAL const Instance *instance = instances + number;
     MeshRays rays;
     rays.object = header->floor_end + number;
-    rays.own = eq_int(world->touched, splat_int(rays.object));
+    rays.own = eq_int(world->last_hit, splat_int(rays.object));
     Vec3 origin = origin_in_mesh(instance, world->origin, rays.own, world->own_origin);
     Vec3 direction = transform_vector(instance->to_mesh, world->direction);
-    rays.last = nearest_axis(direction);
+    rays.last = dominant_axis(direction);
     origin = turn(rays.last, origin);
     direction = turn(rays.last, direction);
     rays.frame = ray_frame(origin, direction);
     rays.slabs = ray_slabs(origin, direction, splat(R(1.0)));
-    rays.own_face = pick_int(rays.own, world->face, splat_int(-1));
+    rays.own_face = vselect_int(rays.own, world->face, splat_int(-1));
     rays.inside = world->inside;
     rays.first_face = instance->first_face;
-    rays.first_skin = instance->first_skin;
+    rays.first_mesh_material = instance->first_mesh_material;
     rays.is_shadow = world->is_shadow;
     rays.light_face[0] = world->light_face[0];
     rays.light_face[1] = world->light_face[1];
@@ -64,8 +65,8 @@ FN MeshRays rays_in_mesh(SCENE_PARAMETERS const WorldRays *world, int number) {
     return rays;
 }
 
-FN_APART void search_instance(SCENE_PARAMETERS Findings *found, const WorldRays *world,
-                              const vmask *m, int number) {
+FN_NOINLINE void search_instance(SCENE_PARAMETERS Findings *found, const WorldRays *world,
+                                 const vmask *m, int number) {
     MeshRays rays = rays_in_mesh(SCENE_ARGUMENTS world, number);
     search_mesh(SCENE_ARGUMENTS found, &rays, *m, instances + number);
 }
@@ -73,13 +74,13 @@ FN_APART void search_instance(SCENE_PARAMETERS Findings *found, const WorldRays 
 /* Puts the children of a node that rays of `m` meet on the stack, the nearer one on top; returns
    how many nodes then wait there. */
 FN int push_children(SCENE_PARAMETERS const Findings *found, const Slabs *slabs, vmask m,
-                     const Way *way, int number, int *stack, int waiting) {
+                     const RayOctant *octant, int number, int *stack, int waiting) {
     GLOBAL const MeshNode *node = mesh_nodes + number;
-    int last = way->backward >> node->axis & 1 ? 0 : 1;
+    int last = octant->backward >> node->axis & 1 ? 0 : 1;
     for (int i = 0; i < 2; i++) {
         int child = i == 0 ? last : !last;
-        vreal near = entry_of_child(node, slabs, way, child);
-        vreal far = lesser(exit_of_child(node, slabs, way, child), found->limit);
+        vreal near = entry_of_child(node, slabs, octant, child);
+        vreal far = vmin(exit_of_child(node, slabs, octant, child), found->limit);
         if (any_lane(m & found->alive & le(near, far))) {
             stack[waiting] = node->child[child];
             waiting++;
@@ -89,8 +90,8 @@ FN int push_children(SCENE_PARAMETERS const Findings *found, const Slabs *slabs,
 }
 
 /* The rays of `m`, which all run that way, through the hierarchy over the instances. */
-FN void walk_instances(SCENE_PARAMETERS Findings *found, const WorldRays *world, const Slabs *slabs,
-                       vmask m, const Way *way) {
+FN void traverse_instances(SCENE_PARAMETERS Findings *found, const WorldRays *world,
+                           const Slabs *slabs, vmask m, const RayOctant *octant) {
     int stack[NODE_STACK(header)];
     int waiting = 1, item = 0, end = 0; /* of a leaf */
     stack[0] = header->top_root;
@@ -103,7 +104,7 @@ FN void walk_instances(SCENE_PARAMETERS Findings *found, const WorldRays *world,
                 end = item + (~current & HD_LEAF_ITEM_MASK);
             } else {
                 waiting =
-                    push_children(SCENE_ARGUMENTS found, slabs, m, way, current, stack, waiting);
+                    push_children(SCENE_ARGUMENTS found, slabs, m, octant, current, stack, waiting);
             }
         }
         if (item < end) {
@@ -123,29 +124,29 @@ FN void search_meshes(SCENE_PARAMETERS Findings *found, const WorldRays *world) 
         return;
     }
     Slabs slabs = ray_slabs(world->origin, world->direction, splat(header->mesh_reach));
-    LastAxis unturned;
+    DominantAxis unturned;
     unturned.x = unturned.y = mask_none();
     vmask left = found->alive;
     if (!must_visit(left))
         return;
     do {
-        Way way;
-        vmask same = same_way(&slabs, unturned, left, &way);
+        RayOctant octant;
+        vmask same = same_octant(&slabs, unturned, left, &octant);
         left = lanes_after(left, same);
-        walk_instances(SCENE_ARGUMENTS found, world, &slabs, same, &way);
+        traverse_instances(SCENE_ARGUMENTS found, world, &slabs, same, &octant);
     } while (any_lane(left));
 }
 
 /* ---- what rays meet ---- */
 
 /* Adds the meshes to a search; a hit's face is then the number of the triangle. */
-FN_APART void closest_mesh_hit(SCENE_PARAMETERS const Ray *ray, const Reference *reference,
-                               Hit *hit) {
+FN_NOINLINE void closest_mesh_hit(SCENE_PARAMETERS const Ray *ray, const LocalOrigin *local_origin,
+                                  Hit *hit) {
     WorldRays world;
-    world.origin = move_to_object(SCENE_ARGUMENTS * reference, ray->origin, header->floor_end);
+    world.origin = move_to_object(SCENE_ARGUMENTS * local_origin, ray->origin, header->floor_end);
     world.own_origin = ray->origin;
     world.direction = ray->direction;
-    world.touched = reference->is_eye ? splat_int(-1) : ray->touched;
+    world.last_hit = local_origin->is_eye ? splat_int(-1) : ray->last_hit;
     world.face = ray->face;
     world.inside = ray->inside;
     world.is_shadow = 0;
@@ -166,41 +167,43 @@ FN_APART void closest_mesh_hit(SCENE_PARAMETERS const Ray *ray, const Reference 
 /* ---- what light passes ---- */
 
 /* 2^-x of x = octaves 2^-24 + rest 2^-48: the Taylor series about the middle of an octave. */
-FN vreal passing_share(vint octaves, vint rest) {
+FN vreal passing_share(vint density, vint rest) {
     vreal one = splat(R(1.0));
-    vint whole = octaves >> HD_OCTAVE_BITS;
-    vreal part = multiply_add(to_real(rest), splat(R(3.5527136788005009e-15)),
-                              to_real(octaves & (HD_OCTAVE - 1)) * splat(R(5.9604644775390625e-8)));
+    vint whole = density >> HD_DENSITY_BITS;
+    vreal part =
+        multiply_add(to_real(rest), splat(R(3.5527136788005009e-15)),
+                     to_real(density & (HD_DENSITY_ONE - 1)) * splat(R(5.9604644775390625e-8)));
     vreal x = (splat(R(0.5)) - part) * splat(R(0.69314718055994530942));
     vreal share = one;
     for (int k = 14; k > 0; k--)
         share = multiply_add(share, x * splat(shared_quotient(R(1.0), (real)k)), one);
     share = share * splat(R(0.70710678118654752440));
     for (vint left = whole; any_lane(lt_int(splat_int(0), left)); left = left - 1)
-        share = pick(lt_int(splat_int(0), left), share * splat(R(0.5)), share);
-    share = pick(lt_int(splat_int(0), octaves), share, one); /* exactly, as where nothing filters */
-    return pick(lt_int(octaves, splat_int(HD_DARK_OCTAVES)), share, splat(R(0.0)));
+        share = vselect(lt_int(splat_int(0), left), share * splat(R(0.5)), share);
+    share =
+        vselect(lt_int(splat_int(0), density), share, one); /* exactly, as where nothing filters */
+    return vselect(lt_int(density, splat_int(HD_DARK_DENSITY)), share, splat(R(0.0)));
 }
 
 /* What the meshes let through of the light that `world` looks for, in the lanes of `lit`. */
-FN_APART void filter_by_meshes(SCENE_PARAMETERS const WorldRays *world, const vmask *lit,
-                               Vec3 *transmittance) {
+FN_NOINLINE void filter_by_meshes(SCENE_PARAMETERS const WorldRays *world, const vmask *lit,
+                                  Vec3 *transmittance) {
     Findings found;
     found.alive = *lit;
     found.limit = splat(R(1.0));
     found.object = found.triangle = splat_int(-1);
     found.entering = mask_none();
     for (int channel = 0; channel < 3; channel++)
-        found.octaves[channel] = found.rest[channel] = splat_int(0);
+        found.density[channel] = found.rest[channel] = splat_int(0);
     search_meshes(SCENE_ARGUMENTS & found, world);
-    vreal open = pick(found.alive, splat(R(1.0)), splat(R(0.0)));
-    vint most = greatest_int(found.octaves[0], greatest_int(found.octaves[1], found.octaves[2]));
+    vreal open = vselect(found.alive, splat(R(1.0)), splat(R(0.0)));
+    vint most = max_int(found.density[0], max_int(found.density[1], found.density[2]));
     *transmittance = vec3(open, open, open);
     if (!any_lane(found.alive & lt_int(splat_int(0), most)))
         return;
-    transmittance->x = open * passing_share(found.octaves[0], found.rest[0]);
-    transmittance->y = open * passing_share(found.octaves[1], found.rest[1]);
-    transmittance->z = open * passing_share(found.octaves[2], found.rest[2]);
+    transmittance->x = open * passing_share(found.density[0], found.rest[0]);
+    transmittance->y = open * passing_share(found.density[1], found.rest[1]);
+    transmittance->z = open * passing_share(found.density[2], found.rest[2]);
 }
 
 /* The same of the light of number `light` on its way to points of a surface; `to_light` leads from
@@ -209,11 +212,11 @@ FN Vec3 transmittance_of_meshes(SCENE_PARAMETERS Vec3 point, Vec3 to_light, vint
                                 vmask inside, int light, vmask lit) {
     WorldRays world;
     Vec3 transmittance;
-    Reference reference = reference_of(SCENE_ARGUMENTS object, 0);
-    world.origin = move_to_object(SCENE_ARGUMENTS reference, point, header->floor_end);
+    LocalOrigin local_origin = local_origin_of(SCENE_ARGUMENTS object, 0);
+    world.origin = move_to_object(SCENE_ARGUMENTS local_origin, point, header->floor_end);
     world.own_origin = point;
     world.direction = to_light;
-    world.touched = object;
+    world.last_hit = object;
     world.face = face;
     world.inside = inside;
     world.is_shadow = 1;

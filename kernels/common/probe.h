@@ -20,11 +20,11 @@ FN void keep_int(GLOBAL fixed64 *to, int count, int primitive, vint a) {
         to[primitive * count + lane] = lane_int(&a, lane);
 }
 FN void keep_mask(GLOBAL fixed64 *to, int count, int primitive, vmask m) {
-    keep_int(to, count, primitive, pick_int(m, splat_int(1), splat_int(0)));
+    keep_int(to, count, primitive, vselect_int(m, splat_int(1), splat_int(0)));
 }
 
 FN vreal within(vreal a, real limit) {
-    return lesser(greater(a, splat(-limit)), splat(limit));
+    return vmin(vmax(a, splat(-limit)), splat(limit));
 }
 
 FN void probe_arithmetic(vreal a, vreal b, vreal c, int count, GLOBAL real *to) {
@@ -35,8 +35,8 @@ FN void probe_arithmetic(vreal a, vreal b, vreal c, int count, GLOBAL real *to) 
     keep_number(to, count, PROBE_quotient, quotient(a, b));
     keep_number(to, count, PROBE_root, square_root(a));
     keep_number(to, count, PROBE_fused, multiply_add(a, b, c));
-    keep_number(to, count, PROBE_apart, a * b + c);
-    keep_number(to, count, PROBE_apart_from, c - a * b);
+    keep_number(to, count, PROBE_unfused, a * b + c);
+    keep_number(to, count, PROBE_unfused_from, c - a * b);
     keep_number(to, count, PROBE_in_order, (a + b) + c);
     keep_number(to, count, PROBE_lost, (a + b) - a);
     keep_number(to, count, PROBE_nothing, a - a);
@@ -46,10 +46,10 @@ FN void probe_arithmetic(vreal a, vreal b, vreal c, int count, GLOBAL real *to) 
 FN void probe_selection(vreal a, vreal b, vreal c, int count, GLOBAL real *to,
                         GLOBAL fixed64 *integers) {
     keep_number(to, count, PROBE_absolute, absolute(a));
-    keep_number(to, count, PROBE_lesser, lesser(a, b));
-    keep_number(to, count, PROBE_greater, greater(a, b));
+    keep_number(to, count, PROBE_vmin, vmin(a, b));
+    keep_number(to, count, PROBE_vmax, vmax(a, b));
     keep_number(to, count, PROBE_signed, times_sign_of(a, b));
-    keep_number(to, count, PROBE_picked, pick(le(a, b), c, a));
+    keep_number(to, count, PROBE_picked, vselect(le(a, b), c, a));
     keep_mask(integers, count, PROBE_less, lt(a, b));
     keep_mask(integers, count, PROBE_less_equal, le(a, b));
     keep_mask(integers, count, PROBE_is_number, le(a, a));
@@ -60,13 +60,13 @@ FN void probe_conversions(vreal a, vint n, int count, GLOBAL real *to, GLOBAL fi
     vfix fixed = truncate_to_fix(within(a, R(4611686018427387904.0)));
     keep_number(to, count, PROBE_of_int, to_real(n));
     keep_int(integers, count, PROBE_to_int, whole);
-    keep_int(integers, count, PROBE_int_order, least_int(n, whole));
+    keep_int(integers, count, PROBE_int_order, min_int(n, whole));
     keep_int(integers, count, PROBE_shifted, n >> 5);
     for (int lane = 0; lane < HD_LANES; lane++)
         integers[PROBE_to_fixed * count + lane] = lane_fix(&fixed, lane);
 }
 
-/* Of one tuple, for what no bundle has. */
+/* Of one tuple, for what no packet has. */
 FN void probe_scalars(fixed64 x, int count, GLOBAL real *to, GLOBAL fixed64 *integers) {
     uint n = (uint)x;
     to[PROBE_of_fixed * count] = (real)x;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The whole tree of rays of one bundle of samples (Whitted 1980), depth first with an explicit
+/* The whole tree of rays of one packet of samples (Whitted 1980), depth first with an explicit
  * stack. */
 #ifndef HD_RAY_TREE_H
 #define HD_RAY_TREE_H
@@ -7,37 +7,37 @@
 #include "lights.h"
 
 /* The solid that all rays run in, if nothing else reaches into it; otherwise -1. */
-FN int only_within(SCENE_PARAMETERS const Ray *ray, const Reference *reference) {
-    if (reference->is_eye || !reference->same || any_lane(ray->alive & ~ray->inside))
+FN int only_within(SCENE_PARAMETERS const Ray *ray, const LocalOrigin *local_origin) {
+    if (local_origin->is_eye || !local_origin->same || any_lane(ray->alive & ~ray->inside))
         return -1;
-    int object = lane_int(&ray->touched, 0);
-    return object < header->floor_end && objects[object].apart ? object : -1;
+    int object = lane_int(&ray->last_hit, 0);
+    return object < header->floor_end && objects[object].isolated ? object : -1;
 }
 
 /* For the floor, `entering` says that it is met from above its normal. Of a mesh the
    hit names the triangle, until surface_at makes a face of it. */
-FN Hit closest_hit(SCENE_PARAMETERS const Ray *ray, Reference reference) {
+FN Hit closest_hit(SCENE_PARAMETERS const Ray *ray, LocalOrigin local_origin) {
     Hit hit;
     hit.t = splat(REAL_LARGE);
     hit.object = splat_int(-1);
     hit.face = splat_int(0);
     hit.entering = mask_none();
     int first = 0, end = header->floor_end;
-    int within = only_within(SCENE_ARGUMENTS ray, &reference);
+    int within = only_within(SCENE_ARGUMENTS ray, &local_origin);
     if (within >= 0) {
         first = within;
         end = within + 1;
     }
     for (int object = first; object < end && object < header->solid_count; object++)
-        hit_solid(SCENE_ARGUMENTS ray, reference, object, &hit);
+        hit_solid(SCENE_ARGUMENTS ray, local_origin, object, &hit);
     for (int object = header->solid_count; object < end; object++)
-        hit_floor(SCENE_ARGUMENTS ray, reference, object, &hit);
+        hit_floor(SCENE_ARGUMENTS ray, local_origin, object, &hit);
     if (MESHES(header) && within < 0)
-        closest_mesh_hit(SCENE_ARGUMENTS ray, &reference, &hit);
+        closest_mesh_hit(SCENE_ARGUMENTS ray, &local_origin, &hit);
     return hit;
 }
 
-/* What a bundle of samples gathered. Sums are fixed point, so that their order does not matter. */
+/* What a packet of samples gathered. Sums are fixed point, so that their order does not matter. */
 typedef struct {
     vfix r, g, b;
     vint mirrored, transmitted; /* rays */
@@ -51,7 +51,7 @@ FN vfix contribution(vmask m, vreal radiance, vreal weight, real to_fixed, vint 
     vmask over = m & lt(limit, radiance);
     *clamps = count_lanes(*clamps, over);
     vreal clamped =
-        pick(over, limit, pick(m & lt(splat(R(0.0)), radiance), radiance, splat(R(0.0))));
+        vselect(over, limit, vselect(m & lt(splat(R(0.0)), radiance), radiance, splat(R(0.0))));
     return truncate_to_fix(clamped * weight * to_fixed);
 }
 
@@ -62,35 +62,35 @@ FN void add_radiance(SCENE_PARAMETERS Sample *sample, vmask m, Vec3 radiance, Ve
     sample->b += contribution(m, radiance.z, weight.z, view->to_fixed, &sample->clamps);
 }
 
-FN vreal greatest_component(Vec3 a) {
-    return greater(a.x, greater(a.y, a.z));
+FN vreal max_component(Vec3 a) {
+    return vmax(a.x, vmax(a.y, a.z));
 }
 
 /* Adds to the bound of what was left out, in the lanes of `m`; rounded up. No ray adds more than
    HD_RADIANCE_LIMIT. */
 FN void add_to_bound(SCENE_PARAMETERS Sample *sample, vmask m, vreal bound) {
-    vreal ceiling = multiply_add(lesser(bound, splat((real)HD_RADIANCE_LIMIT)),
+    vreal ceiling = multiply_add(vmin(bound, splat((real)HD_RADIANCE_LIMIT)),
                                  splat(view->bound_to_fixed), splat(R(1.0)));
-    sample->bound += truncate_to_fix(pick(m, ceiling, splat(R(0.0))));
+    sample->bound += truncate_to_fix(vselect(m, ceiling, splat(R(0.0))));
 }
 
 /* The most that `radiance` can add to a channel of the picture. */
 FN vreal bound_of(SCENE_PARAMETERS Vec3 weight, Vec3 radiance) {
-    return greatest_component(vec3_mul(weight, radiance)) * splat(header->exposure);
+    return max_component(vec3_mul(weight, radiance)) * splat(header->exposure);
 }
 
 /* The most that rays see which go on from surfaces: by the object that they leave, and the side. */
-FN Vec3 most_seen(SCENE_PARAMETERS const Ray *ray, vmask left) {
+FN Vec3 max_seen(SCENE_PARAMETERS const Ray *ray, vmask left) {
     Vec3 most = vec3_zero();
     while (any_lane(left)) {
-        int touched = lane_int(&ray->touched, first_lane(left));
-        vmask m = left & eq_int(ray->touched, splat_int(touched));
-        int number = touched < header->floor_end ? touched : header->floor_end;
+        int last_hit = lane_int(&ray->last_hit, first_lane(left));
+        vmask m = left & eq_int(ray->last_hit, splat_int(last_hit));
+        int number = last_hit < header->floor_end ? last_hit : header->floor_end;
         GLOBAL const Object *object = objects + number;
         GLOBAL const real *out = object->seen_outside, *in = object->seen_inside;
-        Vec3 seen = vec3_pick(ray->inside, vec3_splat(in[0], in[1], in[2]),
-                              vec3_splat(out[0], out[1], out[2]));
-        most = vec3_pick(m, seen, most);
+        Vec3 seen = vec3_select(ray->inside, vec3_splat(in[0], in[1], in[2]),
+                                vec3_splat(out[0], out[1], out[2]));
+        most = vec3_select(m, seen, most);
         left = lanes_after(left, m);
     }
     return most;
@@ -100,14 +100,13 @@ FN Vec3 most_seen(SCENE_PARAMETERS const Ray *ray, vmask left) {
 FN void end_rays(SCENE_PARAMETERS int level, Ray *next, Sample *sample) {
     vmask weak = mask_none();
     if (view->cutoff > R(0.0))
-        weak = ~le(splat(view->cutoff), greatest_component(next->weight));
+        weak = ~le(splat(view->cutoff), max_component(next->weight));
     if (level == view->depth)
         weak = mask_all();
     /* Without a cut-off by bounds only what ended anyway needs one. */
-    if (SURVEYED(header)) {
+    if (BOUNDED(header)) {
         vmask asked = next->alive & (view->bound_cutoff > R(0.0) ? mask_all() : weak);
-        vreal bound =
-            bound_of(SCENE_ARGUMENTS next->weight, most_seen(SCENE_ARGUMENTS next, asked));
+        vreal bound = bound_of(SCENE_ARGUMENTS next->weight, max_seen(SCENE_ARGUMENTS next, asked));
         weak = weak | lt(bound, splat(view->bound_cutoff));
         add_to_bound(SCENE_ARGUMENTS sample, next->alive & weak, bound);
     }
@@ -119,7 +118,7 @@ FN vmask end_lights(SCENE_PARAMETERS vmask lit, Vec3 weight, const LaneMaterial 
                     Sample *sample) {
     Vec3 arriving =
         vec3_splat(header->light_bound[0], header->light_bound[1], header->light_bound[2]);
-    vreal behind = pick(material->lit_from_behind, material->transmission, splat(R(0.0)));
+    vreal behind = vselect(material->lit_from_behind, material->transmission, splat(R(0.0)));
     vreal diffuse = multiply_add(behind, material->diffuse, material->diffuse);
     Vec3 most = vec3_scale_add(material->colour, diffuse,
                                vec3_scale(vec3_splat(R(1.0), R(1.0), R(1.0)), material->specular));
@@ -137,7 +136,7 @@ FN Ray next_ray(const Ray *ray, const Surface *surface, const Hit *hit, Vec3 dir
     next.alive = alive;
     next.origin = surface->point;
     next.direction = direction;
-    next.touched = spread_first(hit->object, alive);
+    next.last_hit = spread_first(hit->object, alive);
     next.face = hit->face;
     next.inside = inside;
     return next;
@@ -153,14 +152,14 @@ FN Vec3 refract(Vec3 direction, Vec3 normal, vreal facing, vreal relative_index,
     vreal sine_squared = multiply_add(-facing, facing, one) * relative_index * relative_index;
     vreal cosine_squared = one - sine_squared;
     *total = bends & lt(cosine_squared, zero);
-    vreal cosine = square_root(greater(cosine_squared, zero));
+    vreal cosine = square_root(vmax(cosine_squared, zero));
     vreal along_normal = multiply_add(-relative_index, facing, -cosine);
     Vec3 bent = vec3_scale_add(normal, along_normal, vec3_scale(direction, relative_index));
-    return vec3_pick(bends & ~*total, vec3_normalize(bent), direction);
+    return vec3_select(bends & ~*total, vec3_normalize(bent), direction);
 }
 
 /* Turns a lit surface over, for what shines through it from behind. */
-FN void turn_over(Surface *surface, LitPoints *points) {
+FN void flip_surface(Surface *surface, LitPoints *points) {
     LaneMaterial *material = &surface->material;
     surface->normal = vec3_scale(surface->normal, splat(R(-1.0)));
     material->diffuse = material->diffuse * material->transmission;
@@ -172,9 +171,9 @@ FN void turn_over(Surface *surface, LitPoints *points) {
 
 /* Shades the lanes that hit something, whose radiance it returns, and prepares the two rays that
    may go on. */
-FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit, vmask struck,
+FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, LocalOrigin local_origin, Hit *hit, vmask struck,
               Sample *sample, Ray *mirror, Ray *through) {
-    Surface surface = surface_at(SCENE_ARGUMENTS ray, reference, hit, struck);
+    Surface surface = surface_at(SCENE_ARGUMENTS ray, local_origin, hit, struck);
     vreal zero = splat(R(0.0));
     vreal facing = vec3_dot(surface.normal, ray->direction);
     Vec3 mirrored = vec3_scale_add(surface.normal, facing * R(-2.0), ray->direction);
@@ -184,7 +183,7 @@ FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit, vm
     points.object = spread_first(hit->object, struck);
     points.face = hit->face;
     points.inside = ~hit->entering;
-    if (SURVEYED(header) && view->bound_cutoff > R(0.0))
+    if (BOUNDED(header) && view->bound_cutoff > R(0.0))
         points.active =
             end_lights(SCENE_ARGUMENTS points.active, ray->weight, &surface.material, sample);
     Vec3 radiance =
@@ -192,7 +191,7 @@ FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit, vm
     Surface lit = surface;
     for (int side = 0; side <= LIT_FROM_BEHIND(header); side++) {
         if (side > 0)
-            turn_over(&lit, &points);
+            flip_surface(&lit, &points);
         if (any_lane(points.active))
             radiance = vec3_add(radiance, direct_light(SCENE_ARGUMENTS & lit, &points, mirrored,
                                                        &sample->shadow_tests));
@@ -204,7 +203,7 @@ FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit, vm
     if (REFRACTS(header)) {
         passing = refract(ray->direction, surface.normal, facing, surface.material.relative_index,
                           &total);
-        reflection = pick(total, reflection + transmission, reflection);
+        reflection = vselect(total, reflection + transmission, reflection);
     }
     *mirror =
         next_ray(ray, &surface, hit, mirrored, vec3_scale(surface.material.mirror_tint, reflection),
@@ -220,7 +219,7 @@ FN Ray eye_ray(Vec3 direction, vmask alive) {
     ray.origin = vec3_zero();
     ray.direction = direction;
     ray.weight = vec3_splat(R(1.0), R(1.0), R(1.0));
-    ray.touched = splat_int(0);
+    ray.last_hit = splat_int(0);
     ray.face = splat_int(-1);
     ray.inside = mask_none();
     ray.alive = alive;
@@ -229,19 +228,19 @@ FN Ray eye_ray(Vec3 direction, vmask alive) {
 
 /* Adds to `sample` what the rays see and the rays that go on, which come back in `mirror` and
    `through`; no lane of these is alive where the tree of rays ends. */
-FN void follow(SCENE_PARAMETERS const Ray *ray, int level, Sample *sample, Ray *mirror,
-               Ray *through) {
+FN void trace_and_shade(SCENE_PARAMETERS const Ray *ray, int level, Sample *sample, Ray *mirror,
+                        Ray *through) {
     Vec3 radiance = vec3_splat(header->background[0], header->background[1], header->background[2]);
-    Reference reference = reference_of(SCENE_ARGUMENTS ray->touched, level == 0);
-    Hit hit = closest_hit(SCENE_ARGUMENTS ray, reference);
+    LocalOrigin local_origin = local_origin_of(SCENE_ARGUMENTS ray->last_hit, level == 0);
+    Hit hit = closest_hit(SCENE_ARGUMENTS ray, local_origin);
     vmask struck = ray->alive & ~lt_int(hit.object, splat_int(0));
     mirror->alive = through->alive = mask_none();
     if (!must_visit(struck)) {
         add_radiance(SCENE_ARGUMENTS sample, ray->alive, radiance, ray->weight);
         return;
     }
-    Vec3 shaded = shade(SCENE_ARGUMENTS ray, reference, &hit, struck, sample, mirror, through);
-    radiance = vec3_pick(struck, shaded, radiance);
+    Vec3 shaded = shade(SCENE_ARGUMENTS ray, local_origin, &hit, struck, sample, mirror, through);
+    radiance = vec3_select(struck, shaded, radiance);
     add_radiance(SCENE_ARGUMENTS sample, ray->alive, radiance, ray->weight);
     end_rays(SCENE_ARGUMENTS level, mirror, sample);
     end_rays(SCENE_ARGUMENTS level, through, sample);
@@ -261,7 +260,7 @@ FN void trace(SCENE_PARAMETERS Vec3 direction, vmask alive, Sample *sample) {
         int mirrors, passes;
         do {
             Ray mirror, through;
-            follow(SCENE_ARGUMENTS & ray, level, sample, &mirror, &through);
+            trace_and_shade(SCENE_ARGUMENTS & ray, level, sample, &mirror, &through);
             mirrors = any_lane(mirror.alive);
             passes = any_lane(through.alive);
             level++;

@@ -48,7 +48,7 @@ FN void listed_samples(SAMPLE_PARAMETERS vint within, vmask *alive, vint *x, vin
                        vint *row) {
     vint pixel = splat_int(0), sample = splat_int(-1), place = splat_int(0);
     vint entry = *y * view->width + *x;
-    vint live = pick_int(*alive, splat_int(1), splat_int(0));
+    vint live = vselect_int(*alive, splat_int(1), splat_int(0));
     for (int lane = 0; lane < HD_LANES; lane++) {
         if (!lane_int(&live, lane))
             continue;
@@ -123,7 +123,7 @@ FN Sample empty_sample(void) {
 typedef struct {
     fixed64 sums[HD_PIXELS_PER_ITEM * PIXEL_SUMS];
     RayCounts counts;
-} Gathered;
+} PixelAccumulator;
 
 FN RayCounts no_counts(void) {
     RayCounts counts;
@@ -131,7 +131,7 @@ FN RayCounts no_counts(void) {
     return counts;
 }
 
-/* What a bundle of samples counted; lanes without one counted nothing. */
+/* What a packet of samples counted; lanes without one counted nothing. */
 FN RayCounts counts_of(const Sample *sample) {
     RayCounts counts;
     counts.mirrored = (uint64)sum_lanes(sample->mirrored);
@@ -148,23 +148,24 @@ FN void add_counts(RayCounts *sum, RayCounts more) {
     sum->clamps += more.clamps;
 }
 
-FN void clear_gathered(Gathered *gathered) {
+FN void clear_accumulator(PixelAccumulator *accumulator) {
     for (int i = 0; i < HD_PIXELS_PER_ITEM * PIXEL_SUMS; i++)
-        gathered->sums[i] = 0;
-    gathered->counts = no_counts();
+        accumulator->sums[i] = 0;
+    accumulator->counts = no_counts();
 }
 
 /* `first` is the number of the first lane's sample within the item. */
-FN void add_sample(SCENE_PARAMETERS const Sample *sample, int first, Gathered *gathered) {
+FN void add_sample(SCENE_PARAMETERS const Sample *sample, int first,
+                   PixelAccumulator *accumulator) {
     int per_pixel = view->samples;
     int place = first / per_pixel, left = per_pixel - first % per_pixel;
-    add_counts(&gathered->counts, counts_of(sample));
+    add_counts(&accumulator->counts, counts_of(sample));
     for (int lane = 0; lane < HD_LANES && place < HD_PIXELS_PER_ITEM; lane++) {
-        fixed64 *sums = gathered->sums + place * PIXEL_SUMS;
+        fixed64 *sums = accumulator->sums + place * PIXEL_SUMS;
         sums[0] += lane_fix(&sample->r, lane) >> view->pixel_shift;
         sums[1] += lane_fix(&sample->g, lane) >> view->pixel_shift;
         sums[2] += lane_fix(&sample->b, lane) >> view->pixel_shift;
-        if (SURVEYED(header))
+        if (BOUNDED(header))
             sums[HD_RADIANCE_SUMS] += shifted_bound(view, lane_fix(&sample->bound, lane));
         left--;
         if (left == 0) {
@@ -174,36 +175,36 @@ FN void add_sample(SCENE_PARAMETERS const Sample *sample, int first, Gathered *g
     }
 }
 
-/* Traces every `parts`-th bundle of the item's first `count` samples, from bundle number `part` on;
+/* Traces every `parts`-th packet of the item's first `count` samples, from packet number `part` on;
    at least one, which is dead where there is none. */
 FN void gather_samples(SCENE_PARAMETERS int item, int part, int parts, int count,
-                       Gathered *gathered) {
+                       PixelAccumulator *accumulator) {
     int first = part * HD_LANES;
     do {
         Vec3 direction;
         vmask alive = sample_directions(SAMPLE_ARGUMENTS item, first, &direction);
         Sample sample = empty_sample();
         trace(SCENE_ARGUMENTS direction, first < count ? alive : mask_none(), &sample);
-        add_sample(SCENE_ARGUMENTS & sample, first, gathered);
+        add_sample(SCENE_ARGUMENTS & sample, first, accumulator);
         first += parts * HD_LANES;
     } while (first < count);
 }
 
 FN void store_pixels(GLOBAL const Header *header, GLOBAL const View *view, int item,
-                     const Gathered *gathered, GLOBAL float *pixels) {
+                     const PixelAccumulator *accumulator, GLOBAL float *pixels) {
     real samples = (real)view->samples;
-    int floats = SURVEYED(header) ? HD_SURVEY_SUMS : HD_RADIANCE_SUMS;
+    int floats = BOUNDED(header) ? HD_BOUNDED_SUMS : HD_RADIANCE_SUMS;
     Pixel corner = block_of_item(view, item);
     for (int place = 0; place < HD_PIXELS_PER_ITEM; place++) {
         Pixel pixel = pixel_in_block(corner, item * HD_PIXELS_PER_ITEM + place);
         if (!in_picture(view, pixel))
             continue;
-        const fixed64 *sums = gathered->sums + place * PIXEL_SUMS;
+        const fixed64 *sums = accumulator->sums + place * PIXEL_SUMS;
         uint64 number = (uint64)pixel.y * (uint64)view->width + (uint64)pixel.x;
         GLOBAL float *out = pixels + number * (uint64)floats;
         for (int channel = 0; channel < HD_RADIANCE_SUMS; channel++)
             out[channel] = (float)shared_quotient((real)sums[channel] * view->from_fixed, samples);
-        if (SURVEYED(header))
+        if (BOUNDED(header))
             out[HD_RADIANCE_SUMS] = (float)shared_quotient(
                 (real)sums[HD_RADIANCE_SUMS] * view->bound_from_fixed, samples);
     }
@@ -211,26 +212,26 @@ FN void store_pixels(GLOBAL const Header *header, GLOBAL const View *view, int i
 
 /* Renders the pixels of one item: three floats for each pixel, and what was counted. */
 FN void render_item(SCENE_PARAMETERS int item, GLOBAL float *pixels, GLOBAL RayCounts *counts) {
-    Gathered gathered;
-    clear_gathered(&gathered);
-    gather_samples(SCENE_ARGUMENTS item, 0, 1, HD_PIXELS_PER_ITEM * view->samples, &gathered);
-    store_pixels(header, view, item, &gathered, pixels);
-    *counts = gathered.counts;
+    PixelAccumulator accumulator;
+    clear_accumulator(&accumulator);
+    gather_samples(SCENE_ARGUMENTS item, 0, 1, HD_PIXELS_PER_ITEM * view->samples, &accumulator);
+    store_pixels(header, view, item, &accumulator, pixels);
+    *counts = accumulator.counts;
 }
 
 /* Numbers that each thread of a group needs to pass its share on: its sums, then its counts. */
-enum { GROUP_ROOM = HD_PIXELS_PER_ITEM * PIXEL_SUMS > 4 ? HD_PIXELS_PER_ITEM *PIXEL_SUMS : 4 };
+enum { GROUP_SCRATCH = HD_PIXELS_PER_ITEM * PIXEL_SUMS > 4 ? HD_PIXELS_PER_ITEM *PIXEL_SUMS : 4 };
 
 /* Adds to `whole`, of the first of `parts` neighbouring threads, what the others gathered. All
    threads of the group must call this. */
-FN void add_parts(Gathered *whole, int part, int parts, LOCAL fixed64 *own) {
+FN void add_parts(PixelAccumulator *whole, int part, int parts, LOCAL fixed64 *own) {
     const int sums = HD_PIXELS_PER_ITEM * PIXEL_SUMS;
     for (int i = 0; i < sums; i++)
         own[i] = whole->sums[i];
     BARRIER();
     for (int p = 1; part == 0 && p < parts; p++)
         for (int i = 0; i < sums; i++)
-            whole->sums[i] += own[p * GROUP_ROOM + i];
+            whole->sums[i] += own[p * GROUP_SCRATCH + i];
     BARRIER();
     own[0] = (fixed64)whole->counts.mirrored;
     own[1] = (fixed64)whole->counts.transmitted;
@@ -238,20 +239,20 @@ FN void add_parts(Gathered *whole, int part, int parts, LOCAL fixed64 *own) {
     own[3] = (fixed64)whole->counts.clamps;
     BARRIER();
     for (int p = 1; part == 0 && p < parts; p++) {
-        whole->counts.mirrored += (uint64)own[p * GROUP_ROOM];
-        whole->counts.transmitted += (uint64)own[p * GROUP_ROOM + 1];
-        whole->counts.shadow_tests += (uint64)own[p * GROUP_ROOM + 2];
-        whole->counts.clamps += (uint64)own[p * GROUP_ROOM + 3];
+        whole->counts.mirrored += (uint64)own[p * GROUP_SCRATCH];
+        whole->counts.transmitted += (uint64)own[p * GROUP_SCRATCH + 1];
+        whole->counts.shadow_tests += (uint64)own[p * GROUP_SCRATCH + 2];
+        whole->counts.clamps += (uint64)own[p * GROUP_SCRATCH + 3];
     }
     BARRIER();
 }
 
 /* Renders the items [first_item, first_item + item_count) by work groups: `parts` neighbouring
    threads share the samples of an item, and the first of them adds up what all of them gathered.
-   `room` has GROUP_ROOM numbers for each of the group's threads, all of which must call this. Sums
-   are integers: how the samples are shared changes no bit. */
+   `scratch` has GROUP_SCRATCH numbers for each of the group's threads, all of which must call this.
+   Sums are integers: how the samples are shared changes no bit. */
 FN void render_by_group(SCENE_PARAMETERS int first_item, int item_count, int parts, int group_index,
-                        int group_count, int thread, int thread_count, LOCAL fixed64 *room,
+                        int group_count, int thread, int thread_count, LOCAL fixed64 *scratch,
                         GLOBAL float *pixels, GLOBAL RayCounts *counts) {
     int items_per_group = thread_count / parts;
     int place = thread / parts, part = thread % parts;
@@ -259,24 +260,24 @@ FN void render_by_group(SCENE_PARAMETERS int first_item, int item_count, int par
          first += group_count * items_per_group) {
         int item = first_item + first + place;
         int has_item = place < items_per_group && first + place < item_count;
-        Gathered gathered;
-        clear_gathered(&gathered);
+        PixelAccumulator accumulator;
+        clear_accumulator(&accumulator);
         gather_samples(SCENE_ARGUMENTS item, part, parts,
-                       has_item ? HD_PIXELS_PER_ITEM * view->samples : 0, &gathered);
+                       has_item ? HD_PIXELS_PER_ITEM * view->samples : 0, &accumulator);
         /* Threads without an item may have no neighbours to read from. */
-        add_parts(&gathered, has_item ? part : -1, parts, room + thread * GROUP_ROOM);
+        add_parts(&accumulator, has_item ? part : -1, parts, scratch + thread * GROUP_SCRATCH);
         if (has_item && part == 0) {
-            store_pixels(header, view, item, &gathered, pixels);
-            counts[item] = gathered.counts;
+            store_pixels(header, view, item, &accumulator, pixels);
+            counts[item] = accumulator.counts;
         }
     }
 }
 
 /* ---- what the eye's rays meet first, of a frame that is not listed ---- */
 
-FN Hit first_hit(SCENE_PARAMETERS const Ray *ray, Reference *reference) {
-    *reference = reference_of(SCENE_ARGUMENTS ray->touched, 1);
-    return closest_hit(SCENE_ARGUMENTS ray, *reference);
+FN Hit first_hit(SCENE_PARAMETERS const Ray *ray, LocalOrigin *local_origin) {
+    *local_origin = local_origin_of(SCENE_ARGUMENTS ray->last_hit, 1);
+    return closest_hit(SCENE_ARGUMENTS ray, *local_origin);
 }
 
 /* How many samples of each of the item's pixels meet anything. */
@@ -286,14 +287,14 @@ FN void count_covered(SCENE_PARAMETERS int item, int covered[HD_PIXELS_PER_ITEM]
         covered[place] = 0;
     for (int first = 0; first < count; first += HD_LANES) {
         Vec3 direction;
-        Reference reference;
+        LocalOrigin local_origin;
         vmask alive = sample_directions(SAMPLE_ARGUMENTS item, first, &direction);
         if (!any_lane(alive))
             continue;
         Ray ray = eye_ray(direction, alive);
-        Hit hit = first_hit(SCENE_ARGUMENTS & ray, &reference);
+        Hit hit = first_hit(SCENE_ARGUMENTS & ray, &local_origin);
         vmask met = alive & ~lt_int(hit.object, splat_int(0));
-        vint counts = pick_int(met, splat_int(1), splat_int(0));
+        vint counts = vselect_int(met, splat_int(1), splat_int(0));
         for (int lane = 0; lane < HD_LANES && first + lane < count; lane++)
             covered[(first + lane) / per_pixel] += lane_int(&counts, lane);
     }
@@ -304,43 +305,43 @@ typedef struct {
     vreal distance; /* 0 where nothing is met, and so is the normal */
     Vec3 normal;
     vint object; /* from 1 on; 0: none */
-} Middles;
+} CentreHits;
 
-FN Middles look_through_middles(SCENE_PARAMETERS vint x, vint y, vmask alive) {
+FN CentreHits trace_pixel_centres(SCENE_PARAMETERS vint x, vint y, vmask alive) {
     int n = view->grid_side;
     vreal right = to_real(x * (2 * n) + (view->first_column + n - 1));
     vreal down = to_real(y * (2 * n) + (view->first_row + n - 1));
     Ray ray = eye_ray(direction_to(view, right, down), alive);
-    Reference reference;
-    Hit hit = first_hit(SCENE_ARGUMENTS & ray, &reference);
+    LocalOrigin local_origin;
+    Hit hit = first_hit(SCENE_ARGUMENTS & ray, &local_origin);
     vmask met = alive & ~lt_int(hit.object, splat_int(0));
-    Surface surface = surface_at(SCENE_ARGUMENTS & ray, reference, &hit, met);
-    Middles middles;
-    middles.distance = pick(met, hit.t, splat(R(0.0)));
-    middles.normal = vec3_pick(met, surface.normal, vec3_zero());
-    middles.object = pick_int(met, hit.object + 1, splat_int(0));
-    return middles;
+    Surface surface = surface_at(SCENE_ARGUMENTS & ray, local_origin, &hit, met);
+    CentreHits centre;
+    centre.distance = vselect(met, hit.t, splat(R(0.0)));
+    centre.normal = vec3_select(met, surface.normal, vec3_zero());
+    centre.object = vselect_int(met, hit.object + 1, splat_int(0));
+    return centre;
 }
 
 /* What has HD_FIRST_FLOATS beside the alpha, of the item's pixels. */
-FN void store_middles(SCENE_PARAMETERS int item, GLOBAL float *hits) {
+FN void store_centre_hits(SCENE_PARAMETERS int item, GLOBAL float *hits) {
     for (int first = 0; first < HD_PIXELS_PER_ITEM; first += HD_LANES) {
         vint x, y;
         vmask alive = pixels_at(view, item, lane_numbers() + first, &x, &y);
         if (!any_lane(alive))
             continue;
-        Middles middles = look_through_middles(SCENE_ARGUMENTS x, y, alive);
-        vint live = pick_int(alive, splat_int(1), splat_int(0));
+        CentreHits centre = trace_pixel_centres(SCENE_ARGUMENTS x, y, alive);
+        vint live = vselect_int(alive, splat_int(1), splat_int(0));
         for (int lane = 0; lane < HD_LANES; lane++) {
             if (!lane_int(&live, lane))
                 continue;
             uint64 row = (uint64)lane_int(&y, lane) * (uint64)view->width;
             GLOBAL float *out = hits + (row + (uint64)lane_int(&x, lane)) * HD_FIRST_FLOATS;
-            out[1] = (float)lane_real(&middles.distance, lane);
-            out[2] = (float)lane_real(&middles.normal.x, lane);
-            out[3] = (float)lane_real(&middles.normal.y, lane);
-            out[4] = (float)lane_real(&middles.normal.z, lane);
-            out[5] = (float)lane_int(&middles.object, lane);
+            out[1] = (float)lane_real(&centre.distance, lane);
+            out[2] = (float)lane_real(&centre.normal.x, lane);
+            out[3] = (float)lane_real(&centre.normal.y, lane);
+            out[4] = (float)lane_real(&centre.normal.z, lane);
+            out[5] = (float)lane_int(&centre.object, lane);
         }
     }
 }
@@ -359,7 +360,7 @@ FN void find_first_hits(SCENE_PARAMETERS int item, int floats, GLOBAL float *hit
             (float)shared_quotient((real)covered[place], (real)view->samples);
     }
     if (floats == HD_FIRST_FLOATS)
-        store_middles(SCENE_ARGUMENTS item, hits);
+        store_centre_hits(SCENE_ARGUMENTS item, hits);
 }
 
 /* Adds up every `workers`-th count from number `worker` on. */

@@ -34,7 +34,7 @@ typedef struct ALIGNED_16 {
     int wide_stack;      /* likewise of the wide nodes */
     int refracts;        /* some index of refraction is not 1 */
     int lit_from_behind; /* some material is */
-    int surveyed;        /* pixels come with their survey (HD_PIXEL_SUMS) */
+    int bounded;         /* pixels come with their survey (HD_PIXEL_SUMS) */
 } Header;
 
 /* Of a solid with parallel faces (Object.paired): the planes n.x = distance and n.x = -distance of
@@ -61,8 +61,8 @@ typedef struct ALIGNED_16 {
     int first_edge, edge_count;
     int face_material, rim_material;
     int lights_per_edge;
-    int paired; /* its faces come in parallel pairs */
-    int apart;  /* nothing else reaches into the sphere about it */
+    int paired;   /* its faces come in parallel pairs */
+    int isolated; /* nothing else reaches into the sphere about it */
     int unused_int[3];
 } Object;
 
@@ -85,7 +85,7 @@ typedef struct ALIGNED_16 {
     HD_PLAIN_TERMS(HD_ROW_COLOUR, HD_ROW_NUMBER)
     real inner_reflection, inner_transmission; /* for rays that meet it from inside the solid */
     real index_of_refraction, inverse_index;
-    real least_highlight; /* a cosine whose power is less than 2^-60 counts as 0 */
+    real min_highlight; /* a cosine whose power is less than 2^-60 counts as 0 */
     int shininess, lit_from_behind, unused_int[2];
 } Material;
 
@@ -94,31 +94,38 @@ typedef struct ALIGNED_16 {
     /* 1 over the square of the falloff's length; negative: at which nothing is left; 0: none */
     real inverse_falloff_squared;
     int own_face[2]; /* the faces that hold an edge light; -1: none */
-    int group;       /* of lights near each other (light_groups) */
-    int run;         /* so many lights of its group follow each other from this one on, which is the
-                        first; 0: another one, or, where bundles have one lane, it is judged alone */
+    int cluster;     /* of lights near each other (light_clusters) */
+    int run; /* so many lights of its cluster follow each other from this one on, which is the
+                first; 0: another one, or, where packets have one lane, it is judged alone */
 } Light;
 
-/* How many groups lights make: none where there are too few to be worth it, otherwise a multiple of
-   what bundles hold. */
-enum { HD_MOST_LIGHT_GROUPS = 256 };
-#define HD_LIGHT_GROUPS(lights)                                                                    \
-    ((lights) < 16                         ? 0                                                     \
-     : (lights) > 8 * HD_MOST_LIGHT_GROUPS ? HD_MOST_LIGHT_GROUPS                                  \
-                                           : ((lights) + 127) / 128 * 16)
+/* How many clusters lights make: none where there are too few to be worth it, otherwise a multiple
+   of what packets hold. */
+enum { HD_MAX_LIGHT_CLUSTERS = 256 };
+#define HD_LIGHT_CLUSTERS(lights)                                                                  \
+    ((lights) < 16                          ? 0                                                    \
+     : (lights) > 8 * HD_MAX_LIGHT_CLUSTERS ? HD_MAX_LIGHT_CLUSTERS                                \
+                                            : ((lights) + 127) / 128 * 16)
 
-/* Of spheres about the lights of each group: place relative to an object, radius; and the distance
-   beyond which nothing is left of any of its lights. */
-enum { HD_GROUP_X, HD_GROUP_Y, HD_GROUP_Z, HD_GROUP_RADIUS, HD_GROUP_REACH, HD_GROUP_ROWS };
+/* Of spheres about the lights of each cluster: place relative to an object, radius; and the
+   distance beyond which nothing is left of any of its lights. */
+enum {
+    HD_CLUSTER_X,
+    HD_CLUSTER_Y,
+    HD_CLUSTER_Z,
+    HD_CLUSTER_RADIUS,
+    HD_CLUSTER_REACH,
+    HD_CLUSTER_ROWS
+};
 
-/* Where bundles have one lane: a sphere about the lights of a run, and their reach. */
+/* Where packets have one lane: a sphere about the lights of a run, and their reach. */
 typedef struct ALIGNED_16 {
     real place[3], radius; /* relative to an object */
     real reach, unused[3];
 } LightRun;
 
 /* Of so many objects, the first ones, is known whether they are beside the ways of light. */
-enum { HD_JUDGED_OBJECTS = 30 };
+enum { HD_MASKED_OBJECTS = 30 };
 
 /* On which side of an object's faces a light is, a bit for each face from the object's first one
    on. It is strictly inside of those that are in neither word. */
@@ -155,10 +162,10 @@ typedef struct ALIGNED_16 {
     real to_mesh[3][3];
     real to_world[3][3];
     real unused[2];
-    int root; /* a node, of the wide ones where bundles have lanes; -1: every triangle is tried */
+    int root; /* a node, of the wide ones where packets have lanes; -1: every triangle is tried */
     int unused_int;
     int first_triangle, triangle_count;
-    int first_skin;
+    int first_mesh_material;
     int first_face;           /* number of the face that is its group 1 */
     int first_corner_normals; /* place of its first triangle's in corner_normals; -1: it is flat */
     int first_corner_uvs;     /* likewise; -1: there are none */
@@ -191,20 +198,20 @@ typedef struct ALIGNED_16 {
 
 /* What a mesh's triangles show: a material, and how they filter light on its way to a point, met
    from outside and from inside: in octaves, the binary logarithm of 1 over what passes, as whole
-   numbers of 2^-24 and, what that leaves out, of 2^-48; each is at most HD_OPAQUE_OCTAVES. */
+   numbers of 2^-24 and, what that leaves out, of 2^-48; each is at most HD_OPAQUE_DENSITY. */
 typedef struct ALIGNED_16 {
     real emission[3], unused;            /* radiance */
     int filter[2][4], filter_rest[2][4]; /* red, green, blue; the fourth: nothing passes at all */
     int material;
     int picture; /* -1: none */
     int unused_int[2];
-} Skin;
+} MeshMaterial;
 
 enum {
-    HD_OCTAVE_BITS = 24,
-    HD_OCTAVE = 1 << HD_OCTAVE_BITS,
-    HD_OPAQUE_OCTAVES = 41 << HD_OCTAVE_BITS,
-    HD_DARK_OCTAVES = 40 << HD_OCTAVE_BITS
+    HD_DENSITY_BITS = 24,
+    HD_DENSITY_ONE = 1 << HD_DENSITY_BITS,
+    HD_OPAQUE_DENSITY = 41 << HD_DENSITY_BITS,
+    HD_DARK_DENSITY = 40 << HD_DENSITY_BITS
 };
 
 /* A texture: repeated without end, or its border's texels continued outwards. */
@@ -260,7 +267,7 @@ HD_ASSERT_SIZE(FloorMap, 32, 4);
 HD_ASSERT_SIZE(Instance, 24, 8);
 HD_ASSERT_SIZE(Triangle, 12, 0);
 HD_ASSERT_SIZE(MeshNode, 12, 4);
-HD_ASSERT_SIZE(Skin, 4, 20);
+HD_ASSERT_SIZE(MeshMaterial, 4, 20);
 HD_ASSERT_SIZE(Picture, 0, 4);
 HD_ASSERT_SIZE(TextureCoordinates, 4, 0);
 HD_ASSERT_SIZE(View, 16, 12);
@@ -282,10 +289,10 @@ HD_ASSERT_SIZE(View, 16, 12);
     X(LightSides, light_sides)                                                                     \
     /* [object * (light_count + 1)]: what is beside all ways from lights to points of the object,  \
        a bit for each solid and the floor that no segment crosses; then the same of each light */  \
-    X(int, light_ways)                                                                             \
-    /* [(object * HD_GROUP_ROWS + row) * groups + group] */                                        \
-    X(real, light_groups)                                                                          \
-    /* [object * light_count + light], of the first light of each run; none where bundles have     \
+    X(int, occlusion_masks)                                                                        \
+    /* [(object * HD_CLUSTER_ROWS + row) * clusters + cluster] */                                  \
+    X(real, light_clusters)                                                                        \
+    /* [object * light_count + light], of the first light of each run; none where packets have     \
        several lanes */                                                                            \
     X(LightRun, light_runs)                                                                        \
     /* [from * object_count + to]: centre of `from` minus that of `to` */                          \
@@ -296,16 +303,16 @@ HD_ASSERT_SIZE(View, 16, 12);
     X(Instance, instances)                                                                         \
     /* of all meshes, in the order of the leaves */                                                \
     X(Triangle, triangles)                                                                         \
-    /* over the instances; where bundles have one lane of all meshes too */                        \
+    /* over the instances; where packets have one lane of all meshes too */                        \
     X(MeshNode, mesh_nodes)                                                                        \
-    /* of nodes with as many children as bundles have lanes: lower x, y, z of all of them, then    \
-       upper; none where bundles have one lane */                                                  \
+    /* of nodes with as many children as packets have lanes: lower x, y, z of all of them, then    \
+       upper; none where packets have one lane */                                                  \
     X(real, wide_bounds)                                                                           \
     /* likewise */                                                                                 \
     X(int, wide_children)                                                                          \
     /* numbers of instances */                                                                     \
     X(int, top_items)                                                                              \
-    X(Skin, skins)                                                                                 \
+    X(MeshMaterial, mesh_materials)                                                                \
     X(Vector, mesh_normals)                                                                        \
     /* [3 * triangle + corner]: places in mesh_normals; negative: it is flat */                    \
     X(int, corner_normals)                                                                         \
@@ -354,7 +361,7 @@ enum { HD_CONTRIBUTION_LIMIT = 1 << 16, HD_RADIANCE_LIMIT = HD_CONTRIBUTION_LIMI
 
 /* What is summed up for each pixel, and comes of it as floats: red, green, blue; of surveyed scenes
    also a bound of what was left out, after exposure. */
-enum { HD_RADIANCE_SUMS = 3, HD_SURVEY_SUMS = 4 };
+enum { HD_RADIANCE_SUMS = 3, HD_BOUNDED_SUMS = 4 };
 
 /* What the eye's rays meet first, of each pixel: the share of its samples that meet anything; and
    of the ray through its middle the distance, the normal, which is turned towards the eye, and the
@@ -369,7 +376,7 @@ enum { HD_FLOOR_SIDES = 4, HD_FLOOR_PLANES = 1 + HD_FLOOR_SIDES };
    order. */
 enum { HD_BLOCK_SIDE = 8, HD_BLOCK_PIXELS = 64 };
 
-/* Column and row of pixel number `z` of a block; of an integer or a bundle of them. */
+/* Column and row of pixel number `z` of a block; of an integer or a packet of them. */
 #define HD_Z_COLUMN(z) (((z)&1) | ((z) >> 1 & 2) | ((z) >> 2 & 4))
 #define HD_Z_ROW(z)    (((z) >> 1 & 1) | ((z) >> 2 & 2) | ((z) >> 3 & 4))
 

@@ -9,7 +9,7 @@
 /* ---- textures ---- */
 
 FN vreal clamp_unit(vreal a) {
-    return lesser(greater(a, splat(R(0.0))), splat(R(1.0)));
+    return vmin(vmax(a, splat(R(0.0))), splat(R(1.0)));
 }
 
 /* Texture coordinates in the unit square of a point of the floor. With h = (a, b) - origin, t
@@ -27,15 +27,15 @@ FN void floor_coordinates(GLOBAL const FloorMap *map, Vec3 point, vreal *s, vrea
     vreal k2 = multiply_add(ga, fb, -(gb * fa));
     vreal k1 = multiply_add(ea, fb, -(eb * fa)) + multiply_add(ha, gb, -(hb * ga));
     vreal k0 = multiply_add(ha, eb, -(hb * ea));
-    vreal discriminant = greater(multiply_add(k1, k1, k2 * k0 * R(-4.0)), splat(R(0.0)));
+    vreal discriminant = vmax(multiply_add(k1, k1, k2 * k0 * R(-4.0)), splat(R(0.0)));
     vreal root = square_root(discriminant) * map->orientation;
     vmask same_sign = le(splat(R(0.0)), k1 * root);
     *t = clamp_unit(
-        pick(same_sign, quotient(k0 * R(-2.0), k1 + root), quotient(root - k1, k2 * R(2.0))));
+        vselect(same_sign, quotient(k0 * R(-2.0), k1 + root), quotient(root - k1, k2 * R(2.0))));
     vreal da = multiply_add(*t, ga, ea), db = multiply_add(*t, gb, eb);
     vreal na = multiply_add(-*t, fa, ha), nb = multiply_add(-*t, fb, hb);
     vmask use_a = lt(db * db, da * da);
-    *s = clamp_unit(quotient(pick(use_a, na, nb), pick(use_a, da, db)));
+    *s = clamp_unit(quotient(vselect(use_a, na, nb), vselect(use_a, da, db)));
 }
 
 FN void parallelogram_coordinates(GLOBAL const FloorMap *map, Vec3 point, vreal *s, vreal *t) {
@@ -78,17 +78,17 @@ FN Vec3 blend_texels(GLOBAL const uint *texels, vint place, int stride, vreal ac
 /* A coordinate of a texture that repeats, in texels from the middle of the first one on. */
 FN vreal repeat(vreal u, int texels) {
     vreal part = u - to_real(to_int(u)), zero = splat(R(0.0)), whole = splat((real)texels);
-    part = pick(lt(part, zero), part + splat(R(1.0)), part);
+    part = vselect(lt(part, zero), part + splat(R(1.0)), part);
     vreal at = multiply_add(part, whole, splat(R(-0.5)));
-    at = pick(lt(at, zero), at + whole, at);
+    at = vselect(lt(at, zero), at + whole, at);
     /* Lanes that are off may hold anything. */
-    return lesser(greater(at, zero), whole);
+    return vmin(vmax(at, zero), whole);
 }
 
 /* The same of a texture that ends. */
 FN vreal stay_within(vreal u, int texels) {
     vreal at = multiply_add(clamp_unit(u), splat((real)texels), splat(R(-0.5)));
-    return lesser(greater(at, splat(R(0.0))), splat((real)(texels - 1)));
+    return vmin(vmax(at, splat(R(0.0))), splat((real)(texels - 1)));
 }
 
 /* Bilinear between texel centres. Behind the last column and row of a picture there is room for
@@ -103,8 +103,8 @@ FN Vec3 sample_picture(GLOBAL const Picture *picture, GLOBAL const uint *texels,
         y = repeat(v, picture->height);
     }
     /* Rounding may have put a coordinate at the end, where the first texel follows the last one. */
-    vint column = least_int(to_int(x), splat_int(picture->width - 1));
-    vint row = least_int(to_int(y), splat_int(picture->height - 1));
+    vint column = min_int(to_int(x), splat_int(picture->width - 1));
+    vint row = min_int(to_int(y), splat_int(picture->height - 1));
     int stride = picture->width + 1;
     vint place = row * stride + column + picture->first_texel;
     return blend_texels(texels, place, stride, x - to_real(column), y - to_real(row));
@@ -118,29 +118,30 @@ FN Vec3 sample_picture(GLOBAL const Picture *picture, GLOBAL const uint *texels,
    and the index, relative to that of the side beyond, are those of the side that the ray comes
    from. */
 #define HD_LANE_TERMS(X)                                                                           \
-    X(Vec3, vec3_pick, colour, vec3_of(material->colour), vec3_zero())                             \
-    X(Vec3, vec3_pick, mirror_tint, vec3_of(material->mirror_tint), vec3_zero())                   \
-    X(vreal, pick, ambient, splat(material->ambient), splat(R(0.0)))                               \
-    X(vreal, pick, diffuse, splat(material->diffuse), splat(R(0.0)))                               \
-    X(vreal, pick, specular, splat(material->specular), splat(R(0.0)))                             \
-    X(vreal, pick, least_highlight, splat(material->least_highlight), splat(REAL_LARGE))           \
-    X(vreal, pick, reflection,                                                                     \
-      pick(entering, splat(material->reflection), splat(material->inner_reflection)),              \
+    X(Vec3, vec3_select, colour, vec3_of(material->colour), vec3_zero())                           \
+    X(Vec3, vec3_select, mirror_tint, vec3_of(material->mirror_tint), vec3_zero())                 \
+    X(vreal, vselect, ambient, splat(material->ambient), splat(R(0.0)))                            \
+    X(vreal, vselect, diffuse, splat(material->diffuse), splat(R(0.0)))                            \
+    X(vreal, vselect, specular, splat(material->specular), splat(R(0.0)))                          \
+    X(vreal, vselect, min_highlight, splat(material->min_highlight), splat(REAL_LARGE))            \
+    X(vreal, vselect, reflection,                                                                  \
+      vselect(entering, splat(material->reflection), splat(material->inner_reflection)),           \
       splat(R(0.0)))                                                                               \
-    X(vreal, pick, transmission,                                                                   \
-      pick(entering, splat(material->transmission), splat(material->inner_transmission)),          \
+    X(vreal, vselect, transmission,                                                                \
+      vselect(entering, splat(material->transmission), splat(material->inner_transmission)),       \
       splat(R(0.0)))                                                                               \
-    X(vreal, pick, relative_index,                                                                 \
-      pick(entering, splat(material->inverse_index), splat(material->index_of_refraction)),        \
+    X(vreal, vselect, relative_index,                                                              \
+      vselect(entering, splat(material->inverse_index), splat(material->index_of_refraction)),     \
       splat(R(1.0)))                                                                               \
-    X(vmask, pick_mask, lit_from_behind, material->lit_from_behind ? mask_all() : mask_none(),     \
+    X(vmask, vselect_mask, lit_from_behind, material->lit_from_behind ? mask_all() : mask_none(),  \
       mask_none())                                                                                 \
-    X(vint, pick_int, shininess, splat_int(material->shininess), splat_int(1))
+    X(vint, vselect_int, shininess, splat_int(material->shininess), splat_int(1))
 
-#define HD_TERM_MEMBER(type, pick_term, name, of, none) type name;
-#define HD_TERM_OF(type, pick_term, name, of, none)     lanes.name = of;
-#define HD_TERM_NONE(type, pick_term, name, of, none)   lanes.name = none;
-#define HD_TERM_PICKED(type, pick_term, name, of, none) lanes.name = pick_term(m, a.name, b.name);
+#define HD_TERM_MEMBER(type, select_term, name, of, none) type name;
+#define HD_TERM_OF(type, select_term, name, of, none)     lanes.name = of;
+#define HD_TERM_NONE(type, select_term, name, of, none)   lanes.name = none;
+#define HD_TERM_PICKED(type, select_term, name, of, none)                                          \
+    lanes.name = select_term(m, a.name, b.name);
 
 typedef struct {
     HD_LANE_TERMS(HD_TERM_MEMBER)
@@ -166,14 +167,14 @@ FN LaneMaterial splat_material(GLOBAL const Material *material, vmask entering) 
     return lanes;
 }
 
-FN LaneMaterial pick_material(vmask m, LaneMaterial a, LaneMaterial b) {
+FN LaneMaterial select_material(vmask m, LaneMaterial a, LaneMaterial b) {
     LaneMaterial lanes;
     HD_LANE_TERMS(HD_TERM_PICKED)
     return lanes;
 }
 
 FN void set_material(Surface *surface, vmask m, LaneMaterial material) {
-    surface->material = pick_material(m, material, surface->material);
+    surface->material = select_material(m, material, surface->material);
 }
 
 /* Lanes whose point is within the radius of one of the edge's lights. */
@@ -185,7 +186,7 @@ FN vmask on_disc(GLOBAL const Object *solid, GLOBAL const Edge *edge, Vec3 point
     Vec3 offset = vec3_sub(point, middle);
     vreal along = vec3_dot(offset, direction);
     vreal cell = quotient(along + splat(solid->edge_half_length), splat(spacing));
-    cell = lesser(greater(cell, splat(R(0.0))), splat(count - R(1.0)));
+    cell = vmin(vmax(cell, splat(R(0.0))), splat(count - R(1.0)));
     vreal light =
         (to_real(to_int(cell)) + splat(R(0.5))) * spacing - splat(solid->edge_half_length);
     Vec3 distance = vec3_scale_add(direction, -light, offset);
@@ -204,7 +205,7 @@ FN void show_discs(GLOBAL const Object *solid, GLOBAL const Edge *edges, vmask m
             continue;
         vmask disc = m & on_disc(solid, edge, surface->point);
         Vec3 radiance = vec3_of(edge->disc_radiance);
-        surface->emission = vec3_pick(disc, radiance, surface->emission);
+        surface->emission = vec3_select(disc, radiance, surface->emission);
         shown = shown | disc;
     }
     set_material(surface, shown, no_material());
@@ -223,14 +224,14 @@ FN void describe_solid(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Sur
     for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++) {
         GLOBAL const Plane *plane = planes + k;
         vmask met = eq_int(met_plane, splat_int(k));
-        normal = vec3_pick(met, vec3_splat(plane->x, plane->y, plane->z), normal);
+        normal = vec3_select(met, vec3_splat(plane->x, plane->y, plane->z), normal);
         vreal near = nearness(solid, plane, along_normal(plane, surface->point));
-        nearest = pick(met, nearest, greater(near, nearest));
+        nearest = vselect(met, nearest, vmax(near, nearest));
     }
     /* Outward on the second of two planes is against the normal. */
     vmask second = ~eq_int(hit->face & 1, splat_int(0));
-    vreal towards_viewer = pick(second ^ hit->entering, splat(R(1.0)), splat(R(-1.0)));
-    surface->normal = vec3_pick(m, vec3_scale(normal, towards_viewer), surface->normal);
+    vreal towards_viewer = vselect(second ^ hit->entering, splat(R(1.0)), splat(R(-1.0)));
+    surface->normal = vec3_select(m, vec3_scale(normal, towards_viewer), surface->normal);
     set_material(surface, m, splat_material(materials + solid->face_material, hit->entering));
     vmask rim = m & lt(splat(-solid->rim_depth), nearest);
     if (any_lane(rim))
@@ -244,8 +245,9 @@ FN void describe_floor(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Sur
     GLOBAL const Object *floor = objects + object;
     GLOBAL const Plane *plane = planes + floor->first_plane;
     Vec3 normal = vec3_splat(plane->x, plane->y, plane->z);
-    surface->normal = vec3_pick(
-        m, vec3_scale(normal, pick(hit->entering, splat(R(1.0)), splat(R(-1.0)))), surface->normal);
+    surface->normal =
+        vec3_select(m, vec3_scale(normal, vselect(hit->entering, splat(R(1.0)), splat(R(-1.0)))),
+                    surface->normal);
     /* A floor has no inner side: which way its normal looks is of no account. */
     set_material(surface, m, splat_material(materials + floor->face_material, mask_all()));
     if (floor_map->picture >= 0) {
@@ -256,7 +258,7 @@ FN void describe_floor(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Sur
             floor_coordinates(floor_map, surface->point, &s, &t);
         Vec3 texel = sample_picture(pictures + floor_map->picture, texels, s, t);
         LaneMaterial *material = &surface->material;
-        material->colour = vec3_pick(m, vec3_mul(material->colour, texel), material->colour);
+        material->colour = vec3_select(m, vec3_mul(material->colour, texel), material->colour);
     }
 }
 
@@ -269,7 +271,7 @@ FN FourWords fetch_corner_words(GLOBAL const int *table, int first, vint triangl
 
 /* Unit; no component may be much smaller than the least normal number's root. */
 FN Vec3 direction_of(Vec3 v) {
-    vreal most = greater(absolute(v.x), greater(absolute(v.y), absolute(v.z)));
+    vreal most = vmax(absolute(v.x), vmax(absolute(v.y), absolute(v.z)));
     return vec3_normalize(vec3_scale(v, reciprocal(most)));
 }
 
@@ -287,24 +289,25 @@ FN Vec3 smooth_normal(SCENE_PARAMETERS GLOBAL const Instance *instance, vint tri
     GLOBAL const real *table = (GLOBAL const real *)mesh_normals;
     Vec3 sum = vec3_zero();
     for (int i = 0; i < 3; i++) {
-        vint place = pick_int(has, corner.word[i], splat_int(0)) * NORMAL_STRIDE;
+        vint place = vselect_int(has, corner.word[i], splat_int(0)) * NORMAL_STRIDE;
         FourReals n = fetch_four_reals(table, place);
         sum = vec3_scale_add(vec3(n.number[0], n.number[1], n.number[2]), crossing->share[i], sum);
     }
-    vreal towards = pick(entering, splat(R(1.0)), splat(R(-1.0)));
+    vreal towards = vselect(entering, splat(R(1.0)), splat(R(-1.0)));
     Vec3 smooth = vec3_scale(direction_of(transform_normal(instance->to_mesh, sum)), towards);
     vreal facing = vec3_dot(smooth, direction);
     Vec3 mirrored = vec3_scale_add(smooth, facing * R(-2.0), direction);
     vmask sound = has & lt(facing, splat(R(0.0))) & lt(splat(R(0.0)), vec3_dot(mirrored, flat));
-    return vec3_pick(sound, smooth, flat);
+    return vec3_select(sound, smooth, flat);
 }
 
 /* The colour of a skin's picture; white without one. */
-FN Vec3 colour_of_picture(SCENE_PARAMETERS GLOBAL const Instance *instance, GLOBAL const Skin *skin,
-                          vint triangle, const TriangleCrossing *crossing) {
+FN Vec3 colour_of_picture(SCENE_PARAMETERS GLOBAL const Instance *instance,
+                          GLOBAL const MeshMaterial *mesh_material, vint triangle,
+                          const TriangleCrossing *crossing) {
     enum { UV_STRIDE = sizeof(TextureCoordinates) / sizeof(real) };
     Vec3 white = vec3_splat(R(1.0), R(1.0), R(1.0));
-    if (skin->picture < 0 || instance->first_corner_uvs < 0)
+    if (mesh_material->picture < 0 || instance->first_corner_uvs < 0)
         return white;
     FourWords corner = fetch_corner_words(corner_uvs, instance->first_corner_uvs,
                                           triangle - instance->first_triangle);
@@ -312,43 +315,43 @@ FN Vec3 colour_of_picture(SCENE_PARAMETERS GLOBAL const Instance *instance, GLOB
     GLOBAL const real *table = (GLOBAL const real *)mesh_uvs;
     vreal u = splat(R(0.0)), v = splat(R(0.0));
     for (int i = 0; i < 3; i++) {
-        vint place = pick_int(has, corner.word[i], splat_int(0)) * UV_STRIDE;
+        vint place = vselect_int(has, corner.word[i], splat_int(0)) * UV_STRIDE;
         FourReals at = fetch_four_reals(table, place);
         u = multiply_add(at.number[0], crossing->share[i], u);
         v = multiply_add(at.number[1], crossing->share[i], v);
     }
-    return vec3_pick(has, sample_picture(pictures + skin->picture, texels, u, v), white);
+    return vec3_select(has, sample_picture(pictures + mesh_material->picture, texels, u, v), white);
 }
 
-FN void set_skins(SCENE_PARAMETERS GLOBAL const Instance *instance, vmask m,
-                  const TriangleLanes *triangle, const TriangleCrossing *crossing, vmask entering,
-                  Surface *surface) {
+FN void set_mesh_materials(SCENE_PARAMETERS GLOBAL const Instance *instance, vmask m,
+                           const TriangleLanes *triangle, const TriangleCrossing *crossing,
+                           vmask entering, Surface *surface) {
     while (any_lane(m)) {
-        int number = lane_int(&triangle->skin, first_lane(m));
-        GLOBAL const Skin *skin = skins + number;
-        vmask same = m & eq_int(triangle->skin, splat_int(number));
+        int number = lane_int(&triangle->mesh_material, first_lane(m));
+        GLOBAL const MeshMaterial *mesh_material = mesh_materials + number;
+        vmask same = m & eq_int(triangle->mesh_material, splat_int(number));
         m = lanes_after(m, same);
-        LaneMaterial material = splat_material(materials + skin->material, entering);
+        LaneMaterial material = splat_material(materials + mesh_material->material, entering);
         material.colour =
-            vec3_mul(material.colour,
-                     colour_of_picture(SCENE_ARGUMENTS instance, skin, triangle->number, crossing));
+            vec3_mul(material.colour, colour_of_picture(SCENE_ARGUMENTS instance, mesh_material,
+                                                        triangle->number, crossing));
         set_material(surface, same, material);
-        surface->emission = vec3_pick(same, vec3_of(skin->emission), surface->emission);
+        surface->emission = vec3_select(same, vec3_of(mesh_material->emission), surface->emission);
     }
 }
 
 /* Triangles of less than half of this area are smaller than the rounding of their corners. */
 #if HD_DOUBLE
-#define LEAST_AREA R(1e-30)
+#define MIN_AREA R(1e-30)
 #else
-#define LEAST_AREA R(1e-15)
+#define MIN_AREA R(1e-15)
 #endif
 
 /* Sines of angles: below which a ray leaves flat, and the least that is told from none; and the
    share of the way to a triangle's middle that rays are moved by at most. */
-#define FLAT         R(0.125)
-#define FLATTEST     R(0.0009765625)
-#define MOST_INWARDS R(0.25)
+#define FLAT        R(0.125)
+#define FLATTEST    R(0.0009765625)
+#define MAX_INWARDS R(0.25)
 
 /* A ray that leaves a triangle from a unit of rounding on its wrong side gets to the right one
    after 1 / sin(angle) units, which must not be beyond the edge ahead. So where it leaves flat, it
@@ -358,11 +361,11 @@ FN void step_back(GLOBAL const Instance *instance, const TriangleLanes *triangle
                   Vec3 way, TriangleCrossing *crossing) {
     vreal zero = splat(R(0.0)), most = splat(REAL_LARGE);
     vreal down = absolute(vec3_dot(normal, way)), length = vec3_dot(way, way);
-    vreal area = greater(vec3_dot(normal, normal), splat(LEAST_AREA * LEAST_AREA)); /* squared */
+    vreal area = vmax(vec3_dot(normal, normal), splat(MIN_AREA * MIN_AREA)); /* squared */
     vmask flat = lt(down * down, area * length * splat(FLAT * FLAT));
     if (!any_lane(flat))
         return;
-    down = greater(down, square_root(area * length) * splat(FLATTEST));
+    down = vmax(down, square_root(area * length) * splat(FLATTEST));
     /* An eighth of the contact distance is as much as a point is off. */
     vreal wanted = square_root(area * (instance->contact_squared * R(0.015625))) * reciprocal(down);
     /* How fast the corners' shares change. */
@@ -375,21 +378,21 @@ FN void step_back(GLOBAL const Instance *instance, const TriangleLanes *triangle
     vreal third = splat(R(0.33333333333333333));
     for (int i = 0; i < 3; i++) {
         vmask falls = lt(rate[i], zero), rises = lt(zero, rate[i]);
-        vreal time = reciprocal(pick(falls | rises, absolute(rate[i]), splat(R(1.0))));
-        ahead = pick(falls, lesser(ahead, share[i] * time), ahead);
-        behind = pick(rises, lesser(behind, share[i] * time), behind);
-        middle_ahead = pick(falls, lesser(middle_ahead, third * time), middle_ahead);
-        middle_behind = pick(rises, lesser(middle_behind, third * time), middle_behind);
+        vreal time = reciprocal(vselect(falls | rises, absolute(rate[i]), splat(R(1.0))));
+        ahead = vselect(falls, vmin(ahead, share[i] * time), ahead);
+        behind = vselect(rises, vmin(behind, share[i] * time), behind);
+        middle_ahead = vselect(falls, vmin(middle_ahead, third * time), middle_ahead);
+        middle_behind = vselect(rises, vmin(middle_behind, third * time), middle_behind);
     }
     /* At a corner there is too little room: towards the middle it grows as the distance. */
-    vreal lacking = greater(wanted - (ahead + behind), zero);
-    vreal inwards = lesser(lacking * reciprocal(middle_ahead + middle_behind), splat(MOST_INWARDS));
+    vreal lacking = vmax(wanted - (ahead + behind), zero);
+    vreal inwards = vmin(lacking * reciprocal(middle_ahead + middle_behind), splat(MAX_INWARDS));
     ahead = multiply_add(inwards, middle_ahead - ahead, ahead);
     behind = multiply_add(inwards, middle_behind - behind, behind);
-    vreal back = lesser(greater(wanted - ahead, zero), greater(behind, zero) * R(0.5));
+    vreal back = vmin(vmax(wanted - ahead, zero), vmax(behind, zero) * R(0.5));
     for (int i = 0; i < 3; i++) {
         vreal moved = multiply_add(inwards, third - share[i], share[i]);
-        share[i] = pick(flat, multiply_add(-back, rate[i], moved), share[i]);
+        share[i] = vselect(flat, multiply_add(-back, rate[i], moved), share[i]);
     }
 }
 
@@ -401,7 +404,7 @@ FN Vec3 point_of_departure(GLOBAL const Instance *instance, const TriangleLanes 
     Vec3 to_b = vec3_sub(triangle->b, triangle->a), to_c = vec3_sub(triangle->c, triangle->a);
     Vec3 from_b_to_c = vec3_sub(triangle->c, triangle->b);
     vreal least = splat(instance->contact_squared * R(0.25));
-    vreal area = greater(vec3_dot(normal, normal), splat(LEAST_AREA * LEAST_AREA)); /* squared */
+    vreal area = vmax(vec3_dot(normal, normal), splat(MIN_AREA * MIN_AREA)); /* squared */
     vreal a = crossing->share[0], b = crossing->share[1], c = crossing->share[2];
     vreal margin_a = vec3_dot(from_b_to_c, from_b_to_c) * least;
     vreal margin_b = vec3_dot(to_c, to_c) * least, margin_c = vec3_dot(to_b, to_b) * least;
@@ -413,42 +416,42 @@ FN Vec3 point_of_departure(GLOBAL const Instance *instance, const TriangleLanes 
         margin_b = square_root(margin_b) * scale;
         margin_c = square_root(margin_c) * scale;
         vreal sum = margin_a + margin_b + margin_c;
-        vreal fits = lesser(one, reciprocal(sum) * R(0.5)); /* half of a smaller triangle */
+        vreal fits = vmin(one, reciprocal(sum) * R(0.5)); /* half of a smaller triangle */
         vreal rest = one - sum * fits;
-        a = pick(near_edge, multiply_add(rest, a, margin_a * fits), a);
-        b = pick(near_edge, multiply_add(rest, b, margin_b * fits), b);
-        c = pick(near_edge, multiply_add(rest, c, margin_c * fits), c);
+        a = vselect(near_edge, multiply_add(rest, a, margin_a * fits), a);
+        b = vselect(near_edge, multiply_add(rest, b, margin_b * fits), b);
+        c = vselect(near_edge, multiply_add(rest, c, margin_c * fits), c);
     }
     return vec3_scale_add(triangle->a, a,
                           vec3_scale_add(triangle->b, b, vec3_scale(triangle->c, c)));
 }
 
 /* The lanes of `m` have met triangles of the instance; hit->face becomes the number of the face. */
-FN_APART void describe_mesh(SCENE_PARAMETERS const Ray *ray, const Reference *reference, int number,
-                            const vmask *met, Hit *hit, Surface *surface) {
+FN_NOINLINE void describe_mesh(SCENE_PARAMETERS const Ray *ray, const LocalOrigin *local_origin,
+                               int number, const vmask *met, Hit *hit, Surface *surface) {
     vmask m = *met;
     GLOBAL const Instance *instance = instances + number;
-    Vec3 origin = move_to_object(SCENE_ARGUMENTS * reference, ray->origin, header->floor_end);
+    Vec3 origin = move_to_object(SCENE_ARGUMENTS * local_origin, ray->origin, header->floor_end);
     vmask own = mask_none();
-    if (!reference->is_eye)
-        own = eq_int(ray->touched, splat_int(header->floor_end + number));
+    if (!local_origin->is_eye)
+        own = eq_int(ray->last_hit, splat_int(header->floor_end + number));
     Vec3 in_mesh = origin_in_mesh(instance, origin, own, ray->origin);
     Vec3 along = transform_vector(instance->to_mesh, ray->direction);
-    LastAxis last = nearest_axis(along);
+    DominantAxis last = dominant_axis(along);
     in_mesh = turn(last, in_mesh);
     along = turn(last, along);
     RayFrame frame = ray_frame(in_mesh, along);
     Slabs slabs = ray_slabs(in_mesh, along, splat(R(1.0)));
     TriangleLanes triangle =
-        fetch_triangles(triangles, pick_int(m, hit->face, splat_int(instance->first_triangle)),
-                        instance->first_face, instance->first_skin);
+        fetch_triangles(triangles, vselect_int(m, hit->face, splat_int(instance->first_triangle)),
+                        instance->first_face, instance->first_mesh_material);
     TriangleCrossing crossing;
     cross_triangle(&frame, &slabs, m, turn(last, triangle.a), turn(last, triangle.b),
                    turn(last, triangle.c), &crossing);
     Vec3 normal = normal_of(&triangle);
     Vec3 flat = direction_of(transform_normal(instance->to_mesh, direction_of(normal)));
-    flat = vec3_scale(flat, pick(hit->entering, splat(R(1.0)), splat(R(-1.0))));
-    surface->normal = vec3_pick(m, flat, surface->normal);
+    flat = vec3_scale(flat, vselect(hit->entering, splat(R(1.0)), splat(R(-1.0))));
+    surface->normal = vec3_select(m, flat, surface->normal);
     Vec3 leaving = ray->direction;
     if (instance->first_corner_normals >= 0) {
         Vec3 smooth = smooth_normal(SCENE_ARGUMENTS instance, triangle.number, hit->entering,
@@ -456,20 +459,20 @@ FN_APART void describe_mesh(SCENE_PARAMETERS const Ray *ray, const Reference *re
         Vec3 mirrored =
             vec3_scale_add(smooth, vec3_dot(smooth, ray->direction) * R(-2.0), ray->direction);
         vmask flatter = lt(vec3_dot(flat, mirrored), absolute(vec3_dot(flat, leaving)));
-        leaving = vec3_pick(flatter, mirrored, leaving);
-        surface->normal = vec3_pick(m, smooth, surface->normal);
+        leaving = vec3_select(flatter, mirrored, leaving);
+        surface->normal = vec3_select(m, smooth, surface->normal);
     }
-    set_skins(SCENE_ARGUMENTS instance, m, &triangle, &crossing, hit->entering, surface);
+    set_mesh_materials(SCENE_ARGUMENTS instance, m, &triangle, &crossing, hit->entering, surface);
     step_back(instance, &triangle, normal, transform_vector(instance->to_mesh, leaving), &crossing);
     Vec3 point = point_of_departure(instance, &triangle, &crossing, normal);
-    surface->point = vec3_pick(m, transform_vector(instance->to_world, point), surface->point);
-    hit->face = pick_int(m, triangle.face, hit->face);
+    surface->point = vec3_select(m, transform_vector(instance->to_world, point), surface->point);
+    hit->face = vselect_int(m, triangle.face, hit->face);
 }
 
-/* Describes the lanes of `struck`; the bundle is worked off object by object, so that a material is
+/* Describes the lanes of `struck`; the packet is worked off object by object, so that a material is
    read once for all lanes that met it. Where a mesh was met, hit->face becomes the number of the
    face. */
-FN Surface surface_at(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit,
+FN Surface surface_at(SCENE_PARAMETERS const Ray *ray, LocalOrigin local_origin, Hit *hit,
                       vmask struck) {
     Surface surface;
     surface.point = surface.normal = surface.emission = vec3_zero();
@@ -480,12 +483,13 @@ FN Surface surface_at(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit 
         vmask m = left & eq_int(hit->object, splat_int(object));
         left = lanes_after(left, m);
         if (MESHES(header) && object >= header->floor_end) {
-            describe_mesh(SCENE_ARGUMENTS ray, &reference, object - header->floor_end, &m, hit,
+            describe_mesh(SCENE_ARGUMENTS ray, &local_origin, object - header->floor_end, &m, hit,
                           &surface);
             continue;
         }
-        Vec3 origin = move_to_object(SCENE_ARGUMENTS reference, ray->origin, object);
-        surface.point = vec3_pick(m, vec3_scale_add(ray->direction, hit->t, origin), surface.point);
+        Vec3 origin = move_to_object(SCENE_ARGUMENTS local_origin, ray->origin, object);
+        surface.point =
+            vec3_select(m, vec3_scale_add(ray->direction, hit->t, origin), surface.point);
         if (object < header->solid_count)
             describe_solid(SCENE_ARGUMENTS object, m, hit, &surface);
         else

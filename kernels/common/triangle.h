@@ -17,11 +17,11 @@
 /* The axis that each ray is nearest to: x, y or, in neither, z. */
 typedef struct {
     vmask x, y;
-} LastAxis;
+} DominantAxis;
 
-FN LastAxis nearest_axis(Vec3 direction) {
+FN DominantAxis dominant_axis(Vec3 direction) {
     vreal x = absolute(direction.x), y = absolute(direction.y), z = absolute(direction.z);
-    LastAxis last;
+    DominantAxis last;
     last.x = le(y, x) & le(z, x);
     last.y = ~last.x & le(z, y);
     return last;
@@ -29,10 +29,10 @@ FN LastAxis nearest_axis(Vec3 direction) {
 
 /* Coordinates turned so that each ray's nearest axis comes last; the other two stay right-handed
    with it. All that follows is told in such coordinates. */
-FN Vec3 turn(LastAxis last, Vec3 p) {
-    return vec3(pick(last.x, p.y, pick(last.y, p.z, p.x)),
-                pick(last.x, p.z, pick(last.y, p.x, p.y)),
-                pick(last.x, p.x, pick(last.y, p.y, p.z)));
+FN Vec3 turn(DominantAxis last, Vec3 p) {
+    return vec3(vselect(last.x, p.y, vselect(last.y, p.z, p.x)),
+                vselect(last.x, p.z, vselect(last.y, p.x, p.y)),
+                vselect(last.x, p.x, vselect(last.y, p.y, p.z)));
 }
 
 /* A ray's own coordinates of a point p, from (x, y, z) = p - origin: x + across z and y + upward z,
@@ -66,22 +66,21 @@ typedef struct {
    below that, so that no direction is divided by zero. */
 #if HD_DOUBLE
 #define ROUNDING_MARGIN R(3.5527136788005009e-15) /* 2^-48 */
-#define LEAST_SHARE     R(1e-30)
+#define MIN_SHARE       R(1e-30)
 #else
 #define ROUNDING_MARGIN R(1.9073486328125e-6) /* 2^-19 */
-#define LEAST_SHARE     R(1e-12)
+#define MIN_SHARE       R(1e-12)
 #endif
 
 FN vreal slab_inverse(vreal direction, vreal least) {
-    return times_sign_of(reciprocal(greater(absolute(direction), least)), direction);
+    return times_sign_of(reciprocal(vmax(absolute(direction), least)), direction);
 }
 
 /* No coordinate of a box is larger than `reach`. */
 FN Slabs ray_slabs(Vec3 origin, Vec3 direction, vreal reach) {
-    vreal far_out = greater(absolute(origin.x), greater(absolute(origin.y), absolute(origin.z)));
-    vreal longest =
-        greater(absolute(direction.x), greater(absolute(direction.y), absolute(direction.z)));
-    vreal least = longest * LEAST_SHARE, zero = splat(R(0.0));
+    vreal far_out = vmax(absolute(origin.x), vmax(absolute(origin.y), absolute(origin.z)));
+    vreal longest = vmax(absolute(direction.x), vmax(absolute(direction.y), absolute(direction.z)));
+    vreal least = longest * MIN_SHARE, zero = splat(R(0.0));
     vreal margin = (far_out + reach) * ROUNDING_MARGIN;
     Slabs slabs;
     slabs.inverse = vec3(slab_inverse(direction.x, least), slab_inverse(direction.y, least),
@@ -98,11 +97,11 @@ FN Slabs ray_slabs(Vec3 origin, Vec3 direction, vreal reach) {
     return slabs;
 }
 
-FN Vec3 vec3_lesser(Vec3 a, Vec3 b) {
-    return vec3(lesser(a.x, b.x), lesser(a.y, b.y), lesser(a.z, b.z));
+FN Vec3 vec3_min(Vec3 a, Vec3 b) {
+    return vec3(vmin(a.x, b.x), vmin(a.y, b.y), vmin(a.z, b.z));
 }
-FN Vec3 vec3_greater(Vec3 a, Vec3 b) {
-    return vec3(greater(a.x, b.x), greater(a.y, b.y), greater(a.z, b.z));
+FN Vec3 vec3_max(Vec3 a, Vec3 b) {
+    return vec3(vmax(a.x, b.x), vmax(a.y, b.y), vmax(a.z, b.z));
 }
 
 /* A corner in the first two of the ray's coordinates. */
@@ -119,7 +118,7 @@ FN Corner project_corner(const RayFrame *frame, Vec3 p) {
 
 /* On which side of the line from a to b the ray passes; `left` and `right` are both empty where a
    and b coincide. Only lanes of `m` need be right. */
-FN void pass_edge(Corner a, Corner b, vmask m, vmask *left, vmask *right) {
+FN void test_edge(Corner a, Corner b, vmask m, vmask *left, vmask *right) {
     vreal p = a.across * b.upward, q = a.upward * b.across;
     *left = lt(q, p);
     *right = lt(p, q);
@@ -159,17 +158,18 @@ typedef struct {
 /* What is before and beyond the box about a triangle is no crossing of it: with the boxes of a
    hierarchy, which hold that one, this makes every order of search find the same. */
 FN vmask keep_in_box(const Slabs *slabs, Vec3 a, Vec3 b, Vec3 c, vreal *t) {
-    Vec3 lower = vec3_lesser(a, vec3_lesser(b, c)), upper = vec3_greater(a, vec3_greater(b, c));
+    Vec3 lower = vec3_min(a, vec3_min(b, c)), upper = vec3_max(a, vec3_max(b, c));
     const vmask *negative = slabs->negative;
-    Vec3 first = vec3(pick(negative[0], upper.x, lower.x), pick(negative[1], upper.y, lower.y),
-                      pick(negative[2], upper.z, lower.z));
-    Vec3 last = vec3(pick(negative[0], lower.x, upper.x), pick(negative[1], lower.y, upper.y),
-                     pick(negative[2], lower.z, upper.z));
+    Vec3 first =
+        vec3(vselect(negative[0], upper.x, lower.x), vselect(negative[1], upper.y, lower.y),
+             vselect(negative[2], upper.z, lower.z));
+    Vec3 last = vec3(vselect(negative[0], lower.x, upper.x), vselect(negative[1], lower.y, upper.y),
+                     vselect(negative[2], lower.z, upper.z));
     first = vec3_mul_add(first, slabs->inverse, slabs->near);
     last = vec3_mul_add(last, slabs->inverse, slabs->far);
-    vreal near = greater(first.x, greater(first.y, first.z));
-    vreal far = lesser(last.x, lesser(last.y, last.z));
-    *t = lesser(greater(*t, near), far);
+    vreal near = vmax(first.x, vmax(first.y, first.z));
+    vreal far = vmin(last.x, vmin(last.y, last.z));
+    *t = vmin(vmax(*t, near), far);
     return le(near, far);
 }
 
@@ -184,12 +184,12 @@ FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3
     Corner at_a = project_corner(frame, from_a), at_b = project_corner(frame, from_b);
     Corner at_c = project_corner(frame, from_c);
     vmask left_a, right_a, left_b, right_b, left_c, right_c;
-    pass_edge(at_b, at_c, m, &left_a, &right_a);
-    pass_edge(at_c, at_a, m, &left_b, &right_b);
+    test_edge(at_b, at_c, m, &left_a, &right_a);
+    test_edge(at_c, at_a, m, &left_b, &right_b);
     vmask left = m & left_a & left_b, right = m & right_a & right_b;
     if (!must_visit(left | right))
         return mask_none();
-    pass_edge(at_a, at_b, left | right, &left_c, &right_c);
+    test_edge(at_a, at_b, left | right, &left_c, &right_c);
     left = left & left_c;
     right = right & right_c;
     vmask crosses = left | right;
@@ -199,8 +199,8 @@ FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3
     vreal area_c = double_area(at_a, at_b), area = area_a + area_b + area_c;
     vmask too_small =
         ~(lt(area, splat(R(0.0))) | lt(splat(R(0.0)), area)); /* one corner stands for all */
-    area_a = pick(too_small, splat(R(1.0)), area_a);
-    area = pick(too_small, splat(R(1.0)), area);
+    area_a = vselect(too_small, splat(R(1.0)), area_a);
+    area = vselect(too_small, splat(R(1.0)), area);
     vreal inverse = times_sign_of(reciprocal(absolute(area)), area);
     crossing->share[0] = area_a * inverse;
     crossing->share[1] = area_b * inverse;
@@ -211,17 +211,17 @@ FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3
     /* Counterclockwise about the axis is met from outside by rays that run against it. */
     crossing->entering = (left & frame->backward) | (right & ~frame->backward);
     crossing->t = depth * frame->forward;
-    vreal furthest = greater(absolute(from_a.z), greater(absolute(from_b.z), absolute(from_c.z)));
+    vreal furthest = vmax(absolute(from_a.z), vmax(absolute(from_b.z), absolute(from_c.z)));
     crossing->slack = furthest * absolute(frame->forward) * splat(ROUNDING_MARGIN);
     return crosses & keep_in_box(slabs, a, b, c, &crossing->t);
 }
 
-/* ---- triangles of a mesh in the lanes of a bundle ---- */
+/* ---- triangles of a mesh in the lanes of a packet ---- */
 
 /* One for all lanes, or one for each. */
 typedef struct {
     Vec3 a, b, c;
-    vint number, face, skin;
+    vint number, face, mesh_material;
 } TriangleLanes;
 
 /* Reals in a row of the table, and from one corner to the next. */
@@ -230,32 +230,32 @@ enum { TRIANGLE_STRIDE = sizeof(Triangle) / sizeof(real), CORNER_STRIDE = TRIANG
 /* Triangles of a group count as one face; others have a negative number each. */
 FN vint face_of_triangle(vint number, vint group, int first_face) {
     vmask grouped = lt_int(splat_int(0), group);
-    return pick_int(grouped, group + (first_face - 1), splat_int(-2) - number);
+    return vselect_int(grouped, group + (first_face - 1), splat_int(-2) - number);
 }
 
 FN void name_triangles(TriangleLanes *lanes, vint number, vint tag, int first_face,
-                       int first_skin) {
+                       int first_mesh_material) {
     vint group = tag & (HD_TRIANGLE_GROUPS - 1);
     lanes->number = number;
-    lanes->skin = (tag >> HD_TRIANGLE_GROUP_BITS) + first_skin;
+    lanes->mesh_material = (tag >> HD_TRIANGLE_GROUP_BITS) + first_mesh_material;
     lanes->face = face_of_triangle(number, group, first_face);
 }
 
 /* One triangle, its coordinates in the order of `axis`. */
 FN TriangleLanes same_triangle(GLOBAL const Triangle *triangles, int number, const int axis[3],
-                               int first_face, int first_skin) {
+                               int first_face, int first_mesh_material) {
     GLOBAL const Triangle *triangle = triangles + number;
     TriangleLanes lanes;
     lanes.a = vec3_splat(triangle->a[axis[0]], triangle->a[axis[1]], triangle->a[axis[2]]);
     lanes.b = vec3_splat(triangle->b[axis[0]], triangle->b[axis[1]], triangle->b[axis[2]]);
     lanes.c = vec3_splat(triangle->c[axis[0]], triangle->c[axis[1]], triangle->c[axis[2]]);
     name_triangles(&lanes, splat_int(number), splat_int((int)triangle->tag), first_face,
-                   first_skin);
+                   first_mesh_material);
     return lanes;
 }
 
 FN TriangleLanes fetch_triangles(GLOBAL const Triangle *triangles, vint number, int first_face,
-                                 int first_skin) {
+                                 int first_mesh_material) {
     GLOBAL const real *table = (GLOBAL const real *)triangles;
     vint place = number * TRIANGLE_STRIDE;
     FourReals a = fetch_four_reals(table, place);
@@ -265,7 +265,7 @@ FN TriangleLanes fetch_triangles(GLOBAL const Triangle *triangles, vint number, 
     lanes.a = vec3(a.number[0], a.number[1], a.number[2]);
     lanes.b = vec3(b.number[0], b.number[1], b.number[2]);
     lanes.c = vec3(c.number[0], c.number[1], c.number[2]);
-    name_triangles(&lanes, number, to_int(a.number[3]), first_face, first_skin);
+    name_triangles(&lanes, number, to_int(a.number[3]), first_face, first_mesh_material);
     return lanes;
 }
 

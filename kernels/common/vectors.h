@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Bundles of vectors, and reading tables lane by lane. */
+/* Packets of vectors, and reading tables lane by lane. */
 #ifndef HD_VECTORS_H
 #define HD_VECTORS_H
 
@@ -60,8 +60,8 @@ FN Vec3 vec3_cross(Vec3 a, Vec3 b) {
     return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-FN Vec3 vec3_pick(vmask m, Vec3 a, Vec3 b) {
-    return vec3(pick(m, a.x, b.x), pick(m, a.y, b.y), pick(m, a.z, b.z));
+FN Vec3 vec3_select(vmask m, Vec3 a, Vec3 b) {
+    return vec3(vselect(m, a.x, b.x), vselect(m, a.y, b.y), vselect(m, a.z, b.z));
 }
 
 FN Vec3 vec3_normalize(Vec3 a) {
@@ -74,13 +74,13 @@ FN int all_same(vint a) {
 }
 
 /* Numbers in which the lanes outside of `m` repeat one from inside, so that dead lanes neither hold
-   a wrong number nor make a bundle look mixed. */
+   a wrong number nor make a packet look mixed. */
 FN vint spread_first(vint numbers, vmask m) {
     int filler = any_lane(m) ? lane_int(&numbers, first_lane(m)) : 0;
-    return pick_int(m, numbers, splat_int(filler));
+    return vselect_int(m, numbers, splat_int(filler));
 }
 
-/* table[index] for each lane; few numbers differ within a bundle. */
+/* table[index] for each lane; few numbers differ within a packet. */
 FN Vec3 fetch_vector(GLOBAL const Vector *table, vint index) {
     GLOBAL const Vector *v = table + lane_int(&index, 0);
     Vec3 result = vec3_splat(v->x, v->y, v->z);
@@ -89,7 +89,7 @@ FN Vec3 fetch_vector(GLOBAL const Vector *table, vint index) {
         int number = lane_int(&index, first_lane(left));
         vmask m = eq_int(index, splat_int(number));
         v = table + number;
-        result = vec3_pick(m, vec3_splat(v->x, v->y, v->z), result);
+        result = vec3_select(m, vec3_splat(v->x, v->y, v->z), result);
         left = lanes_after(left, m);
     }
     return result;

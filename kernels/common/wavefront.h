@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The tree of rays level by level: the rays of a level wait in a queue, those that go on are
-   appended to the next level's. Bundles and groups of threads are filled with live rays only.
+   appended to the next level's. Packets and groups of threads are filled with live rays only.
 
    A batch is the samples whose trees are traced together; each has a sum of its own, for it loses
    bits (View.pixel_shift) before it joins its pixel's. */
@@ -16,7 +16,7 @@
 
 /* ---- the queue ---- */
 
-/* A bundle of at most `count` rays from the place `from` on, and the numbers of their samples. The
+/* A packet of at most `count` rays from the place `from` on, and the numbers of their samples. The
    first word of a ray is the object touched last and the side it runs on; -1: it is dead. Only
    scenes with meshes need the faces that rays leave. */
 FN Ray load_rays(QUEUE_PARAMETERS int from, int count, int has_faces, vint *numbers) {
@@ -26,7 +26,7 @@ FN Ray load_rays(QUEUE_PARAMETERS int from, int count, int has_faces, vint *numb
     Ray ray;
     ray.alive = lanes_below(count) & ~lt_int(state, splat_int(0));
     ray.inside = eq_int(state & 1, splat_int(1));
-    ray.touched = spread_first(state >> 1, ray.alive);
+    ray.last_hit = spread_first(state >> 1, ray.alive);
     *numbers = load_ints(ray_ints + stride + from);
     ray.face = has_faces ? load_ints(ray_ints + 2 * stride + from) : splat_int(-1);
     ray.origin =
@@ -38,13 +38,13 @@ FN Ray load_rays(QUEUE_PARAMETERS int from, int count, int has_faces, vint *numb
     return ray;
 }
 
-/* Stores the lanes of `m` from the place `to` on; returns how many these are. Up to a bundle's
+/* Stores the lanes of `m` from the place `to` on; returns how many these are. Up to a packet's
    places are overwritten. */
 FN int store_rays(QUEUE_PARAMETERS int to, vmask m, const Ray *ray, int has_faces, vint numbers) {
     GLOBAL real *reals = ray_reals + to;
     uint64 stride = (uint64)queue_stride;
-    vint side = pick_int(ray->inside, splat_int(1), splat_int(0));
-    vint state = pick_int(ray->alive, (ray->touched + ray->touched) | side, splat_int(-1));
+    vint side = vselect_int(ray->inside, splat_int(1), splat_int(0));
+    vint state = vselect_int(ray->alive, (ray->last_hit + ray->last_hit) | side, splat_int(-1));
     int offset[HD_LANES];
     int count = lane_offsets(m, offset);
     store_lanes_int(ray_ints + to, offset, &state);
@@ -66,20 +66,20 @@ FN int store_rays(QUEUE_PARAMETERS int to, vmask m, const Ray *ray, int has_face
 /* ---- the batch's sums ---- */
 
 /* Level 0 has one ray for each sample and sets its sum, so that nobody need clear it. */
-FN void set_sums(QUEUE_PARAMETERS int number, int has_survey, const Sample *sample) {
+FN void set_sums(QUEUE_PARAMETERS int number, int has_bound, const Sample *sample) {
     GLOBAL fixed64 *sum = sums + number;
     for (int lane = 0; lane < HD_LANES; lane++) {
         sum[0] = lane_fix(&sample->r, lane);
         sum[(uint64)sum_stride] = lane_fix(&sample->g, lane);
         sum[2 * (uint64)sum_stride] = lane_fix(&sample->b, lane);
-        if (has_survey)
+        if (has_bound)
             sum[3 * (uint64)sum_stride] = lane_fix(&sample->bound, lane);
         sum++;
     }
 }
 
-FN void add_to_sums(QUEUE_PARAMETERS vmask m, vint numbers, int has_survey, const Sample *sample) {
-    vint chosen = pick_int(m, splat_int(1), splat_int(0));
+FN void add_to_sums(QUEUE_PARAMETERS vmask m, vint numbers, int has_bound, const Sample *sample) {
+    vint chosen = vselect_int(m, splat_int(1), splat_int(0));
     for (int lane = 0; lane < HD_LANES; lane++) {
         if (!lane_int(&chosen, lane))
             continue;
@@ -87,7 +87,7 @@ FN void add_to_sums(QUEUE_PARAMETERS vmask m, vint numbers, int has_survey, cons
         add_shared(sum, lane_fix(&sample->r, lane));
         add_shared(sum + (uint64)sum_stride, lane_fix(&sample->g, lane));
         add_shared(sum + 2 * (uint64)sum_stride, lane_fix(&sample->b, lane));
-        if (has_survey)
+        if (has_bound)
             add_shared(sum + 3 * (uint64)sum_stride, lane_fix(&sample->bound, lane));
     }
 }
@@ -95,15 +95,15 @@ FN void add_to_sums(QUEUE_PARAMETERS vmask m, vint numbers, int has_survey, cons
 /* Adds the sums of `count` samples, the item's from number `first` on, to its pixels. */
 FN void gather_sums(GLOBAL const Header *header, GLOBAL const View *view,
                     GLOBAL const fixed64 *sums, int sum_stride, int first, int count,
-                    Gathered *gathered) {
+                    PixelAccumulator *accumulator) {
     int per_pixel = view->samples;
     int place = first / per_pixel, left = per_pixel - first % per_pixel;
     for (int i = 0; i < count; i++) {
-        fixed64 *pixel = gathered->sums + place * PIXEL_SUMS;
+        fixed64 *pixel = accumulator->sums + place * PIXEL_SUMS;
         for (int channel = 0; channel < HD_RADIANCE_SUMS; channel++)
             pixel[channel] +=
                 sums[(uint64)channel * (uint64)sum_stride + (uint64)i] >> view->pixel_shift;
-        if (SURVEYED(header))
+        if (BOUNDED(header))
             pixel[HD_RADIANCE_SUMS] +=
                 shifted_bound(view, sums[HD_RADIANCE_SUMS * (uint64)sum_stride + (uint64)i]);
         left--;
@@ -123,7 +123,7 @@ FN void add_vector_counts(const Sample *sample, Sample *sum) {
     sum->clamps = sum->clamps + sample->clamps;
 }
 
-/* Where rays are not compacted, a bundle with a live one keeps its dead ones. */
+/* Where rays are not compacted, a packet with a live one keeps its dead ones. */
 FN int append_rays(QUEUE_PARAMETERS int to, const Ray *ray, int has_faces, vint numbers) {
     if (!any_lane(ray->alive))
         return 0;
@@ -139,37 +139,37 @@ FN Ray first_rays(SAMPLE_PARAMETERS int item, int number, int count) {
 }
 
 /* Traces the rays of a take, whose batch begins with the item's sample `first_sample`. Rays that
-   pass go on from the place take.to, mirrored ones from take.room places behind it: rays that went
-   the same way stay together. */
-FN void trace_take(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first_sample, WaveTake take,
-                   int *passing, int *mirrored, RayCounts *counts) {
+   pass go on from the place chunk.to, mirrored ones from chunk.rounded places behind it: rays that
+   went the same way stay together. */
+FN void trace_chunk(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first_sample, WaveChunk chunk,
+                    int *passing, int *mirrored, RayCounts *counts) {
     Sample sum = empty_sample();
     *passing = *mirrored = 0;
-    for (int i = 0; i < take.count; i += HD_LANES) {
-        int number = take.first + i;
+    for (int i = 0; i < chunk.count; i += HD_LANES) {
+        int number = chunk.first + i;
         Sample sample = empty_sample();
         Ray ray, mirror, through;
         vint numbers;
-        if (take.level == 0) {
-            ray = first_rays(SAMPLE_ARGUMENTS item, first_sample + number, take.count - i);
+        if (chunk.level == 0) {
+            ray = first_rays(SAMPLE_ARGUMENTS item, first_sample + number, chunk.count - i);
             numbers = lane_numbers() + number;
         } else {
-            ray = load_rays(QUEUE_ARGUMENTS number, take.count - i, MESHES(header), &numbers);
+            ray = load_rays(QUEUE_ARGUMENTS number, chunk.count - i, MESHES(header), &numbers);
         }
         if (!any_lane(ray.alive)) {
-            if (take.level == 0)
-                set_sums(QUEUE_ARGUMENTS number, SURVEYED(header), &sample);
+            if (chunk.level == 0)
+                set_sums(QUEUE_ARGUMENTS number, BOUNDED(header), &sample);
             continue;
         }
-        follow(SCENE_ARGUMENTS & ray, take.level, &sample, &mirror, &through);
-        if (take.level == 0)
-            set_sums(QUEUE_ARGUMENTS number, SURVEYED(header), &sample);
+        trace_and_shade(SCENE_ARGUMENTS & ray, chunk.level, &sample, &mirror, &through);
+        if (chunk.level == 0)
+            set_sums(QUEUE_ARGUMENTS number, BOUNDED(header), &sample);
         else
-            add_to_sums(QUEUE_ARGUMENTS ray.alive, numbers, SURVEYED(header), &sample);
+            add_to_sums(QUEUE_ARGUMENTS ray.alive, numbers, BOUNDED(header), &sample);
         add_vector_counts(&sample, &sum);
         *passing +=
-            append_rays(QUEUE_ARGUMENTS take.to + *passing, &through, MESHES(header), numbers);
-        *mirrored += append_rays(QUEUE_ARGUMENTS take.to + take.room + *mirrored, &mirror,
+            append_rays(QUEUE_ARGUMENTS chunk.to + *passing, &through, MESHES(header), numbers);
+        *mirrored += append_rays(QUEUE_ARGUMENTS chunk.to + chunk.rounded + *mirrored, &mirror,
                                  MESHES(header), numbers);
     }
     add_counts(counts, counts_of(&sum));
@@ -183,10 +183,12 @@ FN void trace_batch(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first, int b
     wave_put(stack, &top, 0, 0, batch);
     while (top >= 0) {
         int passing, mirrored;
-        WaveTake take = wave_take(stack, &top, view->depth, queue_stride, HD_LANES, WAVE_NO_LIMIT);
-        trace_take(SCENE_ARGUMENTS QUEUE_ARGUMENTS item, first, take, &passing, &mirrored, counts);
-        wave_put(stack, &top, take.level + 1, take.to, passing);
-        wave_put(stack, &top, take.level + 1, take.to + take.room, mirrored);
+        WaveChunk chunk =
+            wave_take_chunk(stack, &top, view->depth, queue_stride, HD_LANES, WAVE_NO_LIMIT);
+        trace_chunk(SCENE_ARGUMENTS QUEUE_ARGUMENTS item, first, chunk, &passing, &mirrored,
+                    counts);
+        wave_put(stack, &top, chunk.level + 1, chunk.to, passing);
+        wave_put(stack, &top, chunk.level + 1, chunk.to + chunk.rounded, mirrored);
     }
 }
 
@@ -194,16 +196,16 @@ FN void trace_batch(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first, int b
    multiple of HD_LANES. */
 FN void render_item_by_waves(SCENE_PARAMETERS QUEUE_PARAMETERS int item, GLOBAL float *pixels,
                              GLOBAL RayCounts *counts) {
-    Gathered gathered;
+    PixelAccumulator accumulator;
     int samples = HD_PIXELS_PER_ITEM * view->samples;
-    clear_gathered(&gathered);
+    clear_accumulator(&accumulator);
     for (int first = 0; first < samples; first += sum_stride) {
         int batch = samples - first < sum_stride ? samples - first : sum_stride;
-        trace_batch(SCENE_ARGUMENTS QUEUE_ARGUMENTS item, first, batch, &gathered.counts);
-        gather_sums(header, view, sums, sum_stride, first, batch, &gathered);
+        trace_batch(SCENE_ARGUMENTS QUEUE_ARGUMENTS item, first, batch, &accumulator.counts);
+        gather_sums(header, view, sums, sum_stride, first, batch, &accumulator);
     }
-    store_pixels(header, view, item, &gathered, pixels);
-    *counts = gathered.counts;
+    store_pixels(header, view, item, &accumulator, pixels);
+    *counts = accumulator.counts;
 }
 
 /* Renders every `workers`-th item from number first_item + worker to below end_item, with the
@@ -234,21 +236,21 @@ FN uint64 pack_counts(const Sample *sample) {
            (uint64)lane_int(&sample->shadow_tests, 0) << SHADOW_TESTS_SHIFT;
 }
 
-/* The sum of the values of the group's threads up to this one, and of all of them. `room` has two
-   numbers for each. */
-FN uint64 scan_group(LOCAL uint64 *room, int thread, int thread_count, uint64 value,
+/* The sum of the values of the group's threads up to this one, and of all of them. `scratch` has
+   two numbers for each. */
+FN uint64 scan_group(LOCAL uint64 *scratch, int thread, int thread_count, uint64 value,
                      uint64 *total) {
     int side = 0;
-    room[thread] = value;
+    scratch[thread] = value;
     BARRIER();
     for (int step = 1; step < thread_count; step *= 2) {
         if (thread >= step)
-            value += room[side + thread - step];
+            value += scratch[side + thread - step];
         side = thread_count - side;
-        room[side + thread] = value;
+        scratch[side + thread] = value;
         BARRIER();
     }
-    *total = room[side + thread_count - 1];
+    *total = scratch[side + thread_count - 1];
     return value;
 }
 
@@ -257,10 +259,10 @@ FN uint64 scan_group(LOCAL uint64 *room, int thread, int thread_count, uint64 va
    counted, packed. */
 FN uint64 append_by_group(QUEUE_PARAMETERS int to, uint taken_before, const Ray *mirror,
                           const Ray *through, int has_faces, vint number, const Sample *sample,
-                          int thread, int thread_count, LOCAL uint64 *room, LOCAL uint *place,
+                          int thread, int thread_count, LOCAL uint64 *scratch, LOCAL uint *place,
                           GLOBAL uint *taken) {
     uint64 total, own = pack_counts(sample);
-    uint64 before = scan_group(room, thread, thread_count, own, &total) - own;
+    uint64 before = scan_group(scratch, thread, thread_count, own, &total) - own;
     int mirrors = (int)(total & COUNT_MASK), passes = (int)(total >> PASSING_SHIFT & COUNT_MASK);
     int mirror_place = (int)(before & COUNT_MASK);
     int through_place = (int)(before >> PASSING_SHIFT & COUNT_MASK);
@@ -286,13 +288,13 @@ FN uint64 append_by_group(QUEUE_PARAMETERS int to, uint taken_before, const Ray 
 
 /* Traces the rays [first, first + count) of a level by work groups, one lane a thread, and appends
    those that go on from the place `to` on. A batch begins with the item `first_item`. Each group
-   adds to counts[group_index] what it counted; the frame's first launch sets it. `room` has two
+   adds to counts[group_index] what it counted; the frame's first launch sets it. `scratch` has two
    numbers for each of the group's threads. */
-FN void trace_take_by_group(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item, int level, int first,
-                            int count, int to, uint taken_before, int is_first_launch,
-                            int group_index, int group_count, int thread, int thread_count,
-                            LOCAL uint64 *room, LOCAL uint *place, GLOBAL uint *taken,
-                            GLOBAL RayCounts *counts) {
+FN void trace_chunk_by_group(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item, int level, int first,
+                             int count, int to, uint taken_before, int is_first_launch,
+                             int group_index, int group_count, int thread, int thread_count,
+                             LOCAL uint64 *scratch, LOCAL uint *place, GLOBAL uint *taken,
+                             GLOBAL RayCounts *counts) {
     RayCounts sum = no_counts();
     int per_item = HD_PIXELS_PER_ITEM * view->samples;
     for (int start = group_index * thread_count; start < count;
@@ -307,15 +309,15 @@ FN void trace_take_by_group(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item, in
                                           (first + i) % per_item, 1)
                              : load_rays(QUEUE_ARGUMENTS first + i, 1, MESHES(header), &number);
         if (any_lane(ray.alive)) {
-            follow(SCENE_ARGUMENTS & ray, level, &sample, &mirror, &through);
+            trace_and_shade(SCENE_ARGUMENTS & ray, level, &sample, &mirror, &through);
             if (level > 0)
-                add_to_sums(QUEUE_ARGUMENTS ray.alive, number, SURVEYED(header), &sample);
+                add_to_sums(QUEUE_ARGUMENTS ray.alive, number, BOUNDED(header), &sample);
         }
         if (level == 0 && i < count)
-            set_sums(QUEUE_ARGUMENTS first + i, SURVEYED(header), &sample);
+            set_sums(QUEUE_ARGUMENTS first + i, BOUNDED(header), &sample);
         uint64 total =
             append_by_group(QUEUE_ARGUMENTS to, taken_before, &mirror, &through, MESHES(header),
-                            number, &sample, thread, thread_count, room, place, taken);
+                            number, &sample, thread, thread_count, scratch, place, taken);
         sum.mirrored += total & COUNT_MASK;
         sum.transmitted += total >> PASSING_SHIFT & COUNT_MASK;
         sum.clamps += total >> CLAMPS_SHIFT & ((1 << (SHADOW_TESTS_SHIFT - CLAMPS_SHIFT)) - 1);
@@ -335,10 +337,10 @@ FN void store_batch(GLOBAL const Header *header, GLOBAL const View *view,
                     int worker, int workers, GLOBAL float *pixels) {
     int per_item = HD_PIXELS_PER_ITEM * view->samples;
     for (int i = worker; i < item_count; i += workers) {
-        Gathered gathered;
-        clear_gathered(&gathered);
-        gather_sums(header, view, sums + i * per_item, sum_stride, 0, per_item, &gathered);
-        store_pixels(header, view, first_item + i, &gathered, pixels);
+        PixelAccumulator accumulator;
+        clear_accumulator(&accumulator);
+        gather_sums(header, view, sums + i * per_item, sum_stride, 0, per_item, &accumulator);
+        store_pixels(header, view, first_item + i, &accumulator, pixels);
     }
 }
 

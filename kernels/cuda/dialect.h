@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* The dialect of the kernels (../common/dialect.h) in CUDA C++: bundles of one lane. */
+/* The dialect of the kernels (../common/dialect.h) in CUDA C++: packets of one lane. */
 #ifndef HD_CUDA_DIALECT_H
 #define HD_CUDA_DIALECT_H
 
-#define FN       static __device__ __forceinline__
-#define FN_APART static __device__ __forceinline__
+#define FN          static __device__ __forceinline__
+#define FN_NOINLINE static __device__ __forceinline__
 #define GLOBAL
 #define LOCAL
 #define BARRIER()  __syncthreads()

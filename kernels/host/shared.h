@@ -10,8 +10,8 @@
 #endif
 #include <stdint.h>
 
-#define FN       static inline __attribute__((always_inline, unused))
-#define FN_APART static __attribute__((noinline, unused))
+#define FN          static inline __attribute__((always_inline, unused))
+#define FN_NOINLINE static __attribute__((noinline, unused))
 #define GLOBAL
 #define LOCAL
 #define BARRIER()  ((void)0) /* there is one work item in a group */

@@ -9,13 +9,13 @@
 #if HD_DOUBLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #endif
-#define FN         static inline
-#define FN_APART   static
-#define GLOBAL     __global
-#define LOCAL      __local
-#define BARRIER()  barrier(CLK_LOCAL_MEM_FENCE)
-#define RESTRICT   restrict
-#define ALIGNED_16 __attribute__((aligned(16)))
+#define FN          static inline
+#define FN_NOINLINE static
+#define GLOBAL      __global
+#define LOCAL       __local
+#define BARRIER()   barrier(CLK_LOCAL_MEM_FENCE)
+#define RESTRICT    restrict
+#define ALIGNED_16  __attribute__((aligned(16)))
 typedef ulong uint64;
 typedef long fixed64;
 
@@ -74,7 +74,7 @@ FN vint splat_int(int a) {
 }
 
 #ifdef HD_OWN_MASKS
-/* Masks of bundles that fill a register of 512 bits: a bit for each lane, as in plain C. Of masks
+/* Masks of packets that fill a register of 512 bits: a bit for each lane, as in plain C. Of masks
    as integers Clang keeps in vector registers what should be in those of masks. */
 #if HD_DOUBLE
 typedef uchar vmask;
@@ -103,10 +103,10 @@ FN vmask eq_int(vint a, vint b) {
 FN vmask lt_int(vint a, vint b) {
     return HD_COMPARE_INTS(a, b, INTS_LESS);
 }
-FN vreal pick(vmask m, vreal a, vreal b) {
+FN vreal vselect(vmask m, vreal a, vreal b) {
     return HD_SELECT_REALS(m, a, b);
 }
-FN vint pick_int(vmask m, vint a, vint b) {
+FN vint vselect_int(vmask m, vint a, vint b) {
     return HD_SELECT_INTS(m, a, b);
 }
 FN int any_lane(vmask m) {
@@ -128,10 +128,10 @@ FN uint lane_bits(vmask m) {
     return m;
 }
 #else
-FN vreal pick(vmask m, vreal a, vreal b) {
+FN vreal vselect(vmask m, vreal a, vreal b) {
     return select(b, a, m);
 }
-FN vint pick_int(vmask m, vint a, vint b) {
+FN vint vselect_int(vmask m, vint a, vint b) {
     return select(b, a, m);
 }
 /* Drivers for CPUs are slow with any(). Clang's reduction becomes a test of a mask register, if

@@ -2,7 +2,7 @@
 /* The kernels in OpenCL C. */
 #include "dialect.h"
 
-/* A kernel whose items are bundles already: Intel's compiler takes several times as long to find
+/* A kernel whose items are packets already: Intel's compiler takes several times as long to find
    out that it cannot do many items at a time. */
 #if HD_GROUP_SIZE
 #define KERNEL __kernel void

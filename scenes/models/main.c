@@ -122,7 +122,7 @@ int main(int count, char **arguments) {
     static HdError error;
     hd_interrupt_install();
     bool asks_for_help = count == 2 && strcmp(arguments[1], "--help") == 0;
-    HdStatus status = hd_interrupt_read_patience(&error);
+    HdStatus status = hd_interrupt_read_timeout(&error);
     if (status == HD_OK)
         status = asks_for_help ? print_help(&error) : run(arguments + 1, &error);
     if (status == HD_OK)

@@ -37,10 +37,10 @@ void hd_problem(HdProblems *problems, const char *format, ...) {
     va_end(arguments);
     hd_escape(text, line, sizeof line);
     problems->count++;
-    const size_t room = sizeof problems->text - problems->used;
-    if (strlen(line) + 2 > room)
+    const size_t capacity = sizeof problems->text - problems->used;
+    if (strlen(line) + 2 > capacity)
         return;
-    problems->used += (size_t)snprintf(problems->text + problems->used, room, "%s\n", line);
+    problems->used += (size_t)snprintf(problems->text + problems->used, capacity, "%s\n", line);
 }
 
 bool hd_problems_are_full(const HdProblems *problems) {

@@ -32,7 +32,7 @@ enum {
 #define HD_MAX_COEFFICIENT         1e6
 #define HD_MAX_EXPOSURE            1e6
 #define HD_MAX_ERROR               255.0 /* steps of 255 */
-#define HD_LEAST_ERROR             1e-3  /* but for 0: bounds have steps of their own */
+#define HD_MIN_ERROR               1e-3  /* but for 0: bounds have steps of their own */
 #define HD_MAX_FIELD_OF_VIEW       179.0 /* degrees */
 #define HD_MAX_ROTATION            1e6   /* degrees, either way */
 #define HD_MIN_INDEX_OF_REFRACTION 0.1

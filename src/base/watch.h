@@ -20,24 +20,24 @@ typedef struct HdWatch {
 
 /* A piece of work, as its watch sees it. */
 typedef struct HdWatched {
-    HdWatch *watch; /* NULL: nobody looks */
-    uint64_t worth; /* at most HD_WATCH_FRAME */
+    HdWatch *watch;  /* NULL: nobody looks */
+    uint64_t weight; /* at most HD_WATCH_FRAME */
 } HdWatched;
 
 /* Takes a share, up to 1, of the work that is left. */
 static inline HdWatched hd_watched_take(HdWatched *left, double share) {
-    const HdWatched taken = {left->watch, (uint64_t)((double)left->worth * share)};
-    left->worth -= taken.worth;
+    const HdWatched taken = {left->watch, (uint64_t)((double)left->weight * share)};
+    left->weight -= taken.weight;
     return taken;
 }
 
 /* Counts the items first .. end - 1 of `count` as done: each once, in any order. All together are
    worth what the work is. */
 static inline void hd_watched_add(const HdWatched *watched, int first, int end, int count) {
-    const uint64_t worth = watched->worth * (uint64_t)end / (uint64_t)count -
-                           watched->worth * (uint64_t)first / (uint64_t)count;
+    const uint64_t weight = watched->weight * (uint64_t)end / (uint64_t)count -
+                            watched->weight * (uint64_t)first / (uint64_t)count;
     if (watched->watch != NULL)
-        atomic_fetch_add_explicit(&watched->watch->done, worth, memory_order_relaxed);
+        atomic_fetch_add_explicit(&watched->watch->done, weight, memory_order_relaxed);
 }
 
 static inline bool hd_watched_is_unwanted(const HdWatched *watched) {

@@ -20,10 +20,10 @@ static void add_reason(HdCandidates *candidates, const char *name, const char *r
 }
 
 /* A GPU that is there and not used is worth a word, unless the user's own wish rules out all. */
-static void tell_passed(HdCandidates *candidates, const char *what, const char *reason,
-                        const char *help) {
-    const HdDeviceWish *wish = &candidates->wish;
-    if (candidates->is_free && wish->kind != HD_ONLY_CPU && wish->options->lanes <= 1)
+static void report_passed(HdCandidates *candidates, const char *what, const char *reason,
+                          const char *help) {
+    const HdDeviceSelection *selection = &candidates->selection;
+    if (candidates->is_free && selection->kind != HD_ONLY_CPU && selection->options->lanes <= 1)
         hd_add_text(candidates->passed, sizeof candidates->passed, "; ", "%s is passed over: %s%s",
                     what, reason, help);
 }
@@ -35,44 +35,45 @@ static bool is_number(const char *text) {
 }
 
 /* "c:0" names the backend as well. */
-static HdStatus split_name(HdDeviceWish *wish, HdError *error) {
-    for (int i = 0; i < HD_BACKEND_COUNT && wish->device != NULL; i++) {
+static HdStatus split_name(HdDeviceSelection *selection, HdError *error) {
+    for (int i = 0; i < HD_BACKEND_COUNT && selection->device != NULL; i++) {
         const char *name = hd_backends[i]->name;
         size_t length = strlen(name);
-        if (strncmp(wish->device, name, length) != 0 || wish->device[length] != ':' ||
-            !is_number(wish->device + length + 1))
+        if (strncmp(selection->device, name, length) != 0 || selection->device[length] != ':' ||
+            !is_number(selection->device + length + 1))
             continue;
-        if (wish->backend != NULL && strcmp(wish->backend, name) != 0)
+        if (selection->backend != NULL && strcmp(selection->backend, name) != 0)
             return hd_fail(error, HD_BAD_INPUT, "--device is '%s', but --backend is '%s'",
-                           wish->device, wish->backend);
-        wish->backend = name;
-        wish->device += length + 1;
+                           selection->device, selection->backend);
+        selection->backend = name;
+        selection->device += length + 1;
     }
     return HD_OK;
 }
 
-static bool is_named(const HdDevice *device, const char *wish) {
-    if (wish == NULL)
+static bool is_named(const HdDevice *device, const char *selection) {
+    if (selection == NULL)
         return true;
-    return is_number(wish) ? strtol(wish, NULL, 10) == device->index
-                           : strcasestr(device->name, wish) != NULL;
+    return is_number(selection) ? strtol(selection, NULL, 10) == device->index
+                                : strcasestr(device->name, selection) != NULL;
 }
 
 HdStatus hd_devices_named(const char *backend, const char *device, HdDevice *devices, int *count,
                           HdError *error) {
     bool is_any = device == NULL || strcmp(device, "all") == 0;
-    HdCandidates none = {.wish = {.backend = backend, .device = is_any ? NULL : device}};
+    HdCandidates none = {.selection = {.backend = backend, .device = is_any ? NULL : device}};
     *count = 0;
-    HD_TRY(split_name(&none.wish, error));
+    HD_TRY(split_name(&none.selection, error));
     for (int i = 0; i < HD_BACKEND_COUNT; i++) {
         int found = 0, kept = *count;
-        if (none.wish.backend != NULL && strcmp(none.wish.backend, hd_backends[i]->name) != 0)
+        if (none.selection.backend != NULL &&
+            strcmp(none.selection.backend, hd_backends[i]->name) != 0)
             continue;
         if (hd_backend_enumerate(hd_backends[i], devices + kept, HD_MAX_DEVICES, &found, error) !=
             HD_OK)
             add_reason(&none, hd_backends[i]->name, error->message);
         for (int d = kept; d < kept + found; d++)
-            if (is_named(&devices[d], none.wish.device))
+            if (is_named(&devices[d], none.selection.device))
                 devices[(*count)++] = devices[d];
         if (found > 0 && *count == kept)
             add_reason(&none, hd_backends[i]->name, "no device of that number or name");
@@ -86,10 +87,10 @@ HdStatus hd_devices_named(const char *backend, const char *device, HdDevice *dev
 
 /* ---- finding ---- */
 
-static bool is_in_question(const HdDevice *device, const HdDeviceWish *wish) {
-    return is_named(device, wish->device) &&
-           (!device->is_cpu || device->backend->needs_no_driver || wish->backend != NULL ||
-            wish->device != NULL || wish->kind == HD_PREFER_GPU);
+static bool is_in_question(const HdDevice *device, const HdDeviceSelection *selection) {
+    return is_named(device, selection->device) &&
+           (!device->is_cpu || device->backend->needs_no_driver || selection->backend != NULL ||
+            selection->device != NULL || selection->kind == HD_PREFER_GPU);
 }
 
 /* `other` was found earlier, in the same backend or in one that comes first. */
@@ -115,9 +116,9 @@ static void add_candidate(HdCandidates *candidates, const HdDevice *device) {
 }
 
 static void consider(HdCandidates *candidates, const HdDevice *device) {
-    const char *reason = hd_device_obstacle(device, candidates->wish.options);
+    const char *reason = hd_device_unsupported_reason(device, candidates->selection.options);
     char what[sizeof device->name + 32];
-    if (candidates->wish.kind == HD_ONLY_CPU && !device->is_cpu)
+    if (candidates->selection.kind == HD_ONLY_CPU && !device->is_cpu)
         reason = "it is not a CPU";
     if (reason == NULL) {
         add_candidate(candidates, device);
@@ -125,9 +126,9 @@ static void consider(HdCandidates *candidates, const HdDevice *device) {
     }
     snprintf(what, sizeof what, "%s:%d (%s)", device->backend->name, device->index, device->name);
     if (!device->is_cpu)
-        tell_passed(candidates, what, reason,
-                    reason == device->not_strict ? "; --math fast would take it, for other bytes"
-                                                 : "");
+        report_passed(candidates, what, reason,
+                      reason == device->not_strict ? "; --math fast would take it, for other bytes"
+                                                   : "");
     add_reason(candidates, device->name, reason);
 }
 
@@ -137,26 +138,26 @@ static void search_backend(HdCandidates *candidates, const HdBackend *backend, H
     bool any = false;
     HdStatus status = hd_backend_enumerate(backend, devices, HD_MAX_DEVICES, &count, error);
     if (status == HD_FAILED)
-        tell_passed(candidates, backend->name, error->message, "");
+        report_passed(candidates, backend->name, error->message, "");
     if (status != HD_OK) {
         add_reason(candidates, backend->name, error->message);
         return;
     }
     for (int i = 0; i < count; i++) {
-        if (!is_in_question(&devices[i], &candidates->wish))
+        if (!is_in_question(&devices[i], &candidates->selection))
             continue;
         any = true;
         consider(candidates, &devices[i]);
     }
-    if (!any && candidates->wish.device != NULL)
+    if (!any && candidates->selection.device != NULL)
         add_reason(candidates, backend->name, "no device of that number or name");
 }
 
 static void search(HdCandidates *candidates, HdError *error) {
-    const HdDeviceWish *wish = &candidates->wish;
-    if (wish->backend != NULL)
-        search_backend(candidates, hd_backend_find(wish->backend), error);
-    else if (wish->kind == HD_ONLY_CPU)
+    const HdDeviceSelection *selection = &candidates->selection;
+    if (selection->backend != NULL)
+        search_backend(candidates, hd_backend_find(selection->backend), error);
+    else if (selection->kind == HD_ONLY_CPU)
         search_backend(candidates, hd_backend_always_there(), error);
     else
         for (int i = 0; i < HD_BACKEND_COUNT; i++)
@@ -167,7 +168,7 @@ static void search(HdCandidates *candidates, HdError *error) {
 static int count_compared(const HdCandidates *candidates) {
     int count = 0;
     while (count < candidates->count &&
-           (!candidates->list[count].device.is_cpu || candidates->wish.kind == HD_WANT_ANY))
+           (!candidates->list[count].device.is_cpu || candidates->selection.kind == HD_WANT_ANY))
         count++;
     return count;
 }
@@ -175,9 +176,9 @@ static int count_compared(const HdCandidates *candidates) {
 /* How long plain C takes for a frame. A texture takes longer to upload than a small picture to
    render, and little of its time. */
 static HdStatus estimate(HdCandidates *candidates, double enough, HdError *error) {
-    const HdTrialWish wish = hd_trial_estimates(enough);
-    HdScene plain = *candidates->wish.job->scene;
-    HdJob job = *candidates->wish.job;
+    const HdTrialRequest selection = hd_trial_request(enough);
+    HdScene plain = *candidates->selection.job->scene;
+    HdJob job = *candidates->selection.job;
     HdDevice device;
     HdRenderer *renderer;
     HdTrial trial;
@@ -185,15 +186,15 @@ static HdStatus estimate(HdCandidates *candidates, double enough, HdError *error
     plain.floor.texture = (HdTexture){0};
     job.scene = &plain;
     HD_TRY(hd_backend_enumerate(hd_backend_always_there(), &device, 1, &count, error));
-    HD_TRY(hd_trial_open(&renderer, &device, candidates->wish.options, &job, error));
-    HdStatus status = hd_trial(renderer, &job, &wish, &trial, error);
+    HD_TRY(hd_trial_open(&renderer, &device, candidates->selection.options, &job, error));
+    HdStatus status = hd_trial(renderer, &job, &selection, &trial, error);
     candidates->frame_seconds = trial.frame_seconds;
     hd_renderer_close(renderer);
     return status;
 }
 
 static double job_seconds(const HdCandidates *candidates) {
-    return candidates->frame_seconds * candidates->wish.job->frame_count;
+    return candidates->frame_seconds * candidates->selection.job->frame_count;
 }
 
 /* Plain C is asked how long it takes before any driver is: drivers take their time to start. */
@@ -201,23 +202,24 @@ static HdStatus estimate_any(HdCandidates *candidates, HdError *error) {
     HD_TRY(estimate(candidates, HD_AUTO_SMALL_SECONDS, error));
     if (job_seconds(candidates) > HD_AUTO_SMALL_SECONDS)
         return HD_OK;
-    candidates->wish.kind = HD_ONLY_CPU;
+    candidates->selection.kind = HD_ONLY_CPU;
     snprintf(candidates->why, sizeof candidates->why,
              "it needs about %.2g s, less than other devices take to start",
              job_seconds(candidates));
     return HD_OK;
 }
 
-HdStatus hd_candidates_find(HdCandidates *candidates, const HdDeviceWish *wish, HdError *error) {
+HdStatus hd_candidates_find(HdCandidates *candidates, const HdDeviceSelection *selection,
+                            HdError *error) {
     memset(candidates, 0, sizeof *candidates);
-    candidates->wish = *wish;
+    candidates->selection = *selection;
     candidates->is_free =
-        wish->backend == NULL && wish->device == NULL && wish->kind != HD_ONLY_CPU;
-    HD_TRY(split_name(&candidates->wish, error));
-    if (candidates->is_free && wish->kind == HD_WANT_ANY)
+        selection->backend == NULL && selection->device == NULL && selection->kind != HD_ONLY_CPU;
+    HD_TRY(split_name(&candidates->selection, error));
+    if (candidates->is_free && selection->kind == HD_WANT_ANY)
         HD_TRY(estimate_any(candidates, error));
     search(candidates, error);
-    const char *device = candidates->wish.device;
+    const char *device = candidates->selection.device;
     if (candidates->count == 0)
         return hd_fail(error, HD_UNAVAILABLE, "no device can do this%s%s%s: %s%s",
                        device != NULL ? " (asked for device '" : "", device != NULL ? device : "",
@@ -225,7 +227,7 @@ HdStatus hd_candidates_find(HdCandidates *candidates, const HdDeviceWish *wish, 
                        device != NULL ? "; see 'hedron devices'" : "");
     if (candidates->is_free)
         candidates->compared = count_compared(candidates);
-    return candidates->compared > 1 && wish->kind == HD_PREFER_GPU
+    return candidates->compared > 1 && selection->kind == HD_PREFER_GPU
                ? estimate(candidates, 0.0, error)
                : HD_OK;
 }
@@ -242,8 +244,9 @@ static bool is_faster(const HdCandidates *candidates, int index) {
 
 /* False where none was measured earlier, or none works. */
 static bool recall(HdCandidates *candidates) {
-    const HdDeviceWish *wish = &candidates->wish;
-    if (!hd_measured_get(candidates->list, candidates->compared, wish->options, wish->job->scene))
+    const HdDeviceSelection *selection = &candidates->selection;
+    if (!hd_measured_get(candidates->list, candidates->compared, selection->options,
+                         selection->job->scene))
         return false;
     for (int i = 0; i < candidates->compared; i++)
         if (is_faster(candidates, i))
@@ -266,13 +269,14 @@ static void explain_speed(HdCandidates *candidates, const char *when) {
    up. The fastest so far stays open. */
 static HdStatus measure_one(HdCandidates *candidates, int index, HdError *error) {
     const double seconds = 0.1;
-    const HdDeviceWish *wish = &candidates->wish;
-    const HdTrialWish how = {.share = fmin(1.0, seconds / candidates->frame_seconds), .times = 2};
+    const HdDeviceSelection *selection = &candidates->selection;
+    const HdTrialRequest how = {.share = fmin(1.0, seconds / candidates->frame_seconds),
+                                .times = 2};
     HdTeamDevice *member = &candidates->list[index];
     HdTrial trial;
-    HdStatus status = hd_team_device_open(member, wish->options, wish->job, true, error);
+    HdStatus status = hd_team_device_open(member, selection->options, selection->job, true, error);
     if (status == HD_OK)
-        status = hd_trial(member->renderer, wish->job, &how, &trial, error);
+        status = hd_trial(member->renderer, selection->job, &how, &trial, error);
     member->seconds = status == HD_OK ? trial.seconds : (double)INFINITY;
     int slower = index;
     if (is_faster(candidates, index)) {
@@ -286,7 +290,7 @@ static HdStatus measure_one(HdCandidates *candidates, int index, HdError *error)
 
 /* What failed at work may do better another time, so that nothing is remembered then. */
 static HdStatus measure_all(HdCandidates *candidates, HdError *error) {
-    const HdDeviceWish *wish = &candidates->wish;
+    const HdDeviceSelection *selection = &candidates->selection;
     bool is_lasting = true;
     HdError ignored; /* next time it is measured again */
     for (int i = 0; i < candidates->compared; i++) {
@@ -301,8 +305,8 @@ static HdStatus measure_all(HdCandidates *candidates, HdError *error) {
     if (candidates->best < 0)
         return HD_OK;
     if (is_lasting)
-        hd_measured_put(candidates->list, candidates->compared, wish->options, wish->job->scene,
-                        &ignored);
+        hd_measured_put(candidates->list, candidates->compared, selection->options,
+                        selection->job->scene, &ignored);
     explain_speed(candidates, "");
     return HD_OK;
 }
@@ -333,7 +337,7 @@ static HdStatus choose(HdCandidates *candidates, HdError *error) {
 /* The best, else those that follow it, else those before it. Kernels that are compiled for the
    scene must prove themselves first; those compiled ahead get it when it is rendered. */
 static HdStatus open_next(HdCandidates *candidates, HdError *error) {
-    const HdDeviceWish *wish = &candidates->wish;
+    const HdDeviceSelection *selection = &candidates->selection;
     const int first = hd_max(candidates->best, 0);
     const int tries = candidates->is_free ? candidates->count : 1;
     HdStatus status = HD_UNAVAILABLE;
@@ -341,7 +345,7 @@ static HdStatus open_next(HdCandidates *candidates, HdError *error) {
         candidates->best = (first + i) % candidates->count;
         HdTeamDevice *member = &candidates->list[candidates->best];
         bool is_proven = candidates->is_free && member->device.backend->functions->kernels != NULL;
-        status = hd_team_device_open(member, wish->options, wish->job, is_proven, error);
+        status = hd_team_device_open(member, selection->options, selection->job, is_proven, error);
         if (status == HD_UNAVAILABLE)
             hd_add_text(candidates->note, sizeof candidates->note, "; ", "%.600s", error->message);
         if (i > 0 && candidates->compared > 0)
@@ -370,12 +374,12 @@ void hd_close_devices(HdDeviceTeam *team) {
 
 /* ---- a team of one ---- */
 
-static const char *choice_reason(const HdDeviceWish *wish, const HdDevice *chosen) {
-    if (wish->device != NULL)
+static const char *choice_reason(const HdDeviceSelection *selection, const HdDevice *chosen) {
+    if (selection->device != NULL)
         return "named by --device";
-    if (wish->backend != NULL)
+    if (selection->backend != NULL)
         return "the best device of the backend named by --backend";
-    if (wish->kind == HD_ONLY_CPU)
+    if (selection->kind == HD_ONLY_CPU)
         return "the C backend, since only a CPU will do";
     if (!chosen->is_cpu)
         return "the first GPU in the order of the backends";
@@ -383,7 +387,7 @@ static const char *choice_reason(const HdDeviceWish *wish, const HdDevice *chose
 }
 
 static void explain(HdDeviceTeam *team, const HdCandidates *candidates) {
-    const HdDeviceWish *wish = &candidates->wish;
+    const HdDeviceSelection *selection = &candidates->selection;
     const HdDevice *chosen = &team->list[team->count - 1].device;
     const char *note = candidates->note, *why = candidates->why;
     /* Another backend may have the same card. */
@@ -391,7 +395,7 @@ static void explain(HdDeviceTeam *team, const HdCandidates *candidates) {
         note = candidates->passed;
     const bool is_wrong = strstr(candidates->reasons, "computes wrongly") != NULL &&
                           strstr(note, "computes wrongly") == NULL;
-    if (wish->kind == HD_PREFER_GPU && wish->backend == NULL && chosen->is_cpu)
+    if (selection->kind == HD_PREFER_GPU && selection->backend == NULL && chosen->is_cpu)
         snprintf(team->note, sizeof team->note,
                  "%s%sno suitable GPU was found%s%.1500s; tracing with %s on %s", note,
                  note[0] != '\0' ? "; " : "", is_wrong ? ": " : "",
@@ -400,14 +404,14 @@ static void explain(HdDeviceTeam *team, const HdCandidates *candidates) {
         snprintf(team->note, sizeof team->note, "%s; tracing with %s on %s", note,
                  chosen->backend->name, chosen->name);
     snprintf(team->why, sizeof team->why, "%s%s%s",
-             why[0] != '\0' ? why : choice_reason(wish, chosen),
+             why[0] != '\0' ? why : choice_reason(selection, chosen),
              candidates->reasons[0] != '\0' ? "; passed over: " : "", candidates->reasons);
 }
 
-static HdStatus open_one(HdDeviceTeam *team, const HdDeviceWish *wish, HdError *error) {
+static HdStatus open_one(HdDeviceTeam *team, const HdDeviceSelection *selection, HdError *error) {
     HdCandidates candidates;
     team->note[0] = team->why[0] = '\0';
-    HD_TRY(hd_candidates_find(&candidates, wish, error));
+    HD_TRY(hd_candidates_find(&candidates, selection, error));
     HD_TRY(hd_candidates_open(&candidates, &team->list[team->count], error));
     team->count++;
     explain(team, &candidates);
@@ -416,43 +420,44 @@ static HdStatus open_one(HdDeviceTeam *team, const HdDeviceWish *wish, HdError *
 
 /* ---- a team by a list ---- */
 
-static HdStatus check_entry(const HdDeviceTeam *team, const HdDeviceWish *wish, const char *entry,
-                            HdError *error) {
+static HdStatus check_entry(const HdDeviceTeam *team, const HdDeviceSelection *selection,
+                            const char *entry, HdError *error) {
     if (entry[0] == '\0')
         return hd_fail(error, HD_BAD_INPUT,
                        "--device is '%s', which has an empty part, expected a list such as "
                        "cuda:0,cuda:1,c:0",
-                       wish->device);
+                       selection->device);
     if (strcmp(entry, "all") == 0)
         return hd_fail(error, HD_BAD_INPUT, "--device is '%s', but 'all' stands alone",
-                       wish->device);
-    if (team->count == HD_MOST_TRACERS)
+                       selection->device);
+    if (team->count == HD_MAX_WORKERS)
         return hd_fail(error, HD_BAD_INPUT, "--device names more than %d devices",
-                       (int)HD_MOST_TRACERS);
+                       (int)HD_MAX_WORKERS);
     return HD_OK;
 }
 
-static HdStatus check_new(const HdDeviceTeam *team, const HdDeviceWish *wish, HdError *error) {
+static HdStatus check_new(const HdDeviceTeam *team, const HdDeviceSelection *selection,
+                          HdError *error) {
     const HdDevice *last = &team->list[team->count - 1].device;
     for (const HdTeamDevice *other = team->list; &other->device < last; other++)
         if (other->device.backend == last->backend && other->device.index == last->index)
             return hd_fail(error, HD_BAD_INPUT, "--device is '%s', which names %s:%d (%s) twice",
-                           wish->device, last->backend->name, last->index, last->name);
+                           selection->device, last->backend->name, last->index, last->name);
     return HD_OK;
 }
 
-static HdStatus open_entry(HdDeviceTeam *team, const HdDeviceWish *wish, const char *entry,
-                           HdError *error) {
-    HdDeviceWish one = *wish;
+static HdStatus open_entry(HdDeviceTeam *team, const HdDeviceSelection *selection,
+                           const char *entry, HdError *error) {
+    HdDeviceSelection one = *selection;
     one.device = entry;
-    HD_TRY(check_entry(team, wish, entry, error));
+    HD_TRY(check_entry(team, selection, entry, error));
     HD_TRY(open_one(team, &one, error));
-    return check_new(team, wish, error);
+    return check_new(team, selection, error);
 }
 
-static HdStatus open_list(HdDeviceTeam *team, const HdDeviceWish *wish, HdError *error) {
+static HdStatus open_list(HdDeviceTeam *team, const HdDeviceSelection *selection, HdError *error) {
     HdStatus status = HD_OK;
-    char *copy = strdup(wish->device), *rest = copy;
+    char *copy = strdup(selection->device), *rest = copy;
     if (copy == NULL)
         return HD_NO_ROOM(error, "a list of devices");
     while (status == HD_OK && rest != NULL) {
@@ -460,7 +465,7 @@ static HdStatus open_list(HdDeviceTeam *team, const HdDeviceWish *wish, HdError 
         rest = comma != NULL ? comma + 1 : NULL;
         if (comma != NULL)
             *comma = '\0';
-        status = open_entry(team, wish, entry, error);
+        status = open_entry(team, selection, entry, error);
     }
     free(copy);
     return status;
@@ -477,12 +482,13 @@ static bool is_there_already(const HdDeviceTeam *team, const HdDevice *device) {
     return false;
 }
 
-static bool is_wanted(const HdDeviceTeam *team, const HdDeviceWish *wish, const HdDevice *device) {
-    if (team->count == HD_MOST_TRACERS || is_there_already(team, device))
+static bool is_wanted(const HdDeviceTeam *team, const HdDeviceSelection *selection,
+                      const HdDevice *device) {
+    if (team->count == HD_MAX_WORKERS || is_there_already(team, device))
         return false;
     if (!device->is_cpu)
-        return wish->kind != HD_ONLY_CPU;
-    return device->backend->needs_no_driver || wish->backend != NULL;
+        return selection->kind != HD_ONLY_CPU;
+    return device->backend->needs_no_driver || selection->backend != NULL;
 }
 
 static HdRenderOptions options_of(const HdDeviceTeam *team, const HdDevice *device,
@@ -497,43 +503,43 @@ static HdRenderOptions options_of(const HdDeviceTeam *team, const HdDevice *devi
 }
 
 /* Fails with HD_INTERRUPTED alone: what else cannot be opened is left out. */
-static HdStatus add_device(HdDeviceTeam *team, const HdDevice *device, const HdDeviceWish *wish,
-                           HdError *error) {
-    const HdRenderOptions own = options_of(team, device, wish->options);
-    const char *obstacle = hd_device_obstacle(device, &own);
-    if (obstacle == NULL) {
+static HdStatus add_device(HdDeviceTeam *team, const HdDevice *device,
+                           const HdDeviceSelection *selection, HdError *error) {
+    const HdRenderOptions own = options_of(team, device, selection->options);
+    const char *unsupported_reason = hd_device_unsupported_reason(device, &own);
+    if (unsupported_reason == NULL) {
         HdTeamDevice *member = &team->list[team->count];
         *member = (HdTeamDevice){.device = *device};
-        HdStatus status = hd_team_device_open(member, &own, wish->job, false, error);
+        HdStatus status = hd_team_device_open(member, &own, selection->job, false, error);
         team->count += status == HD_OK;
         if (status == HD_OK || status == HD_INTERRUPTED)
             return status;
-        obstacle = error->message;
+        unsupported_reason = error->message;
     }
     hd_add_text(team->note, sizeof team->note, "; ", "%s:%d (%s) is left out: %s",
-                device->backend->name, device->index, device->name, obstacle);
+                device->backend->name, device->index, device->name, unsupported_reason);
     return HD_OK;
 }
 
-static HdStatus add_backend(HdDeviceTeam *team, const HdBackend *backend, const HdDeviceWish *wish,
-                            HdError *error) {
+static HdStatus add_backend(HdDeviceTeam *team, const HdBackend *backend,
+                            const HdDeviceSelection *selection, HdError *error) {
     HdDevice devices[HD_MAX_DEVICES];
     int count = 0;
     /* Nobody need have every backend. */
     if (hd_backend_enumerate(backend, devices, HD_MAX_DEVICES, &count, error) != HD_OK &&
-        wish->backend != NULL)
+        selection->backend != NULL)
         snprintf(team->note, sizeof team->note, "%s: %.*s", backend->name,
                  (int)sizeof team->note / 2, error->message);
     for (int i = 0; i < count; i++)
-        if (is_wanted(team, wish, &devices[i]))
-            HD_TRY(add_device(team, &devices[i], wish, error));
+        if (is_wanted(team, selection, &devices[i]))
+            HD_TRY(add_device(team, &devices[i], selection, error));
     return HD_OK;
 }
 
-static HdStatus open_all(HdDeviceTeam *team, const HdDeviceWish *wish, HdError *error) {
+static HdStatus open_all(HdDeviceTeam *team, const HdDeviceSelection *selection, HdError *error) {
     for (int i = 0; i < HD_BACKEND_COUNT; i++)
-        if (wish->backend == NULL || strcmp(wish->backend, hd_backends[i]->name) == 0)
-            HD_TRY(add_backend(team, hd_backends[i], wish, error));
+        if (selection->backend == NULL || strcmp(selection->backend, hd_backends[i]->name) == 0)
+            HD_TRY(add_backend(team, hd_backends[i], selection, error));
     snprintf(team->why, sizeof team->why, "one of all, by --device");
     if (team->count == 0)
         return hd_fail(error, HD_UNAVAILABLE, "no device can do this: %s",
@@ -543,19 +549,21 @@ static HdStatus open_all(HdDeviceTeam *team, const HdDeviceWish *wish, HdError *
 
 /* ---- any team ---- */
 
-static HdStatus open_wanted(HdDeviceTeam *team, const HdDeviceWish *wish, HdError *error) {
-    bool is_all = wish->device != NULL && strcmp(wish->device, "all") == 0;
-    bool is_list = wish->device != NULL && strchr(wish->device, ',') != NULL;
+static HdStatus open_wanted(HdDeviceTeam *team, const HdDeviceSelection *selection,
+                            HdError *error) {
+    bool is_all = selection->device != NULL && strcmp(selection->device, "all") == 0;
+    bool is_list = selection->device != NULL && strchr(selection->device, ',') != NULL;
     if (!is_all && !is_list)
-        return open_one(team, wish, error);
-    if (wish->is_for_one)
-        return hd_fail(error, HD_BAD_INPUT, "--device is '%s', expected one device", wish->device);
-    return is_all ? open_all(team, wish, error) : open_list(team, wish, error);
+        return open_one(team, selection, error);
+    if (selection->is_for_one)
+        return hd_fail(error, HD_BAD_INPUT, "--device is '%s', expected one device",
+                       selection->device);
+    return is_all ? open_all(team, selection, error) : open_list(team, selection, error);
 }
 
-HdStatus hd_open_devices(HdDeviceTeam *team, const HdDeviceWish *wish, HdError *error) {
+HdStatus hd_open_devices(HdDeviceTeam *team, const HdDeviceSelection *selection, HdError *error) {
     memset(team, 0, sizeof *team);
-    HdStatus status = open_wanted(team, wish, error);
+    HdStatus status = open_wanted(team, selection, error);
     if (status != HD_OK)
         hd_close_devices(team);
     return status;

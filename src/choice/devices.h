@@ -13,19 +13,19 @@ typedef enum HdDeviceKind {
     HD_ONLY_CPU    /* only a CPU will do: plain C, unless a backend is named */
 } HdDeviceKind;
 
-typedef struct HdDeviceWish {
+typedef struct HdDeviceSelection {
     const char *backend; /* NULL: any */
     const char *device; /* number within the backend, BACKEND:NUMBER or part of a name; NULL: any */
     HdDeviceKind kind;
     bool is_for_one;                /* several devices will not do */
     const HdRenderOptions *options; /* what it must be able to do */
     const HdJob *job;               /* what it is to be the fastest at */
-} HdDeviceWish;
+} HdDeviceSelection;
 
 enum { HD_MAX_CANDIDATES = 32 };
 
 typedef struct HdCandidates {
-    HdDeviceWish wish;                    /* for one device; BACKEND:NUMBER taken apart */
+    HdDeviceSelection selection;          /* for one device; BACKEND:NUMBER taken apart */
     HdTeamDevice list[HD_MAX_CANDIDATES]; /* the best first, as far as is known without measuring */
     int count;
     bool is_free;         /* nobody named one: another may take the place of one that fails */
@@ -51,7 +51,8 @@ typedef struct HdCandidates {
    does in less than HD_AUTO_SMALL_SECONDS is its own: no driver is asked then. HD_UNAVAILABLE with
    every reason where there are none; HD_BAD_INPUT where the device's backend is another than the
    wish's. */
-HdStatus hd_candidates_find(HdCandidates *candidates, const HdDeviceWish *wish, HdError *error);
+HdStatus hd_candidates_find(HdCandidates *candidates, const HdDeviceSelection *selection,
+                            HdError *error);
 
 /* Opens one of the candidates, of which there are some. Which one: where the job is worth it, the
    fastest of those compared, which is measured once for a machine and jobs alike. Otherwise plain
@@ -68,7 +69,7 @@ HdStatus hd_devices_named(const char *backend, const char *device, HdDevice *dev
                           HdError *error);
 
 typedef struct HdDeviceTeam {
-    HdTeamDevice list[HD_MOST_TRACERS]; /* open */
+    HdTeamDevice list[HD_MAX_WORKERS]; /* open */
     int count;
     char note[4096]; /* worth telling unasked; empty: nothing is */
     char why[8192];  /* why these devices, and why others were passed over */
@@ -86,7 +87,7 @@ typedef struct HdDeviceTeam {
    tells of what is left out because it fails. Plain C beside GPUs leaves a core to each of them. A
    device of a list that cannot be opened is an error, and one that is named twice is HD_BAD_INPUT,
    as are several where the wish is for one. On failure nothing is open. */
-HdStatus hd_open_devices(HdDeviceTeam *team, const HdDeviceWish *wish, HdError *error);
+HdStatus hd_open_devices(HdDeviceTeam *team, const HdDeviceSelection *selection, HdError *error);
 
 void hd_close_devices(HdDeviceTeam *team);
 

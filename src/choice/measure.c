@@ -24,14 +24,14 @@ void hd_launch_describe(const HdRenderOptions *options, char *text, int capacity
         {"at most %d groups", options->grid},
         {"at most %d registers", options->registers},
     };
-    size_t room = (size_t)capacity;
-    snprintf(text, room, "%s",
+    const size_t size = (size_t)capacity;
+    snprintf(text, size, "%s",
              options->pipeline != HD_PIPELINE_AUTO ? hd_pipeline_names[options->pipeline] : "");
     for (int i = 0; i < 4; i++)
         if (parts[i].value > 0)
-            hd_add_text(text, room, ", ", parts[i].form, parts[i].value);
+            hd_add_text(text, size, ", ", parts[i].form, parts[i].value);
     if (text[0] == '\0')
-        snprintf(text, room, "as it suits the device");
+        snprintf(text, size, "as it suits the device");
 }
 
 /* ---- trials ---- */
@@ -86,22 +86,22 @@ static double count_samples(const HdScene *scene) {
 }
 
 /* Few samples come first, for thousands of lights make each one slow. */
-HdStatus hd_trial(HdRenderer *renderer, const HdJob *job, const HdTrialWish *wish, HdTrial *trial,
-                  HdError *error) {
+HdStatus hd_trial(HdRenderer *renderer, const HdJob *job, const HdTrialRequest *selection,
+                  HdTrial *trial, HdError *error) {
     const double first_samples = 4096.0;
-    double share =
-        wish->share > 0.0 ? wish->share : fmin(1.0, first_samples / count_samples(job->scene));
+    double share = selection->share > 0.0 ? selection->share
+                                          : fmin(1.0, first_samples / count_samples(job->scene));
     for (;;) {
-        HD_TRY(render_share(renderer, job, share, wish->times, trial, error));
-        if (wish->share > 0.0 || share >= 1.0 || trial->seconds > wish->believed ||
-            trial->frame_seconds * job->frame_count <= wish->enough)
+        HD_TRY(render_share(renderer, job, share, selection->times, trial, error));
+        if (selection->share > 0.0 || share >= 1.0 || trial->seconds > selection->believed ||
+            trial->frame_seconds * job->frame_count <= selection->enough)
             return HD_OK;
         share = fmin(1.0, 4.0 * share);
     }
 }
 
-HdTrialWish hd_trial_estimates(double enough) {
-    return (HdTrialWish){.believed = 0.02, .enough = enough, .times = 1};
+HdTrialRequest hd_trial_request(double enough) {
+    return (HdTrialRequest){.believed = 0.02, .enough = enough, .times = 1};
 }
 
 /* ---- results ---- */
@@ -204,7 +204,8 @@ static bool makes_sense(const HdRenderOptions *chosen, const HdRenderOptions *gi
     return keeps((int)given->pipeline, (int)chosen->pipeline) &&
            keeps(given->lanes, chosen->lanes) && keeps(given->block, chosen->block) &&
            keeps(given->grid, chosen->grid) && keeps(given->registers, chosen->registers) &&
-           hd_render_options_are_possible(chosen) && hd_device_obstacle(device, chosen) == NULL;
+           hd_render_options_are_possible(chosen) &&
+           hd_device_unsupported_reason(device, chosen) == NULL;
 }
 
 HdStatus hd_team_device_open(HdTeamDevice *member, const HdRenderOptions *options, const HdJob *job,
@@ -233,7 +234,7 @@ typedef struct Tuner {
     const HdDevice *device;
     const HdRenderOptions *options;
     const HdJob *job;
-    HdTrialWish how; /* for all candidates; a share of 0: not known yet */
+    HdTrialRequest how; /* for all candidates; a share of 0: not known yet */
 } Tuner;
 
 /* ---- tuning: one candidate ---- */
@@ -243,12 +244,12 @@ typedef struct Tuner {
  */
 static HdStatus find_share(Tuner *tuner, HdRenderer *renderer, HdError *error) {
     const double picture_seconds = 0.2, all_seconds = 0.5;
-    const int least_times = 2, most_times = 40;
-    const HdTrialWish wish = {.believed = picture_seconds / 4.0, .times = 2};
+    const int least_times = 2, max_times = 40;
+    const HdTrialRequest selection = {.believed = picture_seconds / 4.0, .times = 2};
     HdTrial trial;
-    HD_TRY(hd_trial(renderer, tuner->job, &wish, &trial, error));
+    HD_TRY(hd_trial(renderer, tuner->job, &selection, &trial, error));
     tuner->how.share = trial.share;
-    tuner->how.times = (int)fmax(least_times, fmin(most_times, all_seconds / trial.seconds));
+    tuner->how.times = (int)fmax(least_times, fmin(max_times, all_seconds / trial.seconds));
     return HD_OK;
 }
 
@@ -363,11 +364,11 @@ static HdStatus try_pipelines(Tuner *tuner, HdError *error) {
 
 #define LISTED(number) number,
 
-/* All bundles that the device takes but single rays. */
+/* All packets that the device takes but single rays. */
 static HdStatus try_lanes(Tuner *tuner, HdError *error) {
     static const int lanes[] = {HD_LANE_COUNTS(LISTED)};
     int count = (int)(sizeof lanes / sizeof *lanes);
-    int most = tuner->device->most_lanes[tuner->options->precision];
+    int most = tuner->device->max_lanes[tuner->options->precision];
     while (most > 0 && lanes[count - 1] > most)
         count--;
     HdRenderOptions options = best_so_far(tuner);

@@ -30,14 +30,14 @@ void hd_launch_describe(const HdRenderOptions *options, char *text, int capacity
 
 /* ---- trials ---- */
 
-typedef struct HdTrialWish {
+typedef struct HdTrialRequest {
     double
         share;       /* of a frame's pixels, more than 0 and at most 1; 0: starts with 4096 samples,
                         and takes four times as many until it is a whole frame or the following holds */
     double believed; /* a picture takes longer than so many seconds, which can be believed */
     double enough;   /* all frames of the job take at most so many, by the last picture */
     int times;       /* that each picture is rendered */
-} HdTrialWish;
+} HdTrialRequest;
 
 /* Each is the least of several, of the last picture. */
 typedef struct HdTrial {
@@ -53,12 +53,12 @@ HdStatus hd_trial_open(HdRenderer **renderer, const HdDevice *device,
                        const HdRenderOptions *options, const HdJob *job, HdError *error);
 
 /* Renders about that share of the job's first frame. The job's scene is on the renderer. */
-HdStatus hd_trial(HdRenderer *renderer, const HdJob *job, const HdTrialWish *wish, HdTrial *trial,
-                  HdError *error);
+HdStatus hd_trial(HdRenderer *renderer, const HdJob *job, const HdTrialRequest *selection,
+                  HdTrial *trial, HdError *error);
 
 /* The wish of who wants to know how long a frame takes, as soon as it can be known, some hundredths
    of a second; no matter how long where the job takes less than `enough` seconds. */
-HdTrialWish hd_trial_estimates(double enough);
+HdTrialRequest hd_trial_request(double enough);
 
 /* ---- results ---- */
 

@@ -35,7 +35,7 @@ typedef struct Comparison {
     char map_path[HD_MAX_PATH]; /* of it */
     HdPictureDifference *difference;
     HdPictureFigures figures;
-    Further further[HD_MOST_FURTHER];
+    Further further[HD_MAX_FURTHER];
     int further_count;
 } Comparison;
 
@@ -74,7 +74,7 @@ static void compare_further(Comparison *comparison, int y) {
 }
 
 /* The one with the largest difference; NULL: there is none. */
-static const Further *most_different(const Comparison *comparison) {
+static const Further *max_different(const Comparison *comparison) {
     const Further *most = NULL;
     double largest = 0.0;
     for (int i = 0; i < comparison->further_count; i++)
@@ -86,7 +86,7 @@ static const Further *most_different(const Comparison *comparison) {
 }
 
 static bool is_identical(const Comparison *comparison) {
-    return comparison->figures.identical && most_different(comparison) == NULL;
+    return comparison->figures.identical && max_different(comparison) == NULL;
 }
 
 /* ---- text ---- */
@@ -128,7 +128,7 @@ static void print_share(const char *name, double share) {
 }
 
 static void print_further(const Comparison *comparison) {
-    const Further *most = most_different(comparison);
+    const Further *most = max_different(comparison);
     if (comparison->further_count > 0)
         printf("\n%-20s%*s\n", "further channels", FIGURE_WIDTH, "largest difference");
     for (int i = 0; i < comparison->further_count; i++) {
@@ -221,7 +221,7 @@ static json_t *describe_further(const Comparison *comparison) {
 
 static HdStatus print_json(const Comparison *comparison, HdError *error) {
     const HdPictureFigures *figures = &comparison->figures;
-    const Further *most = most_different(comparison);
+    const Further *most = max_different(comparison);
     json_t *root = json_pack(
         "{s:o, s:o, s:i, s:i, s:s, s:I, s:b, s:o, s:o, s:o, s:o, s:o, s:o}", "first",
         describe_picture(comparison, 0), "second", describe_picture(comparison, 1), "width",

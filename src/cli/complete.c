@@ -159,7 +159,7 @@ static void offer_operands(const Line *line) {
     if (command->command == HD_COMMAND_HELP)
         for (int i = 0; i < HD_HELP_TOPIC_COUNT; i++)
             offer(line, hd_help_topics[i].name, hd_help_topics[i].about);
-    else if (command->name != NULL && command->most_operands != 0)
+    else if (command->name != NULL && command->max_operands != 0)
         printf(":%s\n", command->ending != NULL ? command->ending : "");
 }
 

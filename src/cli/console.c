@@ -20,7 +20,7 @@ enum { BAR_WIDTH = 24, SECONDS_BETWEEN_LINES = 5, MAX_HOURS = 99999, USUAL_COLUM
 
 /* A frame is not looked into before it has taken so long, and then so often. Plain lines about it
    wait until so much more of a frame is done, so that an hour's frame has a hundred of them. */
-static const double LONG_FRAME = 1.0, GLANCE = 0.2, LEAST_PART = 0.01;
+static const double LONG_FRAME = 1.0, GLANCE = 0.2, MIN_PART = 0.01;
 
 /* ---- progress ---- */
 
@@ -133,7 +133,7 @@ static void update(HdConsole *console) {
         draw(bar);
     } else if (progress.done < progress.total &&
                now - console->line_seconds >= SECONDS_BETWEEN_LINES &&
-               frames_of(&progress) - console->line_frames >= LEAST_PART) {
+               frames_of(&progress) - console->line_frames >= MIN_PART) {
         fprintf(stderr, "%s\n", line);
         console->line_seconds = now;
         console->line_frames = frames_of(&progress);
@@ -142,7 +142,7 @@ static void update(HdConsole *console) {
 
 /* ---- within frames ---- */
 
-static void wait_a_glance(HdConsole *console) {
+static void wait_poll_interval(HdConsole *console) {
     struct timespec until;
     clock_gettime(CLOCK_REALTIME, &until); /* the condition's; where it jumps, a glance is longer */
     until.tv_nsec += (long)(1e9 * GLANCE);
@@ -155,7 +155,7 @@ static void *watch(void *argument) {
     HdConsole *console = argument;
     pthread_mutex_lock(&console->mutex);
     while (!console->is_over) {
-        wait_a_glance(console);
+        wait_poll_interval(console);
         const bool goes_on = !console->is_over && hd_interrupt_signal() == 0;
         if (goes_on && is_frame_long(console, hd_monotonic_seconds()))
             update(console);
@@ -245,7 +245,7 @@ static void note_scene(const char *name, const HdScene *scene) {
             scene->samples_per_side, scene->depth);
     if (scene->mesh_count > 0)
         note_meshes(scene);
-    if (hd_scene_is_surveyed(scene))
+    if (hd_scene_has_error_bound(scene))
         note_accuracy(scene);
 }
 
@@ -258,8 +258,8 @@ static void note_outputs(const HdOutputPlan *plan, int frame_count) {
             plan->style.picture.curve == HD_CURVE_SRGB ? "sRGB" : "linear");
 }
 
-void hd_console_tell_run(const HdConsole *console, const char *name, const HdScene *scene,
-                         const HdOutputPlan *plan, int frame_count) {
+void hd_console_report_run(const HdConsole *console, const char *name, const HdScene *scene,
+                           const HdOutputPlan *plan, int frame_count) {
     if (console->verbose) {
         note_scene(name, scene);
         note_outputs(plan, frame_count);
@@ -298,7 +298,7 @@ static void note_device(const HdTeamDevice *opened, const char *why) {
                 launch);
 }
 
-void hd_console_tell_devices(const HdConsole *console, const HdDeviceTeam *team) {
+void hd_console_report_devices(const HdConsole *console, const HdDeviceTeam *team) {
     if (team->note[0] != '\0' && !console->quiet)
         fprintf(stderr, "hedron: %s\n", team->note);
     for (int i = 0; i < team->count && console->verbose; i++)
@@ -320,15 +320,15 @@ static void note_renderer(const HdRenderer *renderer, const char *line,
         fprintf(stderr, "build     %s\n", kernels);
 }
 
-static void tell_fallbacks(const HdConsole *console) {
+static void report_fallbacks(const HdConsole *console) {
     char text[HD_FALLBACK_LENGTH];
     while (hd_fallback_take(text))
         if (!console->quiet)
             fprintf(stderr, "hedron: %s\n", text);
 }
 
-void hd_console_tell_upload(HdConsole *console, const HdRenderer *renderer, const char *line,
-                            const HdSceneTables *tables) {
+void hd_console_report_upload(HdConsole *console, const HdRenderer *renderer, const char *line,
+                              const HdSceneTables *tables) {
     pthread_mutex_lock(&console->mutex);
     if (console->tracing_from <= 0.0)
         console->tracing_from = console->frame_seconds = hd_monotonic_seconds();
@@ -336,12 +336,12 @@ void hd_console_tell_upload(HdConsole *console, const HdRenderer *renderer, cons
         hd_console_clear(console);
         note_renderer(renderer, line, tables);
     }
-    tell_fallbacks(console);
+    report_fallbacks(console);
     update(console);
     pthread_mutex_unlock(&console->mutex);
 }
 
-void hd_console_tell_loss(HdConsole *console, const HdDevice *device, const char *why) {
+void hd_console_report_loss(HdConsole *console, const HdDevice *device, const char *why) {
     pthread_mutex_lock(&console->mutex);
     hd_console_clear(console);
     fprintf(stderr,
@@ -393,7 +393,7 @@ static void end_watch(HdConsole *console) {
 }
 
 /* After all frames: a last plain line, with the rays of all of them for each second. */
-static void tell_rate(const HdConsole *console) {
+static void report_rate(const HdConsole *console) {
     char line[128];
     const double elapsed = hd_monotonic_seconds() - console->start_seconds;
     const HdProgress all = {.done = console->total, .total = console->total, .seconds = elapsed};
@@ -407,9 +407,9 @@ void hd_console_end(HdConsole *console, const HdScene *scene, const HdDeviceTeam
     end_watch(console);
     hd_interrupt_announce(NULL);
     hd_console_clear(console);
-    tell_fallbacks(console);
+    report_fallbacks(console);
     if (status == HD_OK && team->count > 0 && console->form == HD_PROGRESS_LINES)
-        tell_rate(console);
+        report_rate(console);
     if (console->verbose)
         note_changes(team, lines);
     /* More may be missing from a picture than the scene allows. */

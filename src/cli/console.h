@@ -49,8 +49,8 @@ typedef struct HdConsole {
 void hd_console_open(HdConsole *console, const HdTelling *telling);
 
 /* Before anything is done, and what films lack of the style. `name` is the scene's, for people. */
-void hd_console_tell_run(const HdConsole *console, const char *name, const HdScene *scene,
-                         const HdOutputPlan *plan, int frame_count);
+void hd_console_report_run(const HdConsole *console, const char *name, const HdScene *scene,
+                           const HdOutputPlan *plan, int frame_count);
 
 /* Tells how many frames are finished already, and begins to count those that a device must be
    prepared for. */
@@ -62,7 +62,7 @@ void hd_console_prepare(const HdConsole *console, const char *what);
 /* Takes the bar away, so that a message can be written. */
 void hd_console_clear(const HdConsole *console);
 
-void hd_console_tell_devices(const HdConsole *console, const HdDeviceTeam *team);
+void hd_console_report_devices(const HdConsole *console, const HdDeviceTeam *team);
 
 /* The frames begin, and `watch` is told of them until the end below: on a terminal a frame that
    takes long is seen to grow, and plain lines tell of it now and then. The first signal is answered
@@ -77,9 +77,9 @@ void hd_console_release(HdConsole *console, const HdStoredFrame *stored);
 
 /* On any thread: a renderer got the scene and says `line` of itself (hd_renderer_describe); a
    device is left out of the rest of the run. */
-void hd_console_tell_upload(HdConsole *console, const HdRenderer *renderer, const char *line,
-                            const HdSceneTables *tables);
-void hd_console_tell_loss(HdConsole *console, const HdDevice *device, const char *why);
+void hd_console_report_upload(HdConsole *console, const HdRenderer *renderer, const char *line,
+                              const HdSceneTables *tables);
+void hd_console_report_loss(HdConsole *console, const HdDevice *device, const char *why);
 
 /* All frames are rendered, or no more are. `lines` is what each of the team's renderers said when
    it got the scene, "" where it did not: its first frame may have changed that. */

@@ -16,7 +16,7 @@
 #include "render/backends.h"
 #include "run/load_scene.h"
 #include "scene/frame_list.h"
-#include "verify/certificate.h"
+#include "verify/self_test_report.h"
 
 /* ---- devices ---- */
 
@@ -41,10 +41,10 @@ static void print_device(const HdDevice *device) {
 }
 
 static void print_backend(const HdBackend *backend, const HdDevice *devices, int count,
-                          const char *obstacle) {
+                          const char *unsupported_reason) {
     printf("%s\n", backend->name);
-    if (obstacle != NULL)
-        print_escaped("  not available: ", obstacle);
+    if (unsupported_reason != NULL)
+        print_escaped("  not available: ", unsupported_reason);
     for (int i = 0; i < count; i++)
         print_device(&devices[i]);
 }
@@ -60,12 +60,13 @@ static json_t *describe_device(const HdDevice *device) {
 }
 
 static json_t *describe_backend(const HdBackend *backend, const HdDevice *devices, int count,
-                                const char *obstacle) {
+                                const char *unsupported_reason) {
     json_t *list = json_array();
     for (int i = 0; i < count; i++)
         list = hd_json_append(list, describe_device(&devices[i]));
-    return json_pack("{s:s, s:b, s:o, s:o}", "name", backend->name, "available", obstacle == NULL,
-                     "reason", hd_json_text_or_null(obstacle), "devices", list);
+    return json_pack("{s:s, s:b, s:o, s:o}", "name", backend->name, "available",
+                     unsupported_reason == NULL, "reason", hd_json_text_or_null(unsupported_reason),
+                     "devices", list);
 }
 
 HdStatus hd_command_devices(const HdOptions *options, HdError *error) {
@@ -75,11 +76,12 @@ HdStatus hd_command_devices(const HdOptions *options, HdError *error) {
         const HdBackend *backend = hd_backends[i];
         int count = 0;
         bool found = hd_backend_enumerate(backend, devices, HD_MAX_DEVICES, &count, error) == HD_OK;
-        const char *obstacle = found ? NULL : error->message;
+        const char *unsupported_reason = found ? NULL : error->message;
         if (options->json)
-            list = hd_json_append(list, describe_backend(backend, devices, count, obstacle));
+            list =
+                hd_json_append(list, describe_backend(backend, devices, count, unsupported_reason));
         else
-            print_backend(backend, devices, count, obstacle);
+            print_backend(backend, devices, count, unsupported_reason);
     }
     return options->json ? hd_json_print(json_pack("{s:s, s:o}", "kernels", hd_kernels_hash,
                                                    "backends", list),
@@ -91,16 +93,16 @@ HdStatus hd_command_devices(const HdOptions *options, HdError *error) {
 
 enum { TIME_SIZE = 32, HASH_SIZE = 17 };
 
-static void write_time(const HdCertificate *certificate, char text[TIME_SIZE]) {
-    const time_t seconds = (time_t)certificate->time;
+static void write_time(const HdSelfTestReport *report, char text[TIME_SIZE]) {
+    const time_t seconds = (time_t)report->time;
     struct tm parts;
     text[0] = '\0';
     if (gmtime_r(&seconds, &parts) != NULL)
         strftime(text, TIME_SIZE, "%Y-%m-%dT%H:%M:%SZ", &parts);
 }
 
-static void print_test(const HdCertificateTest *test) {
-    printf("  %-8s %s", hd_verdict_names[test->verdict], test->name);
+static void print_test(const HdReportTest *test) {
+    printf("  %-8s %s", hd_test_result_names[test->result], test->name);
     if (test->tuples > 0)
         printf(", %d tuples of operands", test->tuples);
     if (test->frames > 0)
@@ -112,42 +114,41 @@ static void print_test(const HdCertificateTest *test) {
         printf("           %s\n", test->reason);
 }
 
-static void print_certificate(const HdCertificate *certificate) {
-    const HdDevice *device = &certificate->device;
+static void print_certificate(const HdSelfTestReport *report) {
+    const HdDevice *device = &report->device;
     char when[TIME_SIZE];
-    write_time(certificate, when);
+    write_time(report, when);
     printf("%s:%d  %s\n  %s\n", device->backend->name, device->index, device->name, device->driver);
-    for (int i = 0; i < certificate->test_count; i++)
-        print_test(&certificate->tests[i]);
-    printf("  %s: hedron %s%s%s, %s, %.2f s\n", hd_verdict_names[certificate->verdict], HD_VERSION,
-           certificate->compiler[0] != '\0' ? ", kernels by " : "", certificate->compiler, when,
-           certificate->seconds);
+    for (int i = 0; i < report->test_count; i++)
+        print_test(&report->tests[i]);
+    printf("  %s: hedron %s%s%s, %s, %.2f s\n", hd_test_result_names[report->result], HD_VERSION,
+           report->compiler[0] != '\0' ? ", kernels by " : "", report->compiler, when,
+           report->seconds);
 }
 
-static json_t *describe_test(const HdCertificateTest *test) {
+static json_t *describe_test(const HdReportTest *test) {
     char hash[HASH_SIZE];
     snprintf(hash, sizeof hash, "%016" PRIx64, test->hash);
-    return json_pack("{s:s, s:s, s:o, s:o, s:o, s:b, s:s, s:f}", "name", test->name, "verdict",
-                     hd_verdict_names[test->verdict], "reason", hd_json_text_or_null(test->reason),
-                     "tuples", hd_json_count_or_null(test->tuples), "frames",
-                     hd_json_count_or_null(test->frames), "division_by_fma", test->by_fma, "hash",
-                     hash, "seconds", test->seconds);
+    return json_pack(
+        "{s:s, s:s, s:o, s:o, s:o, s:b, s:s, s:f}", "name", test->name, "verdict",
+        hd_test_result_names[test->result], "reason", hd_json_text_or_null(test->reason), "tuples",
+        hd_json_count_or_null(test->tuples), "frames", hd_json_count_or_null(test->frames),
+        "division_by_fma", test->by_fma, "hash", hash, "seconds", test->seconds);
 }
 
-static json_t *describe_certificate(const HdCertificate *certificate) {
-    const HdDevice *device = &certificate->device;
+static json_t *describe_certificate(const HdSelfTestReport *report) {
+    const HdDevice *device = &report->device;
     json_t *tests = json_array();
     char when[TIME_SIZE];
-    write_time(certificate, when);
-    for (int i = 0; i < certificate->test_count; i++)
-        tests = hd_json_append(tests, describe_test(&certificate->tests[i]));
-    return json_pack("{s:s, s:s, s:i, s:o, s:o, s:o, s:s, s:o, s:s, s:f}", "hedron", HD_VERSION,
-                     "backend", device->backend->name, "index", device->index, "name",
-                     hd_json_device_text(device->name), "driver",
-                     hd_json_device_text(device->driver), "compiler",
-                     hd_json_text_or_null(certificate->compiler), "verdict",
-                     hd_verdict_names[certificate->verdict], "tests", tests, "time", when,
-                     "seconds", certificate->seconds);
+    write_time(report, when);
+    for (int i = 0; i < report->test_count; i++)
+        tests = hd_json_append(tests, describe_test(&report->tests[i]));
+    return json_pack(
+        "{s:s, s:s, s:i, s:o, s:o, s:o, s:s, s:o, s:s, s:f}", "hedron", HD_VERSION, "backend",
+        device->backend->name, "index", device->index, "name", hd_json_device_text(device->name),
+        "driver", hd_json_device_text(device->driver), "compiler",
+        hd_json_text_or_null(report->compiler), "verdict", hd_test_result_names[report->result],
+        "tests", tests, "time", when, "seconds", report->seconds);
 }
 
 typedef struct Tally {
@@ -157,17 +158,17 @@ typedef struct Tally {
 
 static HdStatus certify(const HdOptions *options, const HdDevice *device, Tally *tally,
                         HdError *error) {
-    static HdCertificate certificate;
+    static HdSelfTestReport report;
     const HdTestEffort effort = options->deep    ? HD_TEST_DEEP
                                 : options->quick ? HD_TEST_QUICK
                                                  : HD_TEST_WHOLE;
-    HD_TRY(hd_certify(&certificate, device, effort, error));
-    tally->tested += certificate.verdict != HD_VERDICT_UNTESTED;
-    tally->wrong += certificate.verdict == HD_VERDICT_WRONG;
+    HD_TRY(hd_certify(&report, device, effort, error));
+    tally->tested += report.result != HD_RESULT_UNTESTED;
+    tally->wrong += report.result == HD_RESULT_WRONG;
     if (options->json)
-        tally->list = hd_json_append(tally->list, describe_certificate(&certificate));
+        tally->list = hd_json_append(tally->list, describe_certificate(&report));
     else
-        print_certificate(&certificate);
+        print_certificate(&report);
     fflush(stdout);
     return HD_OK;
 }
@@ -206,7 +207,7 @@ typedef struct Run {
     HdDeviceTeam team;      /* closed before anything is measured */
     const HdDevice *device; /* the only one of the team */
     HdTuning tuning;
-    const char *obstacle; /* why nothing is remembered; NULL: the best is */
+    const char *unsupported_reason; /* why nothing is remembered; NULL: the best is */
 } Run;
 
 static double ratio(const HdTuning *tuning, int index) {
@@ -235,10 +236,10 @@ static void print_table(const Run *run) {
         print_candidate(&run->tuning, i);
     hd_launch_describe(&run->tuning.candidates[run->tuning.best].options, name, sizeof name);
     printf("\nthe best: %s; ", name);
-    if (run->obstacle == NULL)
+    if (run->unsupported_reason == NULL)
         printf("remembered for scenes of this kind\n");
     else
-        printf("not remembered: %s\n", run->obstacle);
+        printf("not remembered: %s\n", run->unsupported_reason);
 }
 
 static json_t *describe_candidate(const HdTuning *tuning, int index) {
@@ -261,20 +262,20 @@ static HdStatus print_json(const Run *run, HdError *error) {
     json_t *list = json_array();
     for (int i = 0; i < tuning->count; i++)
         list = hd_json_append(list, describe_candidate(tuning, i));
-    json_t *root = json_pack("{s:o, s:s, s:i, s:o, s:o, s:i, s:i, s:i, s:o, s:i, s:b, s:o}",
-                             "scene", hd_json_device_text(hd_scene_name(run->options->scene.path)),
-                             "backend", device->backend->name, "index", device->index, "name",
-                             hd_json_device_text(device->name), "driver",
-                             hd_json_device_text(device->driver), "width", tuning->width, "height",
-                             tuning->height, "samples", run->scene->samples_per_side, "candidates",
-                             list, "best", tuning->best, "remembered", run->obstacle == NULL,
-                             "reason", hd_json_text_or_null(run->obstacle));
+    json_t *root = json_pack(
+        "{s:o, s:s, s:i, s:o, s:o, s:i, s:i, s:i, s:o, s:i, s:b, s:o}", "scene",
+        hd_json_device_text(hd_scene_name(run->options->scene.path)), "backend",
+        device->backend->name, "index", device->index, "name", hd_json_device_text(device->name),
+        "driver", hd_json_device_text(device->driver), "width", tuning->width, "height",
+        tuning->height, "samples", run->scene->samples_per_side, "candidates", list, "best",
+        tuning->best, "remembered", run->unsupported_reason == NULL, "reason",
+        hd_json_text_or_null(run->unsupported_reason));
     return hd_json_print(root, "the candidates", error);
 }
 
 /* On the device that 'hedron render' would take. */
 static HdStatus measure(Run *run, const HdJob *job, HdError *error) {
-    const HdDeviceWish wish = {
+    const HdDeviceSelection selection = {
         .backend = run->options->devices.backend,
         .device = run->options->devices.device,
         .is_for_one = true,
@@ -284,7 +285,7 @@ static HdStatus measure(Run *run, const HdJob *job, HdError *error) {
     HdConsole console;
     hd_console_open(&console, &run->options->telling);
     hd_console_prepare(&console, "measuring");
-    HdStatus status = hd_open_devices(&run->team, &wish, error);
+    HdStatus status = hd_open_devices(&run->team, &selection, error);
     hd_close_devices(&run->team);
     if (status == HD_OK)
         status = hd_tune(&run->tuning, run->device, &run->render, job, error);
@@ -301,7 +302,7 @@ static HdStatus tune(Run *run, const HdJob *job, HdError *error) {
     HD_TRY(measure(run, job, error));
     HdStatus status =
         hd_tuning_remember(&run->tuning, run->device, &run->render, run->scene, error);
-    run->obstacle = status == HD_OK ? NULL : error->message;
+    run->unsupported_reason = status == HD_OK ? NULL : error->message;
     status = status == HD_UNAVAILABLE ? HD_OK : status;
     if (!run->options->json)
         print_table(run);
@@ -320,7 +321,7 @@ HdStatus hd_command_tune(const HdOptions *options, HdError *error) {
     run = (Run){.options = options, .scene = &file.scene, .device = &run.team.list[0].device};
     run.render = options->devices.render;
     run.render.has_deep_trees = hd_scene_has_deep_trees(&file.scene);
-    hd_scene_drop_survey(&file.scene);
+    hd_scene_drop_error_bound(&file.scene);
     status = hd_frame_list_parse(&frames, options->frames, file.scene.frame_count, error);
     if (status == HD_OK) {
         HdJob job = {

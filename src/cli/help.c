@@ -164,7 +164,7 @@ static void print_command(const HdCommandSpec *spec) {
 
 /* ---- scenes ---- */
 
-static const char least_scene[] =
+static const char min_scene[] =
     "  {\n"
     "    \"hedron\": 1,\n"
     "    \"camera\": {\"eye\": [4, -3, 2]},\n"
@@ -225,7 +225,7 @@ static void print_scene_object(const HdObjectType *type, const char *path) {
 }
 
 static void print_scene_format(void) {
-    printf("A scene is a file in JSON. A small one:\n\n%s\n", least_scene);
+    printf("A scene is a file in JSON. A small one:\n\n%s\n", min_scene);
     print_wrapped("'hedron new' writes a larger one with comments, 'hedron check' finds mistakes, "
                   "'hedron check --schema' prints the JSON Schema for editors. The z axis points "
                   "up. Colours are linear. Any object may have a comment, \"$comment\": \"...\". "

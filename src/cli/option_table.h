@@ -62,7 +62,7 @@ ROW("--max-error", NULL, "E",
     "leave out of each pixel what cannot change it by more than E steps of 255, and nothing else: "
     "depth, cut-off and lights follow from that promise; with --aa adaptive also the error that "
     "sampling aims at",
-    RENDERING | HD_COMMAND_VIEW, REAL(scene.max_error, HD_LEAST_ERROR, HD_MAX_ERROR),
+    RENDERING | HD_COMMAND_VIEW, REAL(scene.max_error, HD_MIN_ERROR, HD_MAX_ERROR),
     .role = HD_DECIDES_PIXELS)
 OPTION(bool reference, "--reference", NULL, NULL,
        "as near to the truth as can be: double precision, 32 x 32 samples of a low-discrepancy set "
@@ -102,7 +102,7 @@ ROW("--lanes", NULL, "N",
 ROW("--threads", "-j", "N", "threads of the C backend (default: one for each core)", SHOWING,
     INTEGER(devices.render.threads, 1, HD_MAX_THREADS))
 ROW("--pipeline", NULL, "NAME",
-    "mega: a bundle follows its whole tree of rays; wavefront: all rays of a level, closed up; "
+    "mega: a packet follows its whole tree of rays; wavefront: all rays of a level, closed up; "
     "wavefront-uncompacted: with its dead rays, for comparison (default auto: what suits device "
     "and scene)",
     SHOWING, .type = HD_OPTION_CHOICE, AT(devices.render.pipeline), .choices = hd_pipeline_names)

@@ -468,7 +468,7 @@ static HdStatus fail_unknown_command(const Parser *parser, const char *argument,
 static HdStatus add_operand(Parser *parser, char *argument, HdError *error) {
     HdOptions *options = parser->options;
     const char *name = parser->command->name;
-    const int most = parser->command->most_operands;
+    const int most = parser->command->max_operands;
     if (name == NULL)
         return fail_unknown_command(parser, argument, error);
     if (argument[0] == '\0' && options->command != HD_COMMAND_COMPLETE)
@@ -609,7 +609,7 @@ int hd_program_run(int count, char **arguments, HdCommandFunction *run) {
     hd_interrupt_install();
     HdStatus status = hd_check_stack(&error);
     if (status == HD_OK)
-        status = hd_interrupt_read_patience(&error);
+        status = hd_interrupt_read_timeout(&error);
     if (status == HD_OK)
         status = hd_options_parse(&options, count, arguments, &error);
     if (status == HD_OK && count == 1 && isatty(STDIN_FILENO))

@@ -69,7 +69,7 @@ typedef struct HdCommandSpec {
     const char *name;        /* NULL: the classic mode */
     const char *operands;    /* as the usage shows them; "" where there are none */
     const char *ending;      /* of the files that are operands; NULL: any, or no files */
-    int most_operands;       /* -1: any number */
+    int max_operands;        /* -1: any number */
     const char *summary;     /* half a sentence for lists */
     const char *description; /* paragraphs, separated by empty lines */
 } HdCommandSpec;

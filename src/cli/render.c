@@ -27,7 +27,7 @@ typedef struct Run {
     HdStatistics statistics; /* stream NULL: not wanted */
     HdDeviceTeam team;
     HdWatch watch;
-    char lines[HD_MOST_TRACERS][HD_RENDERER_LINE]; /* of each renderer that got the scene */
+    char lines[HD_MAX_WORKERS][HD_RENDERER_LINE]; /* of each renderer that got the scene */
 } Run;
 
 /* ---- while frames are rendered ---- */
@@ -36,12 +36,12 @@ static void scene_uploaded(void *context, int number, const HdSceneTables *table
     Run *run = context;
     const HdRenderer *renderer = run->team.list[number].renderer;
     hd_renderer_describe(renderer, run->lines[number], HD_RENDERER_LINE);
-    hd_console_tell_upload(&run->console, renderer, run->lines[number], tables);
+    hd_console_report_upload(&run->console, renderer, run->lines[number], tables);
 }
 
 static void device_dropped(void *context, int number, const HdError *error) {
     Run *run = context;
-    hd_console_tell_loss(&run->console, &run->team.list[number].device, error->message);
+    hd_console_report_loss(&run->console, &run->team.list[number].device, error->message);
 }
 
 /* From the camera to the pixels in memory. */
@@ -66,8 +66,8 @@ static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError
         status = print_frame_line(stored, error);
     if (status == HD_OK && run->statistics.stream != NULL)
         status = hd_statistics_add(&run->statistics, &run->file->scene,
-                                   &run->team.list[stored->tracer].device,
-                                   run->lines[stored->tracer], stored, error);
+                                   &run->team.list[stored->worker].device,
+                                   run->lines[stored->worker], stored, error);
     hd_console_release(&run->console, status == HD_OK ? stored : NULL);
     return status;
 }
@@ -80,21 +80,21 @@ static HdStatus open_devices(Run *run, const HdDevicePlan *plan, HdError *error)
     const HdFrameList *missing = &run->resume.missing;
     const HdJob job = {
         .scene = &plain, .first_frame = missing->frames[0], .frame_count = missing->count};
-    const HdDeviceWish wish = {.backend = plan->backend,
-                               .device = plan->device,
-                               .kind = plan->kind,
-                               .options = &render,
-                               .job = &job};
+    const HdDeviceSelection selection = {.backend = plan->backend,
+                                         .device = plan->device,
+                                         .kind = plan->kind,
+                                         .options = &render,
+                                         .job = &job};
     render.has_deep_trees = hd_scene_has_deep_trees(&plain);
-    render.first_hits = run->outputs.wish.layers != 0;
-    hd_scene_drop_survey(&plain);
-    HdStatus status = hd_open_devices(&run->team, &wish, error);
+    render.first_hits = run->outputs.request.layers != 0;
+    hd_scene_drop_error_bound(&plain);
+    HdStatus status = hd_open_devices(&run->team, &selection, error);
     hd_console_clear(&run->console);
     if (status == HD_INTERRUPTED)
         return hd_fail(error, status, "interrupted after %d of %d frames",
                        run->resume.first_missing, run->frames.count);
     if (status == HD_OK)
-        hd_console_tell_devices(&run->console, &run->team);
+        hd_console_report_devices(&run->console, &run->team);
     return status;
 }
 
@@ -162,7 +162,7 @@ static HdStatus settle(Run *run, const HdOptions *options, HdError *error) {
     outputs->durability = store->no_sync ? HD_FLEETING : HD_DURABLE;
     if (status == HD_OK)
         status = hd_outputs_add_layers(outputs, store->layers,
-                                       hd_scene_is_surveyed(&run->file->scene), error);
+                                       hd_scene_has_error_bound(&run->file->scene), error);
     if (status != HD_OK)
         return status;
     if (render->math == HD_MATH_STRICT && (outputs->bears_fingerprints || outputs->film_count > 0))
@@ -181,7 +181,7 @@ static HdStatus render_frames(Run *run, const HdOptions *options, HdError *error
     HdStatus status = settle(run, options, error);
     if (status != HD_OK)
         return status;
-    hd_console_tell_run(&run->console, name, &run->file->scene, &run->outputs, run->frames.count);
+    hd_console_report_run(&run->console, name, &run->file->scene, &run->outputs, run->frames.count);
     hd_escape(slash != NULL ? slash + 1 : name, told, sizeof told);
     run->outputs.scene = told;
     status = hd_resume_find(&run->resume, &run->outputs, &run->frames, error);

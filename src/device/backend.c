@@ -52,7 +52,7 @@ static const char *lanes_there_are(int most) {
                      : "the processor has registers for 1, 4 or 8 lanes in this precision";
 }
 
-const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *options) {
+const char *hd_device_unsupported_reason(const HdDevice *device, const HdRenderOptions *options) {
     if (device->unusable[0] != '\0')
         return device->unusable;
     if (options->math == HD_MATH_STRICT && device->not_strict[0] != '\0')
@@ -62,9 +62,9 @@ const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *op
     bool has_groups = !device->is_cpu || options->test.groups;
     if (options->lanes > 1 && has_groups)
         return "several lanes need a CPU";
-    int most_lanes = device->most_lanes[options->precision];
-    if (most_lanes > 0 && options->lanes > most_lanes)
-        return lanes_there_are(most_lanes);
+    int max_lanes = device->max_lanes[options->precision];
+    if (max_lanes > 0 && options->lanes > max_lanes)
+        return lanes_there_are(max_lanes);
     if (has_groups && !device->has_wide_atomics &&
         hd_pipeline_is_wavefront(hd_choose_pipeline(device, options, NULL)))
         return "the wavefront pipeline needs 64-bit integer atomics, which the device lacks; "
@@ -72,7 +72,7 @@ const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *op
     return NULL;
 }
 
-/* So many lights that no distance ends: from here on full bundles are worth the way through a
+/* So many lights that no distance ends: from here on full packets are worth the way through a
  * queue. */
 enum { MANY_LIGHTS = 100 };
 

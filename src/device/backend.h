@@ -16,7 +16,7 @@
 enum { HD_FRAMES_IN_FLIGHT = 2 };
 
 /* Devices that may share a sequence. */
-enum { HD_MOST_TRACERS = 64 };
+enum { HD_MAX_WORKERS = 64 };
 
 typedef struct HdBackend HdBackend;
 typedef struct HdKernelCache HdKernelCache;
@@ -27,7 +27,7 @@ typedef struct HdDevice {
     char name[256];
     char driver[256];  /* platform, driver and versions, for people */
     bool is_cpu;       /* takes several lanes */
-    int most_lanes[2]; /* of a CPU, in each precision; 0: any number */
+    int max_lanes[2];  /* of a CPU, in each precision; 0: any number */
     int compute_units; /* with clock_mhz a rough measure of speed, to choose among devices */
     int clock_mhz;
     int nvidia_arch; /* 61: sm_61, whose kernels can have a limit of registers; 0: no NVIDIA */
@@ -67,8 +67,9 @@ typedef struct HdProbeResults {
 /* What a backend's renderers do, which are opaque to everybody else. Callers rely on what "must" be
    so. Messages do not name the backend: the caller adds its name. */
 typedef struct HdRendererFunctions {
-    /* Opens a device that can do what the options ask (hd_device_obstacle), with a pipeline other
-       than HD_PIPELINE_AUTO. Must fail with HD_UNAVAILABLE if it cannot be used after all. */
+    /* Opens a device that can do what the options ask (hd_device_unsupported_reason), with a
+       pipeline other than HD_PIPELINE_AUTO. Must fail with HD_UNAVAILABLE if it cannot be used
+       after all. */
     HdStatus (*open)(const HdDevice *device, const HdRenderOptions *options, void **renderer,
                      HdError *error);
 
@@ -80,7 +81,7 @@ typedef struct HdRendererFunctions {
        fewer than HD_FRAMES_IN_FLIGHT are under way. The tables live until the frame is collected or
        dropped. After a failure, HD_INTERRUPTED too, the tables are no longer used, and earlier
        frames are still under way. */
-    HdStatus (*submit)(void *renderer, const HdFrameTables *tables, const HdFrameWish *wish,
+    HdStatus (*submit)(void *renderer, const HdFrameTables *tables, const HdFrameRequest *request,
                        HdError *error);
 
     /* Waits for the oldest frame under way, that of `tables`, and retires it, even on failure.
@@ -107,7 +108,7 @@ typedef struct HdRendererFunctions {
     HdStatus (*probe)(void *renderer, const HdProbeBatch *batch, HdProbeResults *results,
                       HdError *error);
 
-    /* The lanes of the kernels' bundles. */
+    /* The lanes of the kernels' packets. */
     int (*lanes)(const void *renderer);
 
     /* One line for people about what was chosen (lanes, threads, instruction set, registers). */
@@ -140,7 +141,7 @@ HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int c
 
 /* Why the device cannot do what the options ask (strict arithmetic, double precision, several
    lanes, a wavefront), in words; NULL: it can. The words live as long as the device. */
-const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *options);
+const char *hd_device_unsupported_reason(const HdDevice *device, const HdRenderOptions *options);
 
 /* Returns the pipeline of `options`, and in place of HD_PIPELINE_AUTO the wavefront on a CPU for a
    scene whose shading has most of the time (docs/performance.md), on a GPU with 64-bit atomics

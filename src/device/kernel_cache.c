@@ -85,10 +85,10 @@ static bool write_key(HdKernelCache *cache, const void *source, size_t source_si
                  "hedron %s\nkernels %016" PRIx64 ", %zu bytes\noptions %s\ndevice %s\ndriver %s\n",
                  HD_VERSION, hd_hash_bytes(HD_HASH_START, source, source_size), source_size,
                  options, cache->device, driver);
-    const bool has_room = length >= 0 && (size_t)length < sizeof cache->key;
-    if (!has_room)
+    const bool has_memory = length >= 0 && (size_t)length < sizeof cache->key;
+    if (!has_memory)
         cache->key[0] = '\0';
-    return has_room;
+    return has_memory;
 }
 
 bool hd_kernel_cache_find(HdKernelCache *cache, const void *source, size_t source_size,

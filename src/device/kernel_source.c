@@ -27,7 +27,7 @@ void hd_kernel_defines(const HdKernelShape *shape, char text[HD_KERNEL_DEFINES_S
         {"HD_REFRACTS", shape->needs.refracts},
         {"HD_LIT_FROM_BEHIND", shape->needs.lit_from_behind},
         {"HD_MANY_LIGHTS", shape->needs.many_lights},
-        {"HD_SURVEYED", shape->needs.surveyed},
+        {"HD_BOUNDED", shape->needs.bounded},
         {"HD_SMALL_TABLES", shape->needs.small_tables},
         {"HD_STRICT", shape->math == HD_MATH_STRICT},
         {"HD_ROUNDED_BY_FMA", shape->rounds_by_fma},
@@ -59,7 +59,7 @@ const char *hd_kernel_name(const HdKernelShape *shape, HdKernel kernel) {
     case HD_KERNEL_TRACE:
         if (!shape->wavefront)
             return "hedron_render";
-        return has_groups ? "hedron_trace_take" : "hedron_render_by_waves";
+        return has_groups ? "hedron_trace_chunk" : "hedron_render_by_waves";
     case HD_KERNEL_STORE:
         return shape->wavefront && has_groups ? "hedron_store_batch" : NULL;
     case HD_KERNEL_SUM:
@@ -91,7 +91,7 @@ HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables) {
         .lit_from_behind = tables->lit_from_behind,
         /* With meshes too, branches would nest too deeply (docs/lost-light.md). */
         .many_lights = tables->many_lights && tables->node_stack == 0,
-        .surveyed = tables->surveyed,
+        .bounded = tables->bounded,
         .small_tables = tables->small_tables,
     };
 }
@@ -100,7 +100,7 @@ bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b) {
     return a->plane_bound == b->plane_bound && a->depth_bound == b->depth_bound &&
            a->node_stack_bound == b->node_stack_bound && a->refracts == b->refracts &&
            a->lit_from_behind == b->lit_from_behind && a->many_lights == b->many_lights &&
-           a->surveyed == b->surveyed && a->small_tables == b->small_tables;
+           a->bounded == b->bounded && a->small_tables == b->small_tables;
 }
 
 void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capacity) {
@@ -109,7 +109,7 @@ void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capaci
              needs->plane_bound, needs->depth_bound, needs->refracts ? "with" : "without",
              needs->lit_from_behind ? "faces lit from behind" : "no faces lit from behind",
              needs->node_stack_bound > 0 ? "meshes" : "no meshes",
-             needs->many_lights ? ", many lights" : "", needs->surveyed ? ", with surveys" : "");
+             needs->many_lights ? ", many lights" : "", needs->bounded ? ", with surveys" : "");
 }
 
 int hd_kernel_item_count(int width, int height, int pixels_per_item) {

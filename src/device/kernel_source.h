@@ -21,7 +21,7 @@ typedef struct HdKernelNeeds {
     bool refracts;
     bool lit_from_behind;
     bool many_lights;  /* so many that one lane may judge those that follow each other together */
-    bool surveyed;     /* pixels come with their survey */
+    bool bounded;      /* pixels come with their survey */
     bool small_tables; /* those of solids fit in constant memory, where a device has it */
 } HdKernelNeeds;
 

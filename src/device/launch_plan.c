@@ -14,18 +14,18 @@
 
 enum {
     THREADS_PER_UNIT = 2048, /* at once, on most devices */
-    MOST_UNITS = 1 << 12,
-    LEAST_START = 1 << 14,
+    MAX_UNITS = 1 << 12,
+    MIN_START = 1 << 14,
     START_PER_LEAST = 16,
     GROUPS_PER_UNIT = 4
 };
 
-static const double MOST_GROWTH = 2.0, CEILING_GROWTH = 1.25;
+static const double MAX_GROWTH = 2.0, CEILING_GROWTH = 1.25;
 
 /* A launch of less than SMALLER of another's work should be nearer to the time in proportion to its
    work than to the same time. One that takes longer than ALIKE times the other has dearer pixels.
  */
-static const double SMALLER = 0.75, ALIKE = 1.1, LEAST_SHRINKING = 0.25, TAILS = 1.5;
+static const double SMALLER = 0.75, ALIKE = 1.1, MIN_SHRINKING = 0.25, TAILS = 1.5;
 static const double TAIL_DECAY = 0.9;
 
 static int within(double work, int least, int most) {
@@ -35,13 +35,13 @@ static int within(double work, int least, int most) {
 }
 
 HdLaunchSize hd_launch_size_start(int compute_units, double longest) {
-    int units = hd_min(compute_units, MOST_UNITS);
-    int start = within((double)units * THREADS_PER_UNIT, LEAST_START, HD_MOST_LAUNCH_WORK);
+    int units = hd_min(compute_units, MAX_UNITS);
+    int start = within((double)units * THREADS_PER_UNIT, MIN_START, HD_MAX_LAUNCH_WORK);
     return (HdLaunchSize){
         .limit = start,
         .least = start / START_PER_LEAST,
-        .most = HD_MOST_LAUNCH_WORK,
-        .ceiling = HD_MOST_LAUNCH_WORK,
+        .most = HD_MAX_LAUNCH_WORK,
+        .ceiling = HD_MAX_LAUNCH_WORK,
         .fewest_groups = units > 0 ? units * GROUPS_PER_UNIT : 0,
         .longest = longest,
     };
@@ -94,8 +94,8 @@ void hd_launch_size_note(HdLaunchSize *size, double work, double seconds) {
         return;
     look_for_tail(size, work, seconds);
     const double longest = fmax(TAILS * size->tail, size->longest), aim = HD_LAUNCH_AIM * longest;
-    const double growth = seconds > aim / MOST_GROWTH ? aim / seconds : MOST_GROWTH;
-    int fitting = within(fmax(growth, LEAST_SHRINKING) * work, size->least, size->ceiling);
+    const double growth = seconds > aim / MAX_GROWTH ? aim / seconds : MAX_GROWTH;
+    int fitting = within(fmax(growth, MIN_SHRINKING) * work, size->least, size->ceiling);
     if (seconds > longest) {
         size->too_long = true;
         size->ceiling = size->limit = hd_min(fitting, size->limit);
@@ -110,7 +110,7 @@ enum { MAX_STRIDE = INT_MAX / 4 };
 
 /* Samples whose rays and sums fit, if each had two rays on as many levels as are likely. */
 static int batch_samples(const HdWaveNeeds *needs, size_t ray_bytes) {
-    size_t places = (size_t)wave_least_capacity(wave_lesser(needs->depth, WAVE_BATCH_LEVELS), 1);
+    size_t places = (size_t)wave_min_capacity(wave_min(needs->depth, WAVE_BATCH_LEVELS), 1);
     size_t fitting = needs->bytes / (places * ray_bytes + WAVE_SUMS * sizeof(int64_t));
     fitting = hd_min_size(fitting, MAX_STRIDE / places);
     if (fitting >= (size_t)needs->samples)
@@ -120,11 +120,11 @@ static int batch_samples(const HdWaveNeeds *needs, size_t ray_bytes) {
 
 /* The queue's room: two places for each sample and level, as far as they fit. */
 static int queue_places(const HdWaveNeeds *needs, int batch, size_t ray_bytes) {
-    int least = wave_least_capacity(needs->depth, needs->grain);
+    int least = wave_min_capacity(needs->depth, needs->grain);
     size_t sums = WAVE_SUMS * sizeof(int64_t) * (size_t)batch;
     size_t fitting = needs->bytes > sums ? (needs->bytes - sums) / ray_bytes : 0;
     int even = (batch + needs->grain - 1) / needs->grain * needs->grain;
-    size_t useful = (size_t)wave_least_capacity(needs->depth, 1) * (size_t)even;
+    size_t useful = (size_t)wave_min_capacity(needs->depth, 1) * (size_t)even;
     fitting = hd_min_size(fitting, hd_min_size(useful, MAX_STRIDE));
     return hd_max((int)fitting, least);
 }
@@ -134,9 +134,9 @@ HdWavePlan hd_wave_plan(const HdWaveNeeds *needs) {
     size_t ray_bytes = WAVE_REALS * real_size + WAVE_INTS * sizeof(int32_t);
     HdWavePlan plan;
     plan.sum_stride = batch_samples(needs, ray_bytes);
-    /* An odd number of bundles: a ray's numbers must not all fall into one set of a cache. */
-    int bundles = (queue_places(needs, plan.sum_stride, ray_bytes) + WAVE_SPARE - 1) / WAVE_SPARE;
-    plan.queue_stride = (bundles | 1) * WAVE_SPARE;
+    /* An odd number of packets: a ray's numbers must not all fall into one set of a cache. */
+    int packets = (queue_places(needs, plan.sum_stride, ray_bytes) + WAVE_SPARE - 1) / WAVE_SPARE;
+    plan.queue_stride = (packets | 1) * WAVE_SPARE;
     plan.bytes[0] = real_size * (WAVE_REALS * (size_t)plan.queue_stride + WAVE_SPARE);
     plan.bytes[1] = sizeof(int32_t) * (WAVE_INTS * (size_t)plan.queue_stride + WAVE_SPARE);
     plan.bytes[2] = sizeof(int64_t) * (WAVE_SUMS * (size_t)plan.sum_stride + WAVE_SPARE);
@@ -144,9 +144,9 @@ HdWavePlan hd_wave_plan(const HdWaveNeeds *needs) {
 }
 
 bool hd_wave_halve(HdWaveNeeds *needs) {
-    if (needs->bytes <= HD_WAVE_LEAST_BYTES)
+    if (needs->bytes <= HD_WAVE_MIN_BYTES)
         return false;
-    needs->bytes = needs->bytes / 2 > HD_WAVE_LEAST_BYTES ? needs->bytes / 2 : HD_WAVE_LEAST_BYTES;
+    needs->bytes = needs->bytes / 2 > HD_WAVE_MIN_BYTES ? needs->bytes / 2 : HD_WAVE_MIN_BYTES;
     return true;
 }
 
@@ -176,7 +176,7 @@ HdStatus hd_wave_next(HdWaveRun *run, unsigned taken, const HdLaunchSize *size, 
     if (step->is_first || step->action == HD_WAVE_STORES)
         begin_batch(run);
     else
-        wave_put(run->stack, &run->top, step->take.level + 1, step->take.to,
+        wave_put(run->stack, &run->top, step->chunk.level + 1, step->chunk.to,
                  (int)(taken - step->taken_before));
     step->taken_before = taken;
     step->action = step->item_count == 0 ? HD_WAVE_IS_DONE
@@ -187,7 +187,7 @@ HdStatus hd_wave_next(HdWaveRun *run, unsigned taken, const HdLaunchSize *size, 
     if (hd_interrupt_signal() != 0)
         return hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
     int limit = hd_launch_size_items(size, run->stack[run->top].waiting, 1, run->grain);
-    step->take =
-        wave_take(run->stack, &run->top, run->depth, run->plan->queue_stride, run->grain, limit);
+    step->chunk = wave_take_chunk(run->stack, &run->top, run->depth, run->plan->queue_stride,
+                                  run->grain, limit);
     return HD_OK;
 }

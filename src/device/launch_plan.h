@@ -38,7 +38,7 @@ typedef struct HdLaunchSize {
     double slow_work, slow_seconds; /* of a launch that was too long, to compare others with */
 } HdLaunchSize;
 
-enum { HD_MOST_LAUNCH_WORK = 1 << 28 };
+enum { HD_MAX_LAUNCH_WORK = 1 << 28 };
 
 /* Of kernels that nothing is known of: gives each thread of a device with so many compute units
    about one piece of work at first. `longest` is in seconds. */
@@ -65,13 +65,13 @@ void hd_launch_size_note(HdLaunchSize *size, double work, double seconds);
 /* ---- the queue of a wavefront, and in which order a device with groups of threads traces its
    levels ---- */
 
-enum { HD_WAVE_BUNDLE = 16 }; /* a multiple of every number of lanes */
+enum { HD_WAVE_PACKET = 16 }; /* a multiple of every number of lanes */
 
 typedef struct HdWaveNeeds {
     size_t bytes; /* to be used at most, unless the least that works is more */
     HdPrecision precision;
     int depth;
-    int grain;           /* rays of a bundle or of a group of threads */
+    int grain;           /* rays of a packet or of a group of threads */
     int samples;         /* of a frame, or of all that one queue is used for at a time */
     int samples_at_once; /* a batch has whole multiples of this; divides `samples` */
 } HdWaveNeeds;
@@ -88,8 +88,8 @@ typedef struct HdWavePlan {
 HdWavePlan hd_wave_plan(const HdWaveNeeds *needs);
 
 /* Halves the bytes that a queue may use, for a device that refused it; false where these are
-   HD_WAVE_LEAST_BYTES already. */
-enum { HD_WAVE_LEAST_BYTES = 1 << 20 };
+   HD_WAVE_MIN_BYTES already. */
+enum { HD_WAVE_MIN_BYTES = 1 << 20 };
 bool hd_wave_halve(HdWaveNeeds *needs);
 
 /* The samples of so many items, or as many of them as can be counted. */
@@ -109,7 +109,7 @@ typedef enum HdWaveAction {
 typedef struct HdWaveStep {
     HdWaveAction action;
     int first_item, item_count; /* of the batch */
-    WaveTake take;              /* that a launch traces: as many rays as there is room for */
+    WaveChunk chunk;            /* that a launch traces: as many rays as there is room for */
     unsigned taken_before;      /* what the counter of taken places is as yet */
     bool is_first;              /* of the frame */
 } HdWaveStep;

@@ -10,7 +10,7 @@
 
 typedef enum HdMath { HD_MATH_STRICT, HD_MATH_FAST } HdMath;
 
-/* How the tree of rays is traced: a bundle follows its whole tree, or a level of many trees at a
+/* How the tree of rays is traced: a packet follows its whole tree, or a level of many trees at a
    time. A picture and its counts do not depend on it. */
 typedef enum HdPipeline {
     HD_PIPELINE_AUTO,
@@ -31,7 +31,7 @@ enum {
     HD_MAX_LAUNCH_MS = 10000
 };
 
-/* X(lanes): how many rays a bundle may have; and the same in words. */
+/* X(lanes): how many rays a packet may have; and the same in words. */
 #define HD_LANE_COUNTS(X)       X(1) X(4) X(8) X(16)
 #define HD_LANE_COUNTS_IN_WORDS "1, 4, 8 or 16"
 

@@ -33,10 +33,10 @@ HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
     *renderer = NULL;
     if (!hd_render_options_are_possible(options))
         return hd_fail(error, HD_BAD_INPUT, "no device can have such lanes, threads or launches");
-    const char *obstacle = hd_device_obstacle(device, options);
-    if (obstacle != NULL)
+    const char *unsupported_reason = hd_device_unsupported_reason(device, options);
+    if (unsupported_reason != NULL)
         return hd_fail(error, HD_UNAVAILABLE, "%s: %s cannot do this: %s", device->backend->name,
-                       device->name, obstacle);
+                       device->name, unsupported_reason);
     HdRenderer *opened = calloc(1, sizeof *opened);
     if (!opened)
         return HD_NO_ROOM(error, "a renderer");
@@ -69,7 +69,7 @@ bool hd_renderer_change_to_wavefront(HdRenderer *renderer) {
     waves.pipeline = HD_PIPELINE_WAVEFRONT;
     if (hd_pipeline_is_wavefront(renderer->options.pipeline) ||
         renderer->options.test.keeps_pipeline ||
-        hd_device_obstacle(&renderer->device, &waves) != NULL ||
+        hd_device_unsupported_reason(&renderer->device, &waves) != NULL ||
         renderer->backend->functions->open(&renderer->device, &waves, &state, &ignored) != HD_OK)
         return false;
     renderer->backend->functions->close(renderer->state);
@@ -88,13 +88,13 @@ HdStatus hd_renderer_compute(HdRenderer *renderer, const HdProbeBatch *batch,
 
 /* Must hold for `what` to be done: tables as the renderer needs them, and few enough frames. */
 static HdStatus check_use(const HdRenderer *renderer, const char *what, HdPrecision precision,
-                          int most_in_flight, HdError *error) {
+                          int max_in_flight, HdError *error) {
     if (precision != renderer->options.precision)
         return hd_fail(error, HD_BAD_INPUT,
                        "the tables of the %s are not in the precision of the renderer", what);
-    if (renderer->in_flight > most_in_flight)
+    if (renderer->in_flight > max_in_flight)
         return hd_fail(error, HD_BAD_INPUT, "a %s came while %d frames were in flight, at most %d",
-                       what, renderer->in_flight, most_in_flight);
+                       what, renderer->in_flight, max_in_flight);
     return HD_OK;
 }
 
@@ -131,10 +131,10 @@ static HdStatus check_frame_tables(const HdRenderer *renderer, const HdFrameTabl
 }
 
 HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
-                            const HdFrameWish *wish, HdError *error) {
+                            const HdFrameRequest *request, HdError *error) {
     HD_TRY(check_frame_tables(renderer, tables, error));
     HD_TRY(check_use(renderer, "frame", tables->precision, HD_FRAMES_IN_FLIGHT - 1, error));
-    HdStatus status = renderer->backend->functions->submit(renderer->state, tables, wish, error);
+    HdStatus status = renderer->backend->functions->submit(renderer->state, tables, request, error);
     if (status == HD_OK)
         renderer->flights[renderer->in_flight++] = tables;
     return hd_renderer_fail(renderer, status, error);
@@ -184,7 +184,7 @@ void hd_renderer_drop(HdRenderer *renderer) {
 
 HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, HdFrame *frame,
                             HdError *error) {
-    static const HdFrameWish radiance = {.radiance = true};
+    static const HdFrameRequest radiance = {.radiance = true};
     HD_TRY(hd_renderer_submit(renderer, tables, &radiance, error));
     return hd_renderer_collect(renderer, frame, error);
 }

@@ -24,7 +24,7 @@ HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, H
    beside it, for too large a picture and for kernels that are neither accepted nor on trial
    (kernel_cache.h). */
 HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
-                            const HdFrameWish *wish, HdError *error);
+                            const HdFrameRequest *request, HdError *error);
 
 /* Waits for the oldest frame under way, of which there must be one, and retires it, even on
    failure. `frame` must have its size, and `rgba` unless radiance was wished for. HD_INTERRUPTED

@@ -12,9 +12,9 @@ enum {
     FRACTION_BITS = 52,
     KEPT_BITS = 11,
     BIAS = 1023,
-    LEAST_POWER = -60,
-    MOST_POWER = 130,
-    BUCKETS = (MOST_POWER - LEAST_POWER) << KEPT_BITS
+    MIN_POWER = -60,
+    MAX_POWER = 130,
+    BUCKETS = (MAX_POWER - MIN_POWER) << KEPT_BITS
 };
 
 HdStatus hd_quantile_create(HdQuantile *quantile, HdError *error) {
@@ -32,8 +32,8 @@ void hd_quantile_free(HdQuantile *quantile) {
 static int64_t bucket_of(double value) {
     uint64_t bits;
     memcpy(&bits, &value, sizeof bits);
-    int64_t bucket = (int64_t)(bits >> (FRACTION_BITS - KEPT_BITS)) -
-                     ((int64_t)(BIAS + LEAST_POWER) << KEPT_BITS);
+    int64_t bucket =
+        (int64_t)(bits >> (FRACTION_BITS - KEPT_BITS)) - ((int64_t)(BIAS + MIN_POWER) << KEPT_BITS);
     if (bucket < 0)
         return 0;
     return bucket < BUCKETS ? bucket : BUCKETS - 1;

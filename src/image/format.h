@@ -35,7 +35,7 @@ typedef struct HdPictureLabel {
     uint64_t fingerprint; /* of the frame (output/fingerprint.h): by it, it is known as finished */
 } HdPictureLabel;
 
-enum { HD_MOST_FURTHER = 64 }; /* what is beyond is passed over */
+enum { HD_MAX_FURTHER = 64 }; /* what is beyond is passed over */
 
 /* Of a picture that is read row by row. */
 typedef struct HdPictureFacts {
@@ -66,8 +66,8 @@ struct HdFormat {
        NULL: nothing. */
     HdStatus (*write)(const HdFrame *frame, const HdPictureStyle *style,
                       const HdPictureLabel *label, FILE *stream, const char *path, HdError *error);
-    bool has_layers;       /* holds an alpha, and the layers that the frame has */
-    int most_encoded_bits; /* styles of more bits need the frame's radiance; those of fewer can be
+    bool has_layers;      /* holds an alpha, and the layers that the frame has */
+    int max_encoded_bits; /* styles of more bits need the frame's radiance; those of fewer can be
                               written of one that is encoded, on the style's curve */
 
     /* Of pictures that bear fingerprints, by which frames are known as finished: reads one of 8

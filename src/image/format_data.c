@@ -109,6 +109,6 @@ static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t si
 const HdFormat hd_format_data = {
     .name = "the data format",
     .write = write,
-    .most_encoded_bits = 16,
+    .max_encoded_bits = 16,
     .decode = decode,
 };

@@ -263,11 +263,11 @@ static HdStatus write_frame(const HdFrame *frame, const HdPictureStyle *style,
    and those further channels that are so too. */
 typedef struct ExrRows {
     File file;
-    int top, width, height, next;       /* of the data window, `next` counts from its top */
-    int lines;                          /* of a chunk */
-    int channels;                       /* that are taken */
-    const char *names[HD_MOST_FURTHER]; /* of those beside r, g, b; the library's */
-    float *values;                      /* owned; of a chunk */
+    int top, width, height, next;      /* of the data window, `next` counts from its top */
+    int lines;                         /* of a chunk */
+    int channels;                      /* that are taken */
+    const char *names[HD_MAX_FURTHER]; /* of those beside r, g, b; the library's */
+    float *values;                     /* owned; of a chunk */
     exr_decode_pipeline_t pipeline;
     bool has_pipeline;
 } ExrRows;
@@ -326,7 +326,7 @@ static bool find_channels(ExrRows *rows, const exr_attr_chlist_t *list, int *bit
         if (is_light && channel->pixel_type == EXR_PIXEL_FLOAT)
             *bits = 32;
         found += is_light;
-        if (!is_light && is_taken && rows->channels < CHANNELS + HD_MOST_FURTHER)
+        if (!is_light && is_taken && rows->channels < CHANNELS + HD_MAX_FURTHER)
             rows->names[rows->channels++ - CHANNELS] = channel->name.str;
     }
     return found == CHANNELS;
@@ -483,7 +483,7 @@ const HdFormat hd_format_exr = {
     .name = "OpenEXR",
     .write = write_frame,
     .has_layers = true,
-    .most_encoded_bits = 0,
+    .max_encoded_bits = 0,
     .begins = begins,
     .open_rows = open_rows,
     .next_row = next_row,

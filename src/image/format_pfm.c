@@ -124,7 +124,7 @@ static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
 const HdFormat hd_format_pfm = {
     .name = "PFM",
     .write = write,
-    .most_encoded_bits = 0,
+    .max_encoded_bits = 0,
     .begins = begins,
     .open_rows = open_rows,
     .next_row = next_row,

@@ -438,7 +438,7 @@ static HdStatus next_row(void *rows, float *rgb, HdError *error) {
 const HdFormat hd_format_png = {
     .name = "PNG",
     .write = write_frame,
-    .most_encoded_bits = 8,
+    .max_encoded_bits = 8,
     .load = load,
     .decode = decode,
     .begins = begins,

@@ -45,7 +45,7 @@ static int first_floats_of(unsigned layers) {
     const unsigned middles = HD_LAYER_BIT(HD_LAYER_DEPTH) | HD_LAYER_BIT(HD_LAYER_NORMAL) |
                              HD_LAYER_BIT(HD_LAYER_OBJECT);
     if ((layers & middles) != 0)
-        return HD_MOST_FIRST_FLOATS;
+        return HD_MAX_FIRST_FLOATS;
     return (layers & HD_LAYER_BIT(HD_LAYER_ALPHA)) != 0 ? 1 : 0;
 }
 

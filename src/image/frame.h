@@ -26,14 +26,14 @@ typedef enum HdLayer {
 extern const char *const hd_layer_names[]; /* by HdLayer; NULL ends them */
 
 /* What is wanted of a frame's pixels. */
-typedef struct HdFrameWish {
+typedef struct HdFrameRequest {
     bool radiance;   /* `rgb` must be filled */
     HdCurve curve;   /* without it: 8 bits on this curve will do, where the device makes them */
     unsigned layers; /* what `first` and `effort` must have room for */
-} HdFrameWish;
+} HdFrameRequest;
 
 /* Of a pixel; those of surveyed scenes. */
-enum { HD_RADIANCE_FLOATS = 3, HD_SURVEY_FLOATS = 4 };
+enum { HD_RADIANCE_FLOATS = 3, HD_BOUNDED_FLOATS = 4 };
 
 /* Of HdFrame.first: alpha alone, or all that is known of the first hit, in this order. */
 enum {
@@ -44,7 +44,7 @@ enum {
     HD_FIRST_OBJECT = HD_FIRST_NORMAL + 3, /* its number, from 1 on: solids in the scene's order,
                                               the floor if there is one, then meshes. Depth, normal
                                               and number are 0 where nothing is met */
-    HD_MOST_FIRST_FLOATS
+    HD_MAX_FIRST_FLOATS
 };
 
 /* Of HdFrame.effort. */
@@ -52,7 +52,7 @@ enum { HD_EFFORT_SAMPLES, HD_EFFORT_BOUND, HD_EFFORT_FLOATS };
 
 typedef struct HdFrame {
     int width, height;
-    int floats;      /* of a pixel: HD_RADIANCE_FLOATS or HD_SURVEY_FLOATS */
+    int floats;      /* of a pixel: HD_RADIANCE_FLOATS or HD_BOUNDED_FLOATS */
     float *rgb;      /* owned; width * height * floats, row by row from the top; radiance times
                         exposure; of surveyed scenes also a bound of what was left out */
     uint8_t *rgba;   /* owned; width * height * 4: r, g, b and an alpha of 255, as hd_curve_encode8
@@ -67,7 +67,7 @@ typedef struct HdFrame {
     bool has_bound;        /* of a surveyed scene: what was left out, in steps of 255 */
     double largest_bound, mean_bound;
     unsigned layers;  /* of HD_LAYER_BIT, that there is room for */
-    int first_floats; /* of a pixel in `first`: 0, 1 or HD_MOST_FIRST_FLOATS */
+    int first_floats; /* of a pixel in `first`: 0, 1 or HD_MAX_FIRST_FLOATS */
     float *first;     /* owned; what the eye's rays meet first; NULL: not asked for */
     float *effort;    /* owned; HD_EFFORT_FLOATS for each pixel: its samples, and of surveyed scenes
                          by how many steps of 255 it can be off at most for what was left out; NULL:

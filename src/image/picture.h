@@ -78,7 +78,7 @@ typedef struct HdPictureValue {
 typedef struct HdPictureReader HdPictureReader;
 
 /* Opens a regular file and reads its head. PNG: every kind that is not interlaced; alpha is
-   dropped. OpenEXR: a part of lines with R, G and B; and up to HD_MOST_FURTHER other channels. PFM:
+   dropped. OpenEXR: a part of lines with R, G and B; and up to HD_MAX_FURTHER other channels. PFM:
    in colour, of either byte order. HD_BAD_INPUT, with the file's name and what was expected, where
    it is something else. */
 HdStatus hd_picture_reader_open(HdPictureReader **reader, const char *path, HdError *error);

@@ -50,8 +50,8 @@ static void leave(HdSceneChecker *checker) {
 
 /* Values */
 
-static void tell_value(HdSceneChecker *checker, const char *what, double value,
-                       const char *expected) {
+static void report_value(HdSceneChecker *checker, const char *what, double value,
+                         const char *expected) {
     tell(checker, "%s is %.15g, expected %s", what, value, expected);
 }
 
@@ -178,7 +178,7 @@ static bool paths_keep_apart(const HdPath *eye, const HdPath *target) {
 }
 
 /* Tells the first frame that has no camera. */
-static void check_flight(HdSceneChecker *checker, const HdScene *scene) {
+static void check_camera_path(HdSceneChecker *checker, const HdScene *scene) {
     const bool stands_still = scene->eye.is_fixed && scene->target.is_fixed;
     const int frames = stands_still ? 1 : scene->frame_count;
     HdStatus status = HD_OK;
@@ -232,13 +232,13 @@ void hd_check_material(HdSceneChecker *checker, const HdMaterial *material, bool
     if (material->has_inner_side)
         check_sum(checker, "inner ", material->inner_reflection, material->inner_transmission);
     if (!may_refract && material->index_of_refraction != 1.0)
-        tell_value(checker, "index of refraction", material->index_of_refraction,
-                   "1, since only a solid's faces can refract");
+        report_value(checker, "index of refraction", material->index_of_refraction,
+                     "1, since only a solid's faces can refract");
 }
 
 static void check_opaque(HdSceneChecker *checker, const char *what, double transmission) {
     if (transmission > 0.0)
-        tell_value(checker, what, transmission, "0, since rims are opaque");
+        report_value(checker, what, transmission, "0, since rims are opaque");
 }
 
 static void check_rim_material(HdSceneChecker *checker, const HdMaterial *rim) {
@@ -270,7 +270,7 @@ static void check_rim_width(HdSceneChecker *checker, const HdSolid *solid,
         return;
     snprintf(expected, sizeof expected,
              "at least 0 and less than the radius of the circle in a face, %.6g", limit);
-    tell_value(checker, "rim width", solid->rim_width, expected);
+    report_value(checker, "rim width", solid->rim_width, expected);
 }
 
 static void check_edge_lights(HdSceneChecker *checker, const HdEdgeLights *lights) {
@@ -350,15 +350,15 @@ static bool check_light_count(HdSceneChecker *checker, int per_edge, int count, 
 
 static void check_all_lights(HdSceneChecker *checker, const HdScene *scene) {
     int lights = scene->light_count;
-    bool is_told = scene->light_count > HD_MAX_LIGHTS;
+    bool is_reported = scene->light_count > HD_MAX_LIGHTS;
     for (int i = 0; i < checker->solid_count; i++) {
         if (!has_sound_lights(&scene->solids[i]))
             continue;
         const int count = hd_edge_light_count(&scene->solids[i]);
         lights += count;
-        is_told |= check_light_count(checker, scene->solids[i].lights.per_edge, count, i);
+        is_reported |= check_light_count(checker, scene->solids[i].lights.per_edge, count, i);
     }
-    if (!is_told && lights > HD_MAX_LIGHTS)
+    if (!is_reported && lights > HD_MAX_LIGHTS)
         tell(checker, "number of lights, those on the edges included, is %d, expected at most %d",
              lights, (int)HD_MAX_LIGHTS);
 }
@@ -539,7 +539,7 @@ void hd_check_scene(HdSceneChecker *checker, const HdScene *scene) {
     check_floor(checker, &scene->floor);
     hd_check_instances(checker, scene);
     enter(checker, "", "camera");
-    check_flight(checker, scene);
+    check_camera_path(checker, scene);
     leave(checker);
     if (!checker->is_any_solid_wrong)
         check_overlaps(checker, scene);

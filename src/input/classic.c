@@ -193,7 +193,7 @@ static void leave(Reader *reader) {
     reader->where[0] = '\0';
 }
 
-static void read_flight(Reader *reader, const char *name, HdCylinderPath *path) {
+static void read_cylinder_path(Reader *reader, const char *name, HdCylinderPath *path) {
     enter(reader, name, 0);
     read_number(reader, "r0", &path->r0);
     read_number(reader, "z0", &path->z0);
@@ -236,7 +236,7 @@ static void fill_solid(HdSolid *solid) {
 
 static void read_solid(Reader *reader, HdSolidKind kind, int number, HdSolid *solid) {
     /* So many on an edge reach the limit even on the solid with the fewest edges. */
-    static const int most_per_edge = HD_MAX_LIGHTS / 6;
+    static const int max_per_edge = HD_MAX_LIGHTS / 6;
     solid->kind = kind;
     solid->face = classic_material();
     enter(reader, "solid", number);
@@ -245,7 +245,7 @@ static void read_solid(Reader *reader, HdSolidKind kind, int number, HdSolid *so
     read_number(reader, "radius", &solid->circumradius);
     read_share(reader, "reflection", &solid->face.reflection);
     read_share(reader, "transparency", &solid->face.transmission);
-    read_int(reader, "number of lights per edge", 0, most_per_edge, &solid->lights.per_edge);
+    read_int(reader, "number of lights per edge", 0, max_per_edge, &solid->lights.per_edge);
     leave(reader);
     fill_solid(solid);
 }
@@ -317,8 +317,8 @@ static void read_input(Reader *reader, const HdSolidKind *kinds, HdSceneFile *in
     read_int(reader, "width", 1, HD_MAX_IMAGE_SIDE, &scene->width);
     read_int(reader, "height", 1, HD_MAX_IMAGE_SIDE, &scene->height);
     read_number(reader, "field of view", &scene->field_of_view_degrees);
-    read_flight(reader, "eye", &scene->eye.cylinder);
-    read_flight(reader, "target", &scene->target.cylinder);
+    read_cylinder_path(reader, "eye", &scene->eye.cylinder);
+    read_cylinder_path(reader, "target", &scene->target.cylinder);
     read_solids(reader, kinds, scene);
     read_floor(reader, input);
     read_lights(reader, scene);
@@ -402,7 +402,7 @@ static void print_vector(FILE *out, HdVec3 v) {
     print_numbers(out, values, 3);
 }
 
-static void print_flight(FILE *out, const HdCylinderPath *path) {
+static void print_cylinder_path(FILE *out, const HdCylinderPath *path) {
     const double base[3] = {path->r0, path->z0, path->phi0};
     const double amplitudes[2] = {path->r_amplitude, path->z_amplitude};
     const double frequencies[3] = {path->r_frequency, path->z_frequency, path->phi_frequency};
@@ -482,8 +482,8 @@ HdStatus hd_classic_print(FILE *out, const HdSceneFile *input, HdError *error) {
             scene->height);
     print_number(out, scene->field_of_view_degrees);
     putc('\n', out);
-    print_flight(out, &scene->eye.cylinder);
-    print_flight(out, &scene->target.cylinder);
+    print_cylinder_path(out, &scene->eye.cylinder);
+    print_cylinder_path(out, &scene->target.cylinder);
     for (int i = 0; i < HD_CLASSIC_SOLIDS; i++)
         print_solid(out, &scene->solids[i]);
     print_floor(out, &scene->floor, input->texture_path);

@@ -73,8 +73,7 @@ static const HdField image_fields[] = {
         "What may be left out of a pixel, in steps of 255: depth, cutoff and lights follow from "
         "it; "
         "0: off"),
-     NUMBER(0.0, HD_MAX_ERROR), .least_but_zero = HD_LEAST_ERROR, .said = "max_error",
-     DEFAULT(0.0)},
+     NUMBER(0.0, HD_MAX_ERROR), .least_but_zero = HD_MIN_ERROR, .said = "max_error", DEFAULT(0.0)},
     {AT(HdScene, exposure, "exposure", "What every pixel is multiplied by"),
      NUMBER(0.0, HD_MAX_EXPOSURE), .above_low = true, DEFAULT(1.0)},
 };

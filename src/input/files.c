@@ -61,7 +61,7 @@ typedef struct Loader {
     HdScene *scene;
     HdProblems *problems, *notes;
     HdError *error;
-    double room;      /* bytes that files may still take */
+    double capacity;  /* bytes that files may still take */
     int *first_entry; /* for each mesh the number of the first entry that names it */
 } Loader;
 
@@ -132,15 +132,16 @@ static HdStatus place_instances(Loader *loader) {
     const HdMeshEntry **sorted = malloc(count * sizeof(const HdMeshEntry *));
     loader->first_entry = calloc(count, sizeof *loader->first_entry);
     scene->instances = calloc(count, sizeof *scene->instances);
-    const bool has_room = sorted != NULL && loader->first_entry != NULL && scene->instances != NULL;
-    if (has_room) {
+    const bool has_memory =
+        sorted != NULL && loader->first_entry != NULL && scene->instances != NULL;
+    if (has_memory) {
         scene->instance_count = (int)count;
         for (size_t i = 0; i < count; i++)
             scene->instances[i] = loader->file->mesh_entries[i].instance;
         number_meshes(loader, sorted);
     }
     free(sorted);
-    return has_room ? HD_OK : fail_memory(loader);
+    return has_memory ? HD_OK : fail_memory(loader);
 }
 
 /* Files */
@@ -164,14 +165,14 @@ static void flatten(HdMesh *mesh) {
 
 static HdStatus read_mesh(Loader *loader, HdMesh *mesh, const HdMeshEntry *entry) {
     char path[HD_MAX_PATH];
-    const double room = fmin(fmax(loader->room, 0.0), (double)(SIZE_MAX / 2));
+    const double capacity = fmin(fmax(loader->capacity, 0.0), (double)(SIZE_MAX / 2));
     HD_TRY(hd_path_expand_home(entry->file, path, loader->error));
-    HD_TRY(hd_mesh_read_obj(mesh, path, (size_t)room, loader->notes, loader->error));
+    HD_TRY(hd_mesh_read_obj(mesh, path, (size_t)capacity, loader->notes, loader->error));
     if (entry->normals == HD_NORMALS_FLAT)
         flatten(mesh);
     if (entry->normals == HD_NORMALS_SMOOTH)
         HD_TRY(hd_mesh_smooth(mesh, entry->crease_degrees, loader->error));
-    loader->room -= bytes_of(mesh);
+    loader->capacity -= bytes_of(mesh);
     return HD_OK;
 }
 
@@ -213,8 +214,8 @@ static HdStatus read_picture(Loader *loader, const char *path, int *number) {
         return status;
     const double pixels = (double)picture->texture.width * picture->texture.height;
     *number = loader->scene->picture_count++;
-    loader->room -= pixels * 3 * sizeof *picture->texture.texels;
-    if (loader->room < 0.0)
+    loader->capacity -= pixels * 3 * sizeof *picture->texture.texels;
+    if (loader->capacity < 0.0)
         hd_problem(loader->problems,
                    "meshes: their files up to the texture %s take more memory than they may: one "
                    "of %d parts of what this machine has",
@@ -225,7 +226,7 @@ static HdStatus read_picture(Loader *loader, const char *path, int *number) {
 static HdStatus read_pictures(Loader *loader, HdMeshMaterial **textured, size_t count) {
     int number = -1;
     qsort(textured, count, sizeof(HdMeshMaterial *), compare_textures);
-    for (size_t i = 0; i < count && loader->room >= 0.0; i++) {
+    for (size_t i = 0; i < count && loader->capacity >= 0.0; i++) {
         if (i == 0 || compare_textures(&textured[i - 1], &textured[i]) != 0)
             HD_TRY(read_picture(loader, textured[i]->texture, &number));
         textured[i]->picture = number;
@@ -240,12 +241,13 @@ static HdStatus load_pictures(Loader *loader) {
         most += (size_t)scene->meshes[i].material_count;
     HdMeshMaterial **textured = malloc(most * sizeof(HdMeshMaterial *));
     scene->pictures = calloc(most, sizeof *scene->pictures);
-    const bool has_room = textured != NULL && scene->pictures != NULL;
-    for (int i = 0; i < scene->mesh_count && has_room; i++)
+    const bool has_memory = textured != NULL && scene->pictures != NULL;
+    for (int i = 0; i < scene->mesh_count && has_memory; i++)
         for (int k = 0; k < scene->meshes[i].material_count; k++)
             if (scene->meshes[i].materials[k].texture != NULL)
                 textured[count++] = &scene->meshes[i].materials[k];
-    const HdStatus status = has_room ? read_pictures(loader, textured, count) : fail_memory(loader);
+    const HdStatus status =
+        has_memory ? read_pictures(loader, textured, count) : fail_memory(loader);
     free(textured);
     return status;
 }
@@ -272,7 +274,8 @@ HdStatus hd_scene_file_load_meshes(HdSceneFile *file, HdProblems *problems, HdPr
                      .problems = problems,
                      .notes = notes != NULL ? notes : &unwanted,
                      .error = error,
-                     .room = fmin(hd_physical_memory() / HD_MESH_MEMORY_PART, HD_MAX_MESH_MEMORY)};
+                     .capacity =
+                         fmin(hd_physical_memory() / HD_MESH_MEMORY_PART, HD_MAX_MESH_MEMORY)};
     if (file->mesh_entry_count == 0)
         return HD_OK;
     HdStatus status = load(&loader);

@@ -115,12 +115,12 @@ static bool is_plain(const char *key) {
 size_t hd_json_path_key(char path[HD_JSON_PATH_SIZE], const char *key) {
     char quoted[HD_WORDS_SIZE];
     const size_t length = strlen(path);
-    const size_t room = HD_JSON_PATH_SIZE - length;
+    const size_t capacity = HD_JSON_PATH_SIZE - length;
     if (is_plain(key)) {
-        snprintf(path + length, room, "%s%s", length > 0 ? "." : "", key);
+        snprintf(path + length, capacity, "%s%s", length > 0 ? "." : "", key);
     } else {
         hd_quoted(key, quoted);
-        snprintf(path + length, room, "[%s]", quoted);
+        snprintf(path + length, capacity, "[%s]", quoted);
     }
     return length;
 }

@@ -28,8 +28,8 @@ enum { HD_LEAF_SHIFT = 4, HD_MAX_LEAF = 15, HD_MAX_HIERARCHY_ITEMS = (1 << 27) -
 enum { HD_MAX_HIERARCHY_DEPTH = 64 };
 
 typedef struct HdHierarchyOptions {
-    float node_cost;  /* of visiting a node, in units of testing an item; at least 0 */
-    int most_in_leaf; /* 1 .. HD_MAX_LEAF */
+    float node_cost; /* of visiting a node, in units of testing an item; at least 0 */
+    int max_in_leaf; /* 1 .. HD_MAX_LEAF */
 } HdHierarchyOptions;
 
 /* Node 0 is the root. A parent comes before its children, which follow it depth first. */

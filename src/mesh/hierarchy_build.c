@@ -14,10 +14,10 @@
    of items depend on the number of threads: every partition is stable. Nor does anything depend on
    the caller's floating-point environment: what is rounded is computed by the threads. */
 enum {
-    MOST_PIECES = 256, /* of a level, about */
-    LEAST_PIECE = 4096,
-    MOST_TASKS = MOST_PIECES * HD_MAX_HIERARCHY_DEPTH + 1,
-    MOST_CHUNKS = 2 * MOST_PIECES
+    MAX_PIECES = 256, /* of a level, about */
+    MIN_PIECE = 4096,
+    MAX_TASKS = MAX_PIECES * HD_MAX_HIERARCHY_DEPTH + 1,
+    MAX_CHUNKS = 2 * MAX_PIECES
 };
 
 /* A node of the top: a child that is not negative is another one, otherwise it is ~ a task. */
@@ -54,12 +54,12 @@ typedef struct Chunk {
 
 /* What the top of the hierarchy is built of; it has a fixed size. */
 typedef struct Top {
-    TopNode nodes[MOST_TASKS];
-    Task tasks[MOST_TASKS];
-    Task *turns[MOST_TASKS];    /* the tasks in the order in which they are begun */
-    Open opens[2][MOST_PIECES]; /* of a level and the next, by turns */
-    Chunk chunks[MOST_CHUNKS];
-    HdBins bins[MOST_CHUNKS]; /* of each chunk */
+    TopNode nodes[MAX_TASKS];
+    Task tasks[MAX_TASKS];
+    Task *turns[MAX_TASKS];    /* the tasks in the order in which they are begun */
+    Open opens[2][MAX_PIECES]; /* of a level and the next, by turns */
+    Chunk chunks[MAX_CHUNKS];
+    HdBins bins[MAX_CHUNKS]; /* of each chunk */
 } Top;
 
 typedef struct Build {
@@ -405,9 +405,9 @@ HdStatus hd_hierarchy_build(HdHierarchy *hierarchy, const HdBox *boxes, int coun
                             const HdHierarchyOptions *options, HdThreadPool *pool, HdError *error) {
     Build build = {
         .boxes = boxes, .count = count, .options = options, .pool = pool, .error = error};
-    build.piece = (count + MOST_PIECES - 1) / MOST_PIECES;
-    if (build.piece < LEAST_PIECE)
-        build.piece = LEAST_PIECE;
+    build.piece = (count + MAX_PIECES - 1) / MAX_PIECES;
+    if (build.piece < MIN_PIECE)
+        build.piece = MIN_PIECE;
     *hierarchy = (HdHierarchy){0};
     const HdStatus status = build_all(&build, hierarchy);
     free(build.memory);

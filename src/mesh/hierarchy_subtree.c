@@ -90,7 +90,7 @@ HdSplit hd_bins_choose(const HdBins *bins, const HdBinning *binning) {
     return split;
 }
 
-enum { MOST_SWEPT = 12 };
+enum { MAX_SWEPT = 12 };
 
 /* Adds a node and returns its number. */
 static int add_node(HdSubtree *subtree, int axis, const HdBounds *left, const HdBounds *right) {
@@ -114,7 +114,7 @@ static HdBranch join(HdSubtree *subtree, const HdGroup *group, int number, HdBra
     const float area = hd_bounds_area(&group->box, subtree->unit);
     const HdBranch leaf = leaf_of(group, area);
     const float cost = options->node_cost * area + left.cost + right.cost;
-    if (group->count <= options->most_in_leaf && !(cost < leaf.cost)) {
+    if (group->count <= options->max_in_leaf && !(cost < leaf.cost)) {
         subtree->node_count = number;
         return leaf;
     }
@@ -126,7 +126,7 @@ static HdBranch join(HdSubtree *subtree, const HdGroup *group, int number, HdBra
 
 bool hd_group_is_deep(const HdGroup *group, const HdHierarchyOptions *options) {
     int levels = 0;
-    for (int count = group->count; count > options->most_in_leaf; count -= count / 2)
+    for (int count = group->count; count > options->max_in_leaf; count -= count / 2)
         levels++;
     return group->depth + levels > HD_MAX_HIERARCHY_DEPTH;
 }
@@ -198,9 +198,9 @@ static int divide(const HdSubtree *subtree, const HdGroup *group, HdGroup sides[
    axis, so that a split reorders within its range only. */
 typedef struct Sweep {
     HdSubtree *subtree;
-    HdItem items[MOST_SWEPT];
-    float centre[MOST_SWEPT][4];
-    uint8_t sorted[3][MOST_SWEPT];
+    HdItem items[MAX_SWEPT];
+    float centre[MAX_SWEPT][4];
+    uint8_t sorted[3][MAX_SWEPT];
 } Sweep;
 
 /* By insertion, so stable. */
@@ -241,13 +241,13 @@ static HdBounds bound_range(const Sweep *sweep, const uint8_t *sorted, int count
 
 /* Puts the items of the first `left_count` places on `axis` first on the other axes too. */
 static void divide_sweep(Sweep *sweep, int begin, int count, int axis, int left_count) {
-    bool is_left[MOST_SWEPT];
+    bool is_left[MAX_SWEPT];
     for (int i = 0; i < count; i++)
         is_left[sweep->sorted[axis][begin + i]] = i < left_count;
     for (int other = 0; other < 3; other++) {
         if (other == axis)
             continue;
-        uint8_t *sorted = sweep->sorted[other] + begin, right[MOST_SWEPT];
+        uint8_t *sorted = sweep->sorted[other] + begin, right[MAX_SWEPT];
         int lefts = 0, rights = 0;
         for (int i = 0; i < count; i++) {
             const uint8_t item = sorted[i];
@@ -280,7 +280,7 @@ static int choose(const Sweep *sweep, int begin, int count, int *left_count) {
     *left_count = count / 2;
     if (count == 2)
         return farthest_axis(sweep, begin);
-    HdLanes below[MOST_SWEPT], above[MOST_SWEPT];
+    HdLanes below[MAX_SWEPT], above[MAX_SWEPT];
     sum_costs(below, sweep, begin, count, 1);
     sum_costs(above, sweep, begin, count, -1);
     HdBest best = hd_best_none();
@@ -313,7 +313,7 @@ static HdBranch build_sweep(Sweep *sweep, const HdGroup *group, int begin) {
     return join(sweep->subtree, group, number, first, second);
 }
 
-/* As hd_subtree_build for at most MOST_SWEPT items, which are divided at the best of all places
+/* As hd_subtree_build for at most MAX_SWEPT items, which are divided at the best of all places
    between them. It does not look at the depth. */
 static HdBranch sweep_group(HdSubtree *subtree, const HdGroup *group) {
     HdItem *items = subtree->items + group->first;
@@ -334,7 +334,7 @@ static HdBranch sweep_group(HdSubtree *subtree, const HdGroup *group) {
 
 HdBranch hd_subtree_build(HdSubtree *subtree, const HdGroup *group) {
     /* A sweep of n items makes at most n - 1 nodes below each other. */
-    if (group->count <= MOST_SWEPT && group->depth + group->count <= HD_MAX_HIERARCHY_DEPTH)
+    if (group->count <= MAX_SWEPT && group->depth + group->count <= HD_MAX_HIERARCHY_DEPTH)
         return sweep_group(subtree, group);
     if (group->count == 1 || group->depth > HD_MAX_HIERARCHY_DEPTH)
         return leaf_of(group, hd_bounds_area(&group->box, subtree->unit));

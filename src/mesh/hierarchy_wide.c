@@ -7,10 +7,10 @@
 #include "mesh/hierarchy.h"
 #include "system/machine.h"
 
-enum { MOST_WIDTH = 16 };
+enum { MAX_WIDTH = 16 };
 
 /* A wide node waits for at most width - 1 others on each level above its own. */
-enum { MOST_WAITING = HD_MAX_HIERARCHY_DEPTH * (MOST_WIDTH - 1) + 1 };
+enum { MAX_WAITING = HD_MAX_HIERARCHY_DEPTH * (MAX_WIDTH - 1) + 1 };
 
 /* A node of the binary hierarchy that becomes a wide one. */
 typedef struct Waiting {
@@ -39,8 +39,8 @@ static double half_area(const HdBox *box) {
 /* The places of one wide node's children, in the order of their items. */
 typedef struct Children {
     int count;
-    int32_t places[MOST_WIDTH];
-    double areas[MOST_WIDTH]; /* negative: it cannot be opened */
+    int32_t places[MAX_WIDTH];
+    double areas[MAX_WIDTH]; /* negative: it cannot be opened */
 } Children;
 
 /* Puts the children of `node` where it has been, at `at`. */
@@ -79,7 +79,7 @@ static Children gather(const HdHierarchy *hierarchy, int node, int width) {
 
 /* Decides on all wide nodes, depth first. */
 static void merge(HdWideHierarchy *wide, const HdHierarchy *hierarchy) {
-    Waiting waiting[MOST_WAITING];
+    Waiting waiting[MAX_WAITING];
     int waiting_count = 0;
     waiting[waiting_count++] = (Waiting){0, 1};
     while (waiting_count > 0) {

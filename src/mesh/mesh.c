@@ -62,8 +62,8 @@ static void find_box(const HdMesh *mesh, HdVec3 *lower, HdVec3 *upper) {
         }
 }
 
-/* Relative costs of a node and a triangle, measured with bundles of 16 rays. */
-static const HdHierarchyOptions tree_options = {.node_cost = 1.0f, .most_in_leaf = 8};
+/* Relative costs of a node and a triangle, measured with packets of 16 rays. */
+static const HdHierarchyOptions tree_options = {.node_cost = 1.0f, .max_in_leaf = 8};
 
 /* The float below a number, never denormal, which many processors multiply a hundred times as
    slowly. */

@@ -121,7 +121,7 @@ bool hd_polygon_cut(const HdVec3 *corners, int count, int32_t (*triangles)[3]);
 /* ---- Wavefront OBJ ---- */
 
 /* The most bytes of a line, continued ones together; comments may be longer. */
-enum { HD_OBJ_MOST_LINE = 65000 };
+enum { HD_OBJ_MAX_LINE = 65000 };
 
 /* Reads the file at `path`, with the MTL files it names, which lie beside it or below. Polygons
    become triangles. Materials become ours by the table in docs/formats.md: Kd colour (and what
@@ -134,10 +134,10 @@ enum { HD_OBJ_MOST_LINE = 65000 };
 
    A file that cannot be read, is no OBJ, has no faces or none with an area, names vertices that it
    does not have, has numbers that are not finite or beyond HD_MAX_NUMBER, or would take more than
-   `most_bytes` of memory while it is read, the mesh included, is an error (HD_BAD_INPUT) that names
+   `max_bytes` of memory while it is read, the mesh included, is an error (HD_BAD_INPUT) that names
    the file and, where there is one, the line. HD_FAILED: the system has too little memory. After an
    error the mesh is empty. */
-HdStatus hd_mesh_read_obj(HdMesh *mesh, const char *path, size_t most_bytes, HdProblems *notes,
+HdStatus hd_mesh_read_obj(HdMesh *mesh, const char *path, size_t max_bytes, HdProblems *notes,
                           HdError *error);
 
 #endif

@@ -8,7 +8,7 @@
 #include "mesh/obj_reading.h"
 #include "system/path.h"
 
-enum { NO_ILLUM = -1, MOST_ILLUM = 10, MOST_NOTED = 32, MOST_LIBRARIES = 64 };
+enum { NO_ILLUM = -1, MAX_ILLUM = 10, MAX_NOTED = 32, MAX_LIBRARIES = 64 };
 
 /* The parameters that count, named as in the file. */
 typedef struct Parameters {
@@ -39,7 +39,7 @@ typedef struct Libraries {
     Definition *definitions;      /* of each */
     int32_t *order; /* numbers of those that are defined, in the order of the libraries */
     int defined_count;
-    const char *names[MOST_LIBRARIES]; /* of those that were asked for */
+    const char *names[MAX_LIBRARIES]; /* of those that were asked for */
     int count;
 } Libraries;
 
@@ -51,10 +51,10 @@ typedef struct Reader {
                       end */
     size_t line;
     bool is_in_material;
-    bool has_dissolve;        /* the material has d, so Tr does not count */
-    Definition *material;     /* which is being defined; */
-    Definition unused;        /* this one, where it is not wanted */
-    HdSpan noted[MOST_NOTED]; /* statements whose first use has been told */
+    bool has_dissolve;       /* the material has d, so Tr does not count */
+    Definition *material;    /* which is being defined; */
+    Definition unused;       /* this one, where it is not wanted */
+    HdSpan noted[MAX_NOTED]; /* statements whose first use has been told */
     int noted_count;
 } Reader;
 
@@ -276,10 +276,10 @@ static void keep_transparency(Reader *reader, HdSpan keyword, HdSpan line) {
 static void keep_illum(Reader *reader, HdSpan line) {
     double value;
     const HdSpan word = hd_next_word(&line);
-    if (hd_number_fault(word, &value) != NULL || value < 0.0 || value > MOST_ILLUM ||
+    if (hd_number_fault(word, &value) != NULL || value < 0.0 || value > MAX_ILLUM ||
         value != (int)value)
         note(reader, "illum is '%.*s', expected 0 to %d; the line is left out", hd_span_shown(word),
-             word.begin, (int)MOST_ILLUM);
+             word.begin, (int)MAX_ILLUM);
     else
         reader->material->parameters.illum = (int)value;
 }
@@ -315,7 +315,7 @@ static void leave_out(Reader *reader, HdSpan keyword) {
         if (hd_span_size(reader->noted[i]) == size &&
             memcmp(reader->noted[i].begin, keyword.begin, size) == 0)
             return;
-    if (reader->noted_count == MOST_NOTED)
+    if (reader->noted_count == MAX_NOTED)
         return;
     reader->noted[reader->noted_count++] = keyword;
     if (hd_name_fault(keyword) == NULL)
@@ -391,7 +391,7 @@ static bool admit(Libraries *libraries, const char *name) {
     for (int i = 0; i < libraries->count; i++)
         if (strcmp(libraries->names[i], name) == 0)
             return false;
-    if (libraries->count == MOST_LIBRARIES)
+    if (libraries->count == MAX_LIBRARIES)
         fault = "no more than 64 libraries";
     if (fault != NULL) {
         hd_problem(libraries->notes, "%s: the material library '%.*s' is not read, expected %s",
@@ -407,8 +407,8 @@ static void read_file(Libraries *libraries, const char *path, const char *name) 
     size_t size;
     HdError problem;
     HdObjMemory *memory = libraries->memory;
-    const size_t room = memory->most - memory->used;
-    const int64_t most = room < INT32_MAX ? (int64_t)room : INT32_MAX;
+    const size_t capacity = memory->most - memory->used;
+    const int64_t most = capacity < INT32_MAX ? (int64_t)capacity : INT32_MAX;
     if (hd_file_read(path, "material library", most, &bytes, &size, &problem) != HD_OK) {
         hd_problem(libraries->notes, "%s: %s", libraries->path, problem.message);
         return;

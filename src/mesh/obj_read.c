@@ -15,7 +15,7 @@ _Static_assert(sizeof(HdVec3) == 3 * sizeof(double), "three numbers of the text 
 /* An array that grows. */
 typedef struct Row {
     void *data; /* owned */
-    size_t count, room;
+    size_t count, capacity;
 } Row;
 
 /* What corners of faces refer to by number. */
@@ -47,9 +47,9 @@ typedef struct Text {
     Row faces;
     Row corners; /* of one face after the other */
     int64_t triangle_count;
-    int32_t most_corners; /* of a face */
-    HdNameTable names;    /* of materials */
-    Row libraries;        /* the bytes of their names as the file has them, each with a zero byte */
+    int32_t max_corners; /* of a face */
+    HdNameTable names;   /* of materials */
+    Row libraries;       /* the bytes of their names as the file has them, each with a zero byte */
 
     HdStatus status;  /* of the reading so far */
     int32_t material; /* -1: none has been named */
@@ -64,7 +64,7 @@ typedef struct Text {
 
 /* ---- lines ---- */
 
-enum { BUFFER_SIZE = 1 << 17, TEXT_SIZE = 2 * HD_OBJ_MOST_LINE + 1 };
+enum { BUFFER_SIZE = 1 << 17, TEXT_SIZE = 2 * HD_OBJ_MAX_LINE + 1 };
 
 static HdStatus fail_memory(const Text *text) {
     if (text->memory->is_over)
@@ -82,20 +82,20 @@ static bool fail_reading(Text *text, const char *reason) {
     return false;
 }
 
-static bool fail_room(Text *text) {
+static bool fail_allocation(Text *text) {
     text->status = fail_memory(text);
     return false;
 }
 
 /* Puts copies of `count` elements of `size` bytes behind those of the row. */
 static inline bool append(Text *text, Row *row, size_t size, size_t count, const void *elements) {
-    if (count > row->room - row->count) {
-        const size_t room = row->room + row->room / 2 + count + 16;
-        void *grown = hd_obj_resize(text->memory, row->data, size, row->room, room);
+    if (count > row->capacity - row->count) {
+        const size_t capacity = row->capacity + row->capacity / 2 + count + 16;
+        void *grown = hd_obj_resize(text->memory, row->data, size, row->capacity, capacity);
         if (grown == NULL)
-            return fail_room(text);
+            return fail_allocation(text);
         row->data = grown;
-        row->room = room;
+        row->capacity = capacity;
     }
     memcpy((char *)row->data + row->count * size, elements, count * size);
     row->count += count;
@@ -139,7 +139,7 @@ static bool open_text(Text *text) {
     text->buffer = hd_obj_allocate(text->memory, BUFFER_SIZE, 1);
     text->line = hd_obj_allocate(text->memory, TEXT_SIZE, 1);
     if (text->buffer == NULL || text->line == NULL)
-        return fail_room(text);
+        return fail_allocation(text);
     text->next = text->end = text->buffer;
     if (has_next(text) && text->end - text->next >= 3 && memcmp(text->next, "\xef\xbb\xbf", 3) == 0)
         text->next += 3;
@@ -166,9 +166,9 @@ static size_t take_bytes(Text *text, char *line) {
     do {
         for (at = text->next; at < text->end && *at != '\n' && *at != '\r' && *at != '\0'; at++)
             continue;
-        const size_t size = (size_t)(at - text->next), room = HD_OBJ_MOST_LINE + 1 - length;
-        memcpy(line + length, text->next, size < room ? size : room);
-        length += size < room ? size : room;
+        const size_t size = (size_t)(at - text->next), capacity = HD_OBJ_MAX_LINE + 1 - length;
+        memcpy(line + length, text->next, size < capacity ? size : capacity);
+        length += size < capacity ? size : capacity;
         text->next = at;
     } while (at == text->end && has_next(text));
     return length;
@@ -187,11 +187,11 @@ static bool join_line(Text *text, size_t *used) {
     if (is_comment(text->line + *used, length))
         length = 0;
     *used += length;
-    if (length > HD_OBJ_MOST_LINE)
-        return fail_at(text, text->lines_read, "it is longer than %d bytes", HD_OBJ_MOST_LINE);
-    if (*used > HD_OBJ_MOST_LINE)
+    if (length > HD_OBJ_MAX_LINE)
+        return fail_at(text, text->lines_read, "it is longer than %d bytes", HD_OBJ_MAX_LINE);
+    if (*used > HD_OBJ_MAX_LINE)
         return fail_at(text, text->line_number,
-                       "with those that continue it, it is longer than %d bytes", HD_OBJ_MOST_LINE);
+                       "with those that continue it, it is longer than %d bytes", HD_OBJ_MAX_LINE);
     const char end = has_next(text) ? *text->next++ : '\n';
     if (end == '\0')
         return fail_at(text, text->lines_read, "it has a byte 0, so this is no OBJ file");
@@ -217,8 +217,8 @@ static bool next_line(Text *text, HdSpan *line) {
 /* ---- statements ---- */
 
 enum {
-    MOST_DIGITS = 9, /* of a number of an element; ten might leave the range of int32_t */
-    MOST_ELEMENTS = 322 * 1000 * 1000 /* of a kind */
+    MAX_DIGITS = 9, /* of a number of an element; ten might leave the range of int32_t */
+    MAX_ELEMENTS = 322 * 1000 * 1000 /* of a kind */
 };
 
 static const struct {
@@ -263,8 +263,8 @@ static bool keep_numbers(Text *text, Kind kind, HdSpan line) {
         numbers[i] = (double)(float)numbers[i];
     }
     Row *row = &text->elements[kind].row;
-    if (row->count == MOST_ELEMENTS)
-        return fail_line(text, "there are more than %d %s", (int)MOST_ELEMENTS, kinds[kind].plural);
+    if (row->count == MAX_ELEMENTS)
+        return fail_line(text, "there are more than %d %s", (int)MAX_ELEMENTS, kinds[kind].plural);
     return append(text, row, (size_t)kinds[kind].most * sizeof *numbers, 1, numbers);
 }
 
@@ -276,7 +276,7 @@ static const char *read_index(const char *at, const char *end, bool *has_digits,
     if (is_negative)
         at++;
     for (; at < end && *at >= '0' && *at <= '9'; at++) {
-        if (++digits > MOST_DIGITS)
+        if (++digits > MAX_DIGITS)
             return NULL;
         value = 10 * value + (*at - '0');
     }
@@ -335,7 +335,7 @@ static bool keep_corner(Text *text, HdSpan word) {
 static bool set_material(Text *text, HdSpan name) {
     const int number = hd_name_table_add(&text->names, name, text->memory);
     if (number == HD_NAME_NO_MEMORY)
-        return fail_room(text);
+        return fail_allocation(text);
     if (number == HD_NAME_TOO_MANY)
         return fail_line(text, "there are more materials than fit, expected at most %d",
                          (int)HD_MAX_MESH_MATERIALS);
@@ -358,8 +358,8 @@ static bool keep_face(Text *text, HdSpan line) {
     if (!append(text, &text->faces, sizeof(Face), 1, &(Face){count, text->material}))
         return false;
     text->triangle_count += count - 2;
-    if (count > text->most_corners)
-        text->most_corners = count;
+    if (count > text->max_corners)
+        text->max_corners = count;
     if (text->triangle_count > HD_MAX_MESH_TRIANGLES)
         return fail_line(text, "there are more than %d triangles", (int)HD_MAX_MESH_TRIANGLES);
     return true;
@@ -444,7 +444,7 @@ static HdStatus read_text(Text *text) {
 static void *take_numbers(Text *text, Kind kind) {
     Row *row = &text->elements[kind].row;
     const size_t size = (size_t)kinds[kind].most * sizeof(double);
-    void *fitting = hd_obj_resize(text->memory, row->data, size, row->room, row->count);
+    void *fitting = hd_obj_resize(text->memory, row->data, size, row->capacity, row->count);
     void *numbers = fitting != NULL ? fitting : row->data;
     row->data = NULL;
     return numbers;
@@ -518,7 +518,8 @@ typedef struct Polygon {
     int32_t (*triangles)[3];
 } Polygon;
 
-static bool cut_face(HdMesh *mesh, const Polygon *room, const Corner *corners, const Face *face) {
+static bool cut_face(HdMesh *mesh, const Polygon *capacity, const Corner *corners,
+                     const Face *face) {
     static const int32_t in_order[3] = {0, 1, 2};
     const int count = face->corner_count;
     if (count == 3) {
@@ -526,19 +527,19 @@ static bool cut_face(HdMesh *mesh, const Polygon *room, const Corner *corners, c
         return true;
     }
     for (int i = 0; i < count; i++)
-        room->points[i] = mesh->vertices[corners[i].element[VERTEX]];
-    if (!hd_polygon_cut(room->points, count, room->triangles))
+        capacity->points[i] = mesh->vertices[corners[i].element[VERTEX]];
+    if (!hd_polygon_cut(capacity->points, count, capacity->triangles))
         return false;
     for (int i = 0; i < count - 2; i++)
-        add_triangle(mesh, corners, room->triangles[i], face->material);
+        add_triangle(mesh, corners, capacity->triangles[i], face->material);
     return true;
 }
 
-static HdStatus add_faces(const Text *text, HdMesh *mesh, const Polygon *room) {
+static HdStatus add_faces(const Text *text, HdMesh *mesh, const Polygon *capacity) {
     const Corner *corners = text->corners.data;
     for (size_t i = 0; i < text->faces.count; i++) {
         const Face *face = (const Face *)text->faces.data + i;
-        if (!cut_face(mesh, room, corners, face))
+        if (!cut_face(mesh, capacity, corners, face))
             return hd_fail(text->error, HD_BAD_INPUT,
                            "%s: face %zu is not convex and has %d corners, expected at most %d",
                            text->path, i + 1, (int)face->corner_count, (int)HD_MAX_CONCAVE_CORNERS);
@@ -549,14 +550,14 @@ static HdStatus add_faces(const Text *text, HdMesh *mesh, const Polygon *room) {
 
 static HdStatus take_faces(const Text *text, HdMesh *mesh) {
     HdObjMemory *memory = text->memory;
-    const size_t most = (size_t)text->most_corners;
-    const Polygon room = {hd_obj_allocate(memory, most, sizeof *room.points),
-                          hd_obj_allocate(memory, most, sizeof *room.triangles)};
-    const bool has_room =
-        room.points != NULL && room.triangles != NULL && allocate_triangles(text, mesh);
-    const HdStatus status = has_room ? add_faces(text, mesh, &room) : fail_memory(text);
-    free(room.points);
-    free(room.triangles);
+    const size_t most = (size_t)text->max_corners;
+    const Polygon capacity = {hd_obj_allocate(memory, most, sizeof *capacity.points),
+                              hd_obj_allocate(memory, most, sizeof *capacity.triangles)};
+    const bool has_memory =
+        capacity.points != NULL && capacity.triangles != NULL && allocate_triangles(text, mesh);
+    const HdStatus status = has_memory ? add_faces(text, mesh, &capacity) : fail_memory(text);
+    free(capacity.points);
+    free(capacity.triangles);
     return status;
 }
 
@@ -574,9 +575,9 @@ static HdStatus take_mesh(Text *text, HdMesh *mesh) {
     return HD_OK;
 }
 
-HdStatus hd_mesh_read_obj(HdMesh *mesh, const char *path, size_t most_bytes, HdProblems *notes,
+HdStatus hd_mesh_read_obj(HdMesh *mesh, const char *path, size_t max_bytes, HdProblems *notes,
                           HdError *error) {
-    HdObjMemory memory = {.most = most_bytes};
+    HdObjMemory memory = {.most = max_bytes};
     Text text = {.path = path, .memory = &memory, .notes = notes, .error = error};
     *mesh = (HdMesh){0};
     HdStatus status = read_text(&text);

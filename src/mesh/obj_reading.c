@@ -35,19 +35,19 @@ void hd_obj_release(HdObjMemory *memory, void *array, size_t bytes) {
 /* ---- words ---- */
 
 enum {
-    MOST_SHOWN = 80,
+    MAX_SHOWN = 80,
     LONGEST_NUMBER = 64, /* longer ones might leave the range of double on their way */
-    MOST_POWER = 19      /* of ten, either way */
+    MAX_POWER = 19       /* of ten, either way */
 };
 
-static const double powers_of_ten[2 * MOST_POWER + 1] = {
+static const double powers_of_ten[2 * MAX_POWER + 1] = {
     1e-19, 1e-18, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7,
     1e-6,  1e-5,  1e-4,  1e-3,  1e-2,  1e-1,  1e0,   1e1,   1e2,   1e3,   1e4,  1e5,  1e6,
     1e7,   1e8,   1e9,   1e10,  1e11,  1e12,  1e13,  1e14,  1e15,  1e16,  1e17, 1e18, 1e19};
 
 int hd_span_shown(HdSpan span) {
     const ptrdiff_t length = span.end - span.begin;
-    int shown = length < MOST_SHOWN ? (int)length : MOST_SHOWN;
+    int shown = length < MAX_SHOWN ? (int)length : MAX_SHOWN;
     while (shown > 0 && shown < length && ((unsigned char)span.begin[shown] & 0xc0) == 0x80)
         shown--;
     return shown;
@@ -131,9 +131,9 @@ const char *hd_number_fault(HdSpan word, double *value) {
         at = read_power(at, word.end, &power);
     if (at != word.end)
         return "a decimal number";
-    const bool is_lost = power < -MOST_POWER || power > MOST_POWER;
+    const bool is_lost = power < -MAX_POWER || power > MAX_POWER;
     if (power != 0 && *value != 0.0)
-        *value *= is_lost ? pow(10.0, power) : powers_of_ten[power + MOST_POWER];
+        *value *= is_lost ? pow(10.0, power) : powers_of_ten[power + MAX_POWER];
     if (*value > HD_MAX_NUMBER)
         return "a number from -1e12 to 1e12";
     if (is_lost && *value >= HD_MIN_LENGTH)

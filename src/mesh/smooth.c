@@ -11,7 +11,7 @@
 enum {
     /* Of triangles at one edge each is compared with so many that follow: proper meshes have two,
        and thousands at one edge shall not take millions of comparisons. */
-    MOST_AT_EDGE = 16
+    MAX_AT_EDGE = 16
 };
 
 /* What rounding may take from the cosine between two normals. */
@@ -35,12 +35,12 @@ typedef struct Edge {
 
 typedef struct Smoother {
     const HdMesh *mesh;
-    double least_cosine;
+    double min_cosine;
     int place_count;
     int32_t *place_of; /* of each vertex */
     int32_t *begin;    /* of each place, into corners; one more for the end */
     int32_t *corners;  /* place by place */
-    int most_incidents;
+    int max_incidents;
     Incident *incidents;
     Edge *edges;
     HdVec3 *normals;
@@ -100,8 +100,8 @@ static void list_corners(Smoother *smoother) {
     for (int32_t i = 0; i < corner_count; i++)
         begin[place_at(smoother, i) + 1]++;
     for (int i = 0; i < smoother->place_count; i++) {
-        if (begin[i + 1] > smoother->most_incidents)
-            smoother->most_incidents = begin[i + 1];
+        if (begin[i + 1] > smoother->max_incidents)
+            smoother->max_incidents = begin[i + 1];
         begin[i + 1] += begin[i];
     }
     for (int32_t i = 0; i < corner_count; i++)
@@ -158,11 +158,11 @@ static void unite_at_edges(const Smoother *smoother, int edge_count) {
     const Edge *edges = smoother->edges;
     Incident *incidents = smoother->incidents;
     for (int i = 0; i < edge_count; i++) {
-        for (int j = i + 1; j < edge_count && j <= i + MOST_AT_EDGE; j++) {
+        for (int j = i + 1; j < edge_count && j <= i + MAX_AT_EDGE; j++) {
             if (edges[j].other != edges[i].other)
                 break;
             const Incident *a = &incidents[edges[i].incident], *b = &incidents[edges[j].incident];
-            if (hd_dot(a->normal, b->normal) >= smoother->least_cosine)
+            if (hd_dot(a->normal, b->normal) >= smoother->min_cosine)
                 unite(incidents, edges[i].incident, edges[j].incident);
         }
     }
@@ -228,7 +228,7 @@ static bool prepare(Smoother *smoother) {
         smoother->normals == NULL || smoother->corner_normals == NULL || !find_places(smoother))
         return false;
     list_corners(smoother);
-    const size_t most = (size_t)smoother->most_incidents;
+    const size_t most = (size_t)smoother->max_incidents;
     smoother->incidents = allocate(most, sizeof *smoother->incidents);
     smoother->edges = allocate(2 * most, sizeof *smoother->edges);
     return smoother->incidents != NULL && smoother->edges != NULL;
@@ -247,7 +247,7 @@ static void take_normals(Smoother *smoother, HdMesh *mesh) {
     smoother->corner_normals = NULL;
 }
 
-static double least_cosine(double crease_degrees) {
+static double min_cosine(double crease_degrees) {
     double sine, cosine;
     if (crease_degrees >= 180.0)
         return -2.0; /* below every cosine: nothing creases */
@@ -256,7 +256,7 @@ static double least_cosine(double crease_degrees) {
 }
 
 HdStatus hd_mesh_smooth(HdMesh *mesh, double crease_degrees, HdError *error) {
-    Smoother smoother = {.mesh = mesh, .least_cosine = least_cosine(crease_degrees)};
+    Smoother smoother = {.mesh = mesh, .min_cosine = min_cosine(crease_degrees)};
     HdStatus status = HD_OK;
     if (prepare(&smoother)) {
         for (int i = 0; i < smoother.place_count; i++)

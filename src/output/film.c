@@ -48,7 +48,7 @@ HdStatus hd_segments_find(HdSegments *segments, const HdOutputPlan *plan, const 
     HD_TRY(hd_output_file(output, 0, segments->film, error));
     /* Whole seconds, so that the times of the frames are those of a film made in one go. */
     const int rate = plan->style.frames_per_second;
-    const int length = (HD_LEAST_SEGMENT + rate - 1) / rate * rate;
+    const int length = (HD_MIN_SEGMENT + rate - 1) / rate * rate;
     if (!plan->has_fingerprint || frames->count <= length)
         return HD_OK;
     segments->length = length;

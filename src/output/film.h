@@ -15,7 +15,7 @@
    beside it until they are joined, so that a run that was ended goes on behind them ---- */
 
 /* The fewest frames of a segment, the last one excepted: starting FFmpeg takes longer. */
-enum { HD_LEAST_SEGMENT = 24 };
+enum { HD_MIN_SEGMENT = 24 };
 
 /* What is between the film's name and a segment's. */
 #define HD_SEGMENT_INFIX ".part-"

@@ -14,9 +14,9 @@
 #include "system/machine.h"
 
 enum {
-    MOST_OPEN_PICTURES = 128, /* each takes a descriptor until it has its name, and as many wait for
+    MAX_OPEN_PICTURES = 128, /* each takes a descriptor until it has its name, and as many wait for
                                  theirs */
-    SPARE_DESCRIPTORS = 2,    /* for a folder, and statistics that are opened late */
+    SPARE_DESCRIPTORS = 2,   /* for a folder, and statistics that are opened late */
     /* More would only wait for the memory that they share. */
     MAX_ENCODERS = 16,
     /* Beside what is encoded: one is traced, one converted, one on its way to FFmpeg, one waits. */
@@ -31,7 +31,7 @@ static const size_t MAX_BYTES = (size_t)1 << 30; /* of all frames under way, for
 typedef struct Place {
     HdFrame frame;                      /* with `rgba` where films get it, or a device may encode */
     HdAtomicFile files[HD_MAX_OUTPUTS]; /* closed; no lock: not written, or handed on */
-    int tracer;
+    int worker;
     HdFrameTimes times;
     HdSpan films[HD_MAX_OUTPUTS]; /* by output */
 } Place;
@@ -264,7 +264,7 @@ static HdStatus publish(void *context, int item, HdError *error) {
     keep_waiting(waiting, place);
     waiting->stored = (HdStoredFrame){
         .number = number_of(store, item),
-        .tracer = place->tracer,
+        .worker = place->worker,
         .done = item + 1,
         .frame = &waiting->frame,
         .was_finished = was_finished(store, item),
@@ -316,12 +316,12 @@ static void list_stages(HdFrameStore *store) {
 }
 
 static bool has_image(const HdOutputPlan *outputs) {
-    return outputs->film_count > 0 || !outputs->wish.radiance;
+    return outputs->film_count > 0 || !outputs->request.radiance;
 }
 
 static size_t bytes_of_place(const HdFrameStorePlan *plan) {
     const size_t pixels = (size_t)plan->width * (size_t)plan->height;
-    const size_t layers = hd_layer_bytes(plan->outputs->wish.layers);
+    const size_t layers = hd_layer_bytes(plan->outputs->request.layers);
     return sizeof(Place) + pixels * (3 * sizeof(float) + layers) +
            (has_image(plan->outputs) ? 4 * pixels : 0);
 }
@@ -329,15 +329,15 @@ static size_t bytes_of_place(const HdFrameStorePlan *plan) {
 /* While a picture is closed it has one descriptor more. */
 static int count_places_by_descriptors(int pictures) {
     const int fitting = (hd_free_descriptors() - SPARE_DESCRIPTORS) / (2 * pictures + 1);
-    return hd_max(hd_min(fitting, MOST_OPEN_PICTURES / pictures), 1);
+    return hd_max(hd_min(fitting, MAX_OPEN_PICTURES / pictures), 1);
 }
 
 static int choose_place_count(const HdFrameStorePlan *plan) {
-    const int spare = SPARE_FRAMES + FRAMES_OF_A_TRACER * (plan->tracers - 1);
+    const int spare = SPARE_FRAMES + FRAMES_OF_A_TRACER * (plan->workers - 1);
     int wanted = hd_min(encoder_count(plan) + spare, plan->resume->all->count);
     if (picture_count(plan) > 0)
         wanted = hd_min(wanted, count_places_by_descriptors(picture_count(plan)));
-    const size_t fitting = MAX_BYTES * (size_t)plan->tracers / bytes_of_place(plan);
+    const size_t fitting = MAX_BYTES * (size_t)plan->workers / bytes_of_place(plan);
     return hd_max((int)hd_min_size(fitting, (size_t)wanted), 1);
 }
 
@@ -375,7 +375,7 @@ static HdStatus create_place(Place *place, const HdFrameStorePlan *plan, HdError
     HD_TRY(hd_frame_create(&place->frame, plan->width, plan->height, error));
     if (has_image(plan->outputs))
         HD_TRY(hd_frame_add_rgba(&place->frame, error));
-    return hd_frame_add_layers(&place->frame, plan->outputs->wish.layers, error);
+    return hd_frame_add_layers(&place->frame, plan->outputs->request.layers, error);
 }
 
 static HdStatus create_places(HdFrameStore *store, HdError *error) {
@@ -449,10 +449,10 @@ HdStages *hd_frame_store_stages(HdFrameStore *store) {
     return store->stages;
 }
 
-HdFrame *hd_frame_store_frame(HdFrameStore *store, int place, int tracer, HdFrameTimes **times) {
+HdFrame *hd_frame_store_frame(HdFrameStore *store, int place, int worker, HdFrameTimes **times) {
     static const HdSpan nothing = {.began = -1.0};
     Place *found = place_of(store, place);
-    found->tracer = tracer;
+    found->worker = worker;
     found->times = (HdFrameTimes){nothing, nothing, nothing, nothing, nothing, nothing, -1.0};
     *times = &found->times;
     return &found->frame;
@@ -471,7 +471,7 @@ static HdStatus close_films(HdFrameStore *store, HdError *error) {
     return HD_OK;
 }
 
-static void tell_interrupted(const HdFrameStore *store, HdError *error) {
+static void report_interrupted(const HdFrameStore *store, HdError *error) {
     const HdOutputPlan *outputs = store->plan.outputs;
     const bool can_resume = outputs->can_resume && outputs->has_fingerprint;
     int kept = 0; /* of the frames that were stored those that another run would not render again */
@@ -492,7 +492,7 @@ HdStatus hd_frame_store_end(HdFrameStore *store, HdStatus traced, HdError *error
         status = traced;
     if (status == HD_INTERRUPTED) {
         drop_films(store);
-        tell_interrupted(store, error);
+        report_interrupted(store, error);
     }
     if (status == HD_OK)
         status = close_films(store, error);

@@ -31,7 +31,7 @@ typedef struct HdFrameTimes {
 /* What is known once a frame is stored. */
 typedef struct HdStoredFrame {
     int number;
-    int tracer;           /* who traced it, if it was not finished */
+    int worker;           /* who traced it, if it was not finished */
     int done;             /* frames stored so far, this one included */
     const HdFrame *frame; /* without its pixels */
     bool was_finished;    /* before the run: of `frame` only the size is worth something */
@@ -43,7 +43,7 @@ typedef struct HdFrameStorePlan {
     HdResume *resume;            /* which frames are finished: the store takes these by itself, and
                                                reads them back for films */
     int width, height;
-    int tracers;  /* how many trace frames, 1 or more */
+    int workers;  /* how many trace frames, 1 or more */
     double start; /* of the run, by hd_monotonic_seconds */
     /* Called on a thread of the store after each frame is stored, in their order. Must return HD_OK
        to go on. */
@@ -63,7 +63,7 @@ HdStages *hd_frame_store_stages(HdFrameStore *store);
 
 /* A frame that was taken and has room, to be filled by the tracer that took it, its times up to
    `copy` included, before it is given. */
-HdFrame *hd_frame_store_frame(HdFrameStore *store, int place, int tracer, HdFrameTimes **times);
+HdFrame *hd_frame_store_frame(HdFrameStore *store, int place, int worker, HdFrameTimes **times);
 
 /* Waits until the frames are stored that were given or finished, those after one that failed or was
    not given excepted: they are the first ones, and no later one has left pictures. Ends the films

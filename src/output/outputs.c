@@ -84,9 +84,9 @@ static void sum_up(HdOutputPlan *plan) {
         const bool bears_fingerprints = format->load != NULL;
         plan->film_count += output->is_film;
         plan->bears_fingerprints |= bears_fingerprints;
-        plan->wish.radiance |=
-            !output->is_film && plan->style.picture.bits > format->most_encoded_bits;
-        plan->wish.layers |= format->has_layers ? HD_LAYER_BIT(HD_LAYER_ALPHA) : 0;
+        plan->request.radiance |=
+            !output->is_film && plan->style.picture.bits > format->max_encoded_bits;
+        plan->request.layers |= format->has_layers ? HD_LAYER_BIT(HD_LAYER_ALPHA) : 0;
         /* Pictures must be rendered anyway but numbered ones with fingerprints. */
         plan->can_resume &= output->is_film || (bears_fingerprints && output->is_numbered);
     }
@@ -97,7 +97,7 @@ HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int cou
     *plan = (HdOutputPlan){
         .count = count,
         .style = *style,
-        .wish = {.curve = style->picture.curve},
+        .request = {.curve = style->picture.curve},
         .scene = "",
         .options = "",
         .durability = HD_DURABLE,
@@ -111,18 +111,18 @@ HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int cou
     return HD_OK;
 }
 
-HdStatus hd_outputs_add_layers(HdOutputPlan *plan, unsigned layers, bool is_surveyed,
+HdStatus hd_outputs_add_layers(HdOutputPlan *plan, unsigned layers, bool is_bounded,
                                HdError *error) {
     if (layers == 0)
         return HD_OK;
-    if (plan->wish.layers == 0)
+    if (plan->request.layers == 0)
         return hd_fail(error, HD_BAD_INPUT,
                        "--layers is for OpenEXR: expected an output that ends in .exr");
-    if (!is_surveyed && (layers & HD_LAYER_BIT(HD_LAYER_BOUND)) != 0)
+    if (!is_bounded && (layers & HD_LAYER_BIT(HD_LAYER_BOUND)) != 0)
         return hd_fail(error, HD_BAD_INPUT,
                        "--layers has bound, which is known with --max-error, --aa adaptive or "
                        "--reference alone");
-    plan->wish.layers |= layers;
+    plan->request.layers |= layers;
     return HD_OK;
 }
 

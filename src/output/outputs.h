@@ -25,7 +25,7 @@ typedef struct HdOutputPlan {
     int count;
     int film_count;
     HdOutputStyle style;
-    HdFrameWish wish;        /* what a frame must hold for all of them */
+    HdFrameRequest request;  /* what a frame must hold for all of them */
     bool bears_fingerprints; /* some are pictures of a format that can */
     bool can_resume;         /* frames can be finished before the run (resume.h) */
     bool has_fingerprint; /* those pictures bear their frame's, and films are made by segments that
@@ -49,8 +49,8 @@ HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int cou
 
 /* Has the pictures that can hold layers get these, a set of HD_LAYER_BIT, besides alpha, which they
    always do. HD_BAD_INPUT, in terms of the option --layers, where no output can, or where they have
-   a bound and the scene is not surveyed (hd_scene_is_surveyed). */
-HdStatus hd_outputs_add_layers(HdOutputPlan *plan, unsigned layers, bool is_surveyed,
+   a bound and the scene is not surveyed (hd_scene_has_error_bound). */
+HdStatus hd_outputs_add_layers(HdOutputPlan *plan, unsigned layers, bool is_bounded,
                                HdError *error);
 
 /* Has the plan's pictures bear the fingerprint, where they can; with `resumes` those that are there

@@ -158,7 +158,7 @@ static void remove_if_stale(void *context, const char *entry) {
     char path[HD_MAX_PATH];
     if (length == 0 ||
         (!is_of_segment &&
-         hd_frame_names_place(names, entry, length, length == HD_TEMPORARY_MOST_KEPT) < 0))
+         hd_frame_names_place(names, entry, length, length == HD_TEMPORARY_MAX_KEPT) < 0))
         return;
     if (snprintf(path, sizeof path, "%s%s", names->folder, entry) < HD_MAX_PATH)
         search->is_done &= hd_temporary_remove_stale(path);
@@ -195,10 +195,10 @@ static bool remove_stale(const HdOutputPlan *plan, const HdFrameList *frames) {
 }
 
 void hd_stale_files_remove(const HdOutputPlan *plan, const HdFrameList *frames) {
-    const struct timespec glance = {.tv_nsec = 10000000};
+    const struct timespec poll_interval = {.tv_nsec = 10000000};
     for (int i = 0; i < ORPHAN_GLANCES && hd_interrupt_signal() == 0; i++) {
         if (remove_stale(plan, frames))
             return;
-        nanosleep(&glance, NULL);
+        nanosleep(&poll_interval, NULL);
     }
 }

@@ -32,7 +32,7 @@ struct HdStages {
     HdStage list[HD_MAX_STAGES];
     int next[HD_MAX_STAGES]; /* the first item that the stage has not taken */
     int count;
-    int room;
+    int capacity;
     Slot *slots;           /* by item modulo room */
     unsigned char *states; /* by item */
     int item_count;        /* at the end only those before the first that was not given */
@@ -49,7 +49,7 @@ struct HdStages {
 };
 
 static Slot *slot_of(const HdStages *stages, int item) {
-    return &stages->slots[item % stages->room];
+    return &stages->slots[item % stages->capacity];
 }
 
 static bool is_given(const HdStages *stages, int item) {
@@ -72,7 +72,7 @@ static int first_not_given(HdStages *stages) {
 static int find_work(const HdStages *stages, int stage) {
     const HdStage *what = &stages->list[stage];
     const int first = stages->next[stage];
-    int end = hd_min(stages->gone + stages->room, wanted_end(stages));
+    int end = hd_min(stages->gone + stages->capacity, wanted_end(stages));
     if (what->threads == 1)
         end = hd_min(end, first + 1);
     for (int item = first; item < end; item++) {
@@ -85,7 +85,7 @@ static int find_work(const HdStages *stages, int stage) {
 }
 
 static void take_work(HdStages *stages, int stage, int item) {
-    int end = stages->gone + stages->room;
+    int end = stages->gone + stages->capacity;
     slot_of(stages, item)->taken |= 1u << stage;
     while (stages->next[stage] < end &&
            (slot_of(stages, stages->next[stage])->taken >> stage & 1) != 0)
@@ -124,7 +124,7 @@ static void note_success(HdStages *stages, int stage, int item) {
         *slot_of(stages, stages->gone) = (Slot){0};
         stages->gone++;
         pthread_cond_broadcast(&stages->room_made);
-        if (is_given(stages, stages->gone + stages->room - 1))
+        if (is_given(stages, stages->gone + stages->capacity - 1))
             wake_first_stages(stages);
     }
 }
@@ -183,21 +183,21 @@ static void destroy(HdStages *stages) {
 }
 
 static HdStages *create(const HdStage *list, int count, int item_count, const bool *is_ready,
-                        int room) {
+                        int capacity) {
     int threads = list[0].threads;
     for (int i = 1; i < count; i++)
         threads += list[i].threads;
     HdStages *stages = calloc(1, sizeof *stages);
     if (stages == NULL)
         return NULL;
-    stages->slots = calloc((size_t)room, sizeof *stages->slots);
+    stages->slots = calloc((size_t)capacity, sizeof *stages->slots);
     stages->states = calloc((size_t)item_count + 1, sizeof *stages->states);
     stages->workers = calloc((size_t)threads, sizeof *stages->workers);
     stages->count = count;
     stages->item_count = item_count;
     for (int i = 0; i < item_count && stages->states != NULL; i++)
         stages->states[i] = is_ready[i] ? GIVEN : FREE;
-    stages->room = room;
+    stages->capacity = capacity;
     stages->limit = INT_MAX;
     memcpy(stages->list, list, (size_t)count * sizeof *list);
     pthread_mutex_init(&stages->mutex, NULL);
@@ -228,22 +228,22 @@ static int find_free(HdStages *stages) {
     return stages->first_free;
 }
 
-static bool can_take(const HdStages *stages, const HdTaker *taker, int item) {
+static bool can_claim(const HdStages *stages, const HdClaimer *claimer, int item) {
     const int end = wanted_end(stages);
     int left = 0; /* no more than there is room for need be counted */
-    if (item >= end || item >= stages->gone + stages->room + taker->ahead)
+    if (item >= end || item >= stages->gone + stages->capacity + claimer->ahead)
         return false;
-    for (int i = item; i < end && left < stages->room; i++)
+    for (int i = item; i < end && left < stages->capacity; i++)
         left += stages->states[i] == FREE;
-    return taker->wants == NULL || taker->wants(taker->context, left);
+    return claimer->wants == NULL || claimer->wants(claimer->context, left);
 }
 
-int hd_stages_take(HdStages *stages, const HdTaker *taker, bool waits) {
+int hd_stages_claim(HdStages *stages, const HdClaimer *claimer, bool waits) {
     int taken = -1;
     pthread_mutex_lock(&stages->mutex);
     while (!stages->stopped && first_not_given(stages) < wanted_end(stages)) {
         int item = find_free(stages);
-        if (can_take(stages, taker, item)) {
+        if (can_claim(stages, claimer, item)) {
             stages->states[item] = TAKEN;
             taken = item;
             break;
@@ -258,14 +258,14 @@ int hd_stages_take(HdStages *stages, const HdTaker *taker, bool waits) {
 
 bool hd_stages_wait(HdStages *stages, int item) {
     pthread_mutex_lock(&stages->mutex);
-    while (!stages->stopped && item < stages->limit && item >= stages->gone + stages->room)
+    while (!stages->stopped && item < stages->limit && item >= stages->gone + stages->capacity)
         pthread_cond_wait(&stages->room_made, &stages->mutex);
     bool is_wanted = !stages->stopped && item < stages->limit;
     pthread_mutex_unlock(&stages->mutex);
     return is_wanted;
 }
 
-void hd_stages_give(HdStages *stages, int item) {
+void hd_stages_submit(HdStages *stages, int item) {
     pthread_mutex_lock(&stages->mutex);
     stages->states[item] = GIVEN;
     wake_first_stages(stages);
@@ -273,7 +273,7 @@ void hd_stages_give(HdStages *stages, int item) {
     pthread_mutex_unlock(&stages->mutex);
 }
 
-void hd_stages_give_back(HdStages *stages, int item) {
+void hd_stages_release(HdStages *stages, int item) {
     pthread_mutex_lock(&stages->mutex);
     stages->states[item] = FREE;
     stages->first_free = hd_min(stages->first_free, item);
@@ -281,7 +281,7 @@ void hd_stages_give_back(HdStages *stages, int item) {
     pthread_mutex_unlock(&stages->mutex);
 }
 
-void hd_stages_ask_again(HdStages *stages) {
+void hd_stages_wake(HdStages *stages) {
     pthread_mutex_lock(&stages->mutex);
     pthread_cond_broadcast(&stages->room_made);
     pthread_mutex_unlock(&stages->mutex);
@@ -332,8 +332,8 @@ static void start_more(HdStages *stages) {
 }
 
 HdStatus hd_stages_start(HdStages **out, const HdStage *list, int count, int item_count,
-                         const bool *is_ready, int room, HdError *error) {
-    HdStages *stages = create(list, count, item_count, is_ready, room);
+                         const bool *is_ready, int capacity, HdError *error) {
+    HdStages *stages = create(list, count, item_count, is_ready, capacity);
     int reason = 0;
     *out = NULL;
     if (stages == NULL)

@@ -25,38 +25,38 @@ typedef struct HdStage {
 typedef struct HdStages HdStages;
 
 /* Who makes items. */
-typedef struct HdTaker {
+typedef struct HdClaimer {
     /* Whether it wants an item now; `left` items may be taken without waiting for others, 1 or
        more. NULL: always. Must not call functions of this header. */
     bool (*wants)(void *context, int left);
     void *context;
     int ahead; /* so many items more than there is room for; 0 if there are several takers */
-} HdTaker;
+} HdClaimer;
 
 /* Starts the threads of 1 to HD_MAX_STAGES stages for the items 0 to item_count - 1. At most
-   `room` items, 1 or more, are under way at a time. Nobody needs to make those that `is_ready`
+   `capacity` items, 1 or more, are under way at a time. Nobody needs to make those that `is_ready`
    says: the stages take them as if they had been given. */
 HdStatus hd_stages_start(HdStages **stages, const HdStage *list, int count, int item_count,
-                         const bool *is_ready, int room, HdError *error);
+                         const bool *is_ready, int capacity, HdError *error);
 
 /* Takes the first item that nobody has made or is making; the caller must give it, or give it back.
    Negative where there is none for this taker now; with `waits` it waits for one, and there is none
    once all items are given, those before one that failed, or the stages were stopped. */
-int hd_stages_take(HdStages *stages, const HdTaker *taker, bool waits);
+int hd_stages_claim(HdStages *stages, const HdClaimer *claimer, bool waits);
 
 /* Waits until there is room for an item that was taken: all stages are then done with the one
-   `room` before it. False where the item is not wanted any more, since it or an earlier one failed,
-   or the stages were stopped. */
+   `capacity` before it. False where the item is not wanted any more, since it or an earlier one
+   failed, or the stages were stopped. */
 bool hd_stages_wait(HdStages *stages, int item);
 
 /* Gives an item to the stages that was taken and has room. */
-void hd_stages_give(HdStages *stages, int item);
+void hd_stages_submit(HdStages *stages, int item);
 
 /* Gives an item back that was taken, so that another taker makes it. */
-void hd_stages_give_back(HdStages *stages, int item);
+void hd_stages_release(HdStages *stages, int item);
 
 /* Takers that wait are asked again whether they want something. */
-void hd_stages_ask_again(HdStages *stages);
+void hd_stages_wake(HdStages *stages);
 
 /* As if a stage had failed with the item, which was taken. */
 void hd_stages_fail(HdStages *stages, int item, const HdError *error);

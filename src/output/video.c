@@ -14,14 +14,14 @@
 #include "system/interrupt.h"
 
 enum {
-    PATIENCE_S = 600, /* HEDRON_FFMPEG_PATIENCE says otherwise */
-    MAX_PATIENCE_S = 86400,
+    TIMEOUT_S = 600, /* HEDRON_FFMPEG_PATIENCE says otherwise */
+    MAX_TIMEOUT_S = 86400,
     LAST_WORDS_MS = 3000 /* which one has that stopped reading */
 };
 
 struct HdVideo {
     HdChild ffmpeg;
-    int patience_ms; /* with FFmpeg and ffprobe */
+    int timeout_ms; /* with FFmpeg and ffprobe */
     HdVideoPlan plan;
     long frames;
     HdAtomicFile file; /* which FFmpeg writes */
@@ -69,17 +69,17 @@ static HdStatus start_ffmpeg(HdVideo *video, const char *ffmpeg, HdError *error)
     return hd_child_start(&video->ffmpeg, arguments, true, video->file.lock, error);
 }
 
-static HdStatus read_patience(int *milliseconds, HdError *error) {
+static HdStatus read_timeout(int *milliseconds, HdError *error) {
     const char *text = getenv("HEDRON_FFMPEG_PATIENCE");
     char *end;
-    *milliseconds = 1000 * PATIENCE_S;
+    *milliseconds = 1000 * TIMEOUT_S;
     if (text == NULL || text[0] == '\0')
         return HD_OK;
     const long wanted = strtol(text, &end, 10);
-    if (*end != '\0' || wanted < 1 || wanted > MAX_PATIENCE_S)
+    if (*end != '\0' || wanted < 1 || wanted > MAX_TIMEOUT_S)
         return hd_fail(error, HD_BAD_INPUT,
                        "HEDRON_FFMPEG_PATIENCE is '%.200s', expected whole seconds from 1 to %d",
-                       text, MAX_PATIENCE_S);
+                       text, MAX_TIMEOUT_S);
     *milliseconds = 1000 * (int)wanted;
     return HD_OK;
 }
@@ -87,14 +87,14 @@ static HdStatus read_patience(int *milliseconds, HdError *error) {
 /* FFmpeg is given a name that exists: so it is taken against other processes. */
 static HdStatus open_film(HdVideo *video, const char *path, HdError *error) {
     char ffmpeg[HD_MAX_PATH];
-    HD_TRY(read_patience(&video->patience_ms, error));
+    HD_TRY(read_timeout(&video->timeout_ms, error));
     HD_TRY(hd_child_find("ffmpeg", ffmpeg, error));
     HD_TRY(hd_child_find("ffprobe", video->ffprobe, error));
     HD_TRY(hd_atomic_file_reserve(&video->file, path, error));
     HD_TRY(start_ffmpeg(video, ffmpeg, error));
     /* Where FFmpeg does not take it, it does not take the first part either. */
     if (video->plan.is_joined)
-        hd_child_send(&video->ffmpeg, join_head, sizeof join_head - 1, video->patience_ms);
+        hd_child_send(&video->ffmpeg, join_head, sizeof join_head - 1, video->timeout_ms);
     return HD_OK;
 }
 
@@ -130,7 +130,7 @@ static HdStatus fail_stuck(const HdVideo *video, const char *program, const char
         error, HD_FAILED,
         "%s stood still for %d s %s of %s and was ended (HEDRON_FFMPEG_PATIENCE sets the "
         "seconds); it said: %s",
-        program, video->patience_ms / 1000, when, video->file.path, hd_child_said(child));
+        program, video->timeout_ms / 1000, when, video->file.path, hd_child_said(child));
 }
 
 static HdStatus fail_early(HdVideo *video, HdError *error) {
@@ -148,7 +148,7 @@ static HdStatus fail_early(HdVideo *video, HdError *error) {
 /* Blocks while FFmpeg is busy. */
 static HdStatus send(HdVideo *video, const void *bytes, size_t size, HdError *error) {
     char when[64];
-    if (hd_child_send(&video->ffmpeg, bytes, size, video->patience_ms))
+    if (hd_child_send(&video->ffmpeg, bytes, size, video->timeout_ms))
         return HD_OK;
     if (hd_interrupt_signal() != 0)
         return fail_interrupted(video, "FFmpeg", error);
@@ -197,7 +197,7 @@ HdStatus hd_video_add_part(HdVideo *video, const char *path, int frames, HdError
 
 static HdStatus end_ffmpeg(HdVideo *video, HdError *error) {
     char how[64];
-    if (hd_child_end(&video->ffmpeg, video->patience_ms, how))
+    if (hd_child_end(&video->ffmpeg, video->timeout_ms, how))
         return HD_OK;
     if (hd_interrupt_signal() != 0)
         return fail_interrupted(video, "FFmpeg", error);
@@ -218,7 +218,7 @@ static HdStatus count_frames(HdVideo *video, HdError *error) {
         "-show_entries", "stream=nb_read_packets", "-of", "csv=p=0", target, NULL};
     /* clang-format on */
     HD_TRY(hd_child_start(&ffprobe, arguments, false, -1, error));
-    bool done = hd_child_end(&ffprobe, video->patience_ms, how);
+    bool done = hd_child_end(&ffprobe, video->timeout_ms, how);
     if (!done && hd_interrupt_signal() != 0)
         return fail_interrupted(video, "ffprobe", error);
     if (ffprobe.is_stuck)

@@ -8,7 +8,7 @@
 #include "base/growth.h"
 #include "base/minmax.h"
 #include "kernels/host/shared.h"
-#include "render/survey.h"
+#include "render/bound_pass.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
 #include "tables/table.h"
@@ -30,10 +30,10 @@
 
 /* How often samples spread to neighbours, and to which share of the picture at least: a pass of
    fewer pixels keeps a GPU waiting as long as one of many. */
-enum { MOST_SPREADS = 4, LEAST_SPREAD = 1000 };
+enum { MAX_SPREADS = 4, MIN_SPREAD = 1000 };
 
 /* More would wait for one another longer than they have work. */
-enum { MOST_THREADS = 16 };
+enum { MAX_THREADS = 16 };
 
 typedef struct Codes {
     uint8_t rgb[3];
@@ -49,16 +49,16 @@ typedef struct Pixel {
 
 typedef struct HdRefinement {
     HdThreadPool *threads;
-    HdSurveyor surveyor; /* of the scene; its sums are the frame */
+    HdBoundPasses passes; /* of the scene; its sums are the frame */
     HdSampleSet samples;
     int width, height;
-    int *order; /* of the pixels: blocks of neighbours together, as bundles like it */
+    int *order; /* of the pixels: blocks of neighbours together, as packets like it */
     Pixel *pixels;
     int *chosen;   /* pixels of the pass */
     double *steps; /* of 255, that a pixel may miss */
-    HdSurveyRequest *requests;
-    HdSurvey *surveys;
-    int request_room, survey_room;
+    HdBoundRequest *requests;
+    HdBoundedMean *means;
+    int request_capacity, mean_capacity;
     HdWatched left; /* of the frame, that no pass was given */
 } HdRefinement;
 
@@ -66,14 +66,14 @@ static void free_refinement(HdRefinement *r) {
     if (r == NULL)
         return;
     hd_thread_pool_destroy(r->threads);
-    hd_surveyor_free(&r->surveyor);
+    hd_bound_passes_free(&r->passes);
     hd_sample_set_free(&r->samples);
     free(r->order);
     free(r->pixels);
     free(r->chosen);
     free(r->steps);
     free(r->requests);
-    free(r->surveys);
+    free(r->means);
     free(r);
 }
 
@@ -98,13 +98,13 @@ static HdStatus fill_refinement(HdRefinement *r, const HdFrameMaker *maker, HdEr
     r->height = scene->height;
     HD_TRY(scene->sampling == HD_SAMPLING_REFERENCE ? hd_sample_set_dense(&r->samples, side, error)
                                                     : hd_sample_set_grid(&r->samples, side, error));
-    HD_TRY(hd_thread_pool_create(&r->threads, hd_min(hd_processor_count(), MOST_THREADS), error));
-    r->surveyor = (HdSurveyor){.scene = scene,
-                               .renderer = maker->renderer,
-                               .samples = &r->samples,
-                               .curve = maker->wish.curve,
-                               .most_left_out = hd_most_left_out(scene),
-                               .threads = r->threads};
+    HD_TRY(hd_thread_pool_create(&r->threads, hd_min(hd_processor_count(), MAX_THREADS), error));
+    r->passes = (HdBoundPasses){.scene = scene,
+                                .renderer = maker->renderer,
+                                .samples = &r->samples,
+                                .curve = maker->request.curve,
+                                .max_left_out = hd_max_left_out(scene),
+                                .threads = r->threads};
     r->order = calloc(pixels, sizeof *r->order);
     r->pixels = calloc(pixels, sizeof *r->pixels);
     r->chosen = calloc(pixels, sizeof *r->chosen);
@@ -118,7 +118,7 @@ static HdStatus fill_refinement(HdRefinement *r, const HdFrameMaker *maker, HdEr
 /* ---- what is known of a pixel ---- */
 
 static double error_aimed_at(const HdRefinement *r) {
-    double limit = r->surveyor.scene->max_error;
+    double limit = r->passes.scene->max_error;
     return limit > 0.0 ? limit : USUAL_ERROR;
 }
 
@@ -131,7 +131,7 @@ static int greatest_difference(Codes a, Codes b) {
 
 static Codes encode(const HdRefinement *r, const float rgb[3]) {
     Codes codes;
-    hd_curve_encode8(r->surveyor.curve, rgb, 3, codes.rgb);
+    hd_curve_encode8(r->passes.curve, rgb, 3, codes.rgb);
     return codes;
 }
 
@@ -145,29 +145,29 @@ static void widen(Codes *least, Codes *most, Codes codes) {
 
 /* Whether surveys of `samples` samples each differ much. The pixel's own until now are a part as
    well, unless they are fewer. */
-static bool are_uneven(const HdRefinement *r, const Pixel *pixel, const HdSurvey *surveys,
+static bool are_uneven(const HdRefinement *r, const Pixel *pixel, const HdBoundedMean *means,
                        int count, int samples) {
-    Codes first = encode(r, surveys[0].rgb), least = first, most = first;
+    Codes first = encode(r, means[0].rgb), least = first, most = first;
     for (int i = 1; i < count; i++)
-        widen(&least, &most, encode(r, surveys[i].rgb));
+        widen(&least, &most, encode(r, means[i].rgb));
     if (pixel->samples >= samples)
         widen(&least, &most, pixel->codes);
     return greatest_difference(least, most) > PART_CONTRAST * error_aimed_at(r);
 }
 
-static void add_surveys(const HdRefinement *r, Pixel *pixel, const HdSurvey *surveys, int count,
-                        int samples) {
+static void add_means(const HdRefinement *r, Pixel *pixel, const HdBoundedMean *means, int count,
+                      int samples) {
     double total = pixel->samples + (double)count * samples;
-    pixel->is_uneven = count > 1 && are_uneven(r, pixel, surveys, count, samples);
+    pixel->is_uneven = count > 1 && are_uneven(r, pixel, means, count, samples);
     for (int channel = 0; channel < 3; channel++) {
         double sum = (double)pixel->mean[channel] * pixel->samples;
         for (int i = 0; i < count; i++)
-            sum += (double)surveys[i].rgb[channel] * samples;
+            sum += (double)means[i].rgb[channel] * samples;
         pixel->mean[channel] = (float)(sum / total);
     }
     double bound = (double)pixel->bound * pixel->samples;
     for (int i = 0; i < count; i++)
-        bound += (double)surveys[i].bound * samples;
+        bound += (double)means[i].bound * samples;
     pixel->bound = (float)(bound / total);
     pixel->samples = (int)total;
     pixel->codes = encode(r, pixel->mean);
@@ -184,12 +184,12 @@ typedef struct Pass {
 static void request_samples(void *context, int first, int end) {
     const Pass *pass = context;
     const HdRefinement *r = pass->refinement;
-    HdSurveyRequest *request = &r->requests[(size_t)first * (size_t)pass->parts];
+    HdBoundRequest *request = &r->requests[(size_t)first * (size_t)pass->parts];
     for (int i = first; i < end; i++) {
         int x = r->chosen[i] % r->width, y = r->chosen[i] / r->width;
         const int packed = (int)((uint32_t)y << 16 | (uint32_t)x); /* the sign is the row's, too */
         for (int p = 0; p < pass->parts; p++)
-            *request++ = (HdSurveyRequest){packed, pass->from + p * pass->each};
+            *request++ = (HdBoundRequest){packed, pass->from + p * pass->each};
     }
 }
 
@@ -200,8 +200,7 @@ static void add_samples(void *context, int first, int end) {
         Pixel *pixel = &r->pixels[r->chosen[i]];
         if (pass->from == 0)
             *pixel = (Pixel){0};
-        add_surveys(r, pixel, &r->surveys[(size_t)i * (size_t)pass->parts], pass->parts,
-                    pass->each);
+        add_means(r, pixel, &r->means[(size_t)i * (size_t)pass->parts], pass->parts, pass->each);
     }
 }
 
@@ -215,18 +214,18 @@ static HdStatus sample_chosen(HdRefinement *r, int count, int from, int samples,
     if (count > INT_MAX / parts)
         return hd_fail(error, HD_FAILED, "%d pixels are too many for adaptive sampling", count);
     const int all = count * parts;
-    r->requests = hd_reserved(r->requests, sizeof *r->requests, all, &r->request_room);
-    r->surveys = hd_reserved(r->surveys, sizeof *r->surveys, all, &r->survey_room);
-    if (r->requests == NULL || r->surveys == NULL)
+    r->requests = hd_reserved(r->requests, sizeof *r->requests, all, &r->request_capacity);
+    r->means = hd_reserved(r->means, sizeof *r->means, all, &r->mean_capacity);
+    if (r->requests == NULL || r->means == NULL)
         return HD_NO_ROOM(error, "surveys of %d pixels", all);
     hd_chunks_run(r->threads, count, request_samples, &pass);
     const double own = (double)count * (samples - from);
-    const HdSurveyPass asked = {.requests = r->requests,
-                                .count = all,
-                                .samples = pass.each,
-                                .surveys = r->surveys,
-                                .watched = hd_watched_take(&r->left, own / (own + later))};
-    HD_TRY(hd_survey_pass(&r->surveyor, &asked, error));
+    const HdBoundPass asked = {.requests = r->requests,
+                               .count = all,
+                               .samples = pass.each,
+                               .means = r->means,
+                               .watched = hd_watched_take(&r->left, own / (own + later))};
+    HD_TRY(hd_bound_pass(&r->passes, &asked, error));
     hd_chunks_run(r->threads, count, add_samples, &pass);
     return HD_OK;
 }
@@ -305,9 +304,9 @@ static HdStatus refine_chosen(HdRefinement *r, int count, int samples, int level
     double later = (double)count * (r->samples.count - level);
     double spread_later = USUAL_SPREAD * count * (level - samples);
     HD_TRY(sample_chosen(r, count, samples, level, parts, later + spread_later, error));
-    for (int spread = 0; count > 0 && spread < MOST_SPREADS; spread++) {
+    for (int spread = 0; count > 0 && spread < MAX_SPREADS; spread++) {
         count = choose(r, samples, true, NEIGHBOUR_CONTRAST);
-        if ((double)count * LEAST_SPREAD < (double)r->width * r->height)
+        if ((double)count * MIN_SPREAD < (double)r->width * r->height)
             break;
         HD_TRY(sample_chosen(r, count, samples, level, parts, later, error));
     }
@@ -330,10 +329,10 @@ static HdStatus refine(HdRefinement *r, HdError *error) {
 
 static void fill_pixels(void *context, int first, int end) {
     const HdRefinement *r = context;
-    const HdFrame *frame = r->surveyor.sums;
+    const HdFrame *frame = r->passes.sums;
     for (int i = first; i < end; i++) {
         const Pixel *pixel = &r->pixels[i];
-        r->steps[i] = hd_missing_steps(r->surveyor.curve, (double)pixel->bound,
+        r->steps[i] = hd_missing_steps(r->passes.curve, (double)pixel->bound,
                                        (double)hd_darkest(pixel->mean));
         memcpy(frame->rgb + 3 * (size_t)i, pixel->mean, sizeof pixel->mean);
         if (frame->effort != NULL) {
@@ -373,14 +372,14 @@ static HdStatus find_first_hits(const HdFrameMaker *maker, const HdCamera *camer
 }
 
 /* What passes are worth to the watch is a guess, since each hangs on what comes of those before. */
-static HdStatus render_surveyed(const HdFrameMaker *maker, const HdCamera *camera, HdFrame *frame,
-                                HdError *error) {
+static HdStatus render_bounded(const HdFrameMaker *maker, const HdCamera *camera, HdFrame *frame,
+                               HdError *error) {
     HdRefinement *r = maker->refinement;
     double start = hd_monotonic_seconds();
     frame->primary_rays = frame->mirrored_rays = frame->transmitted_rays = 0;
     frame->shadow_tests = frame->clamps = 0;
-    r->surveyor.camera = camera;
-    r->surveyor.sums = frame;
+    r->passes.camera = camera;
+    r->passes.sums = frame;
     r->left = (HdWatched){maker->watch, HD_WATCH_FRAME};
     HD_TRY(maker->scene->sampling == HD_SAMPLING_ADAPTIVE ? refine(r, error)
                                                           : sample_all(r, r->samples.count, error));
@@ -397,7 +396,7 @@ static HdStatus render_surveyed(const HdFrameMaker *maker, const HdCamera *camer
 
 HdStatus hd_frame_maker_open(HdFrameMaker *maker, HdError *error) {
     maker->refinement = NULL;
-    if (!hd_scene_is_surveyed(maker->scene))
+    if (!hd_scene_has_error_bound(maker->scene))
         return HD_OK;
     maker->refinement = calloc(1, sizeof *maker->refinement);
     if (maker->refinement == NULL)
@@ -413,54 +412,56 @@ void hd_frame_maker_close(HdFrameMaker *maker) {
     maker->refinement = NULL;
 }
 
-int hd_frame_most_flights(const HdFrameMaker *maker) {
+int hd_frame_max_in_flight(const HdFrameMaker *maker) {
     return maker->refinement != NULL ? 1 : HD_FRAMES_IN_FLIGHT;
 }
 
-HdStatus hd_frame_prepare(const HdFrameMaker *maker, const HdCamera *camera, HdFlight *flight,
-                          HdError *error) {
-    *flight = (HdFlight){.camera = *camera};
+HdStatus hd_frame_prepare(const HdFrameMaker *maker, const HdCamera *camera,
+                          HdFrameInFlight *in_flight, HdError *error) {
+    *in_flight = (HdFrameInFlight){.camera = *camera};
     if (maker->refinement != NULL)
         return HD_OK;
     HdStatus status =
-        hd_compile_frame(&flight->tables, maker->scene, camera,
+        hd_compile_frame(&in_flight->tables, maker->scene, camera,
                          hd_renderer_options(maker->renderer)->precision, NULL, error);
-    flight->tables.watched = (HdWatched){maker->watch, HD_WATCH_FRAME};
+    in_flight->tables.watched = (HdWatched){maker->watch, HD_WATCH_FRAME};
     return status;
 }
 
-HdStatus hd_frame_begin(const HdFrameMaker *maker, HdFlight *flight, HdError *error) {
+HdStatus hd_frame_begin(const HdFrameMaker *maker, HdFrameInFlight *in_flight, HdError *error) {
     if (maker->refinement != NULL)
         return HD_OK;
-    HdStatus status = hd_renderer_submit(maker->renderer, &flight->tables, &maker->wish, error);
+    HdStatus status =
+        hd_renderer_submit(maker->renderer, &in_flight->tables, &maker->request, error);
     if (status != HD_OK)
-        hd_frame_tables_free(&flight->tables);
+        hd_frame_tables_free(&in_flight->tables);
     return status;
 }
 
-HdStatus hd_frame_end(const HdFrameMaker *maker, HdFlight *flight, HdFrame *frame, HdError *error) {
+HdStatus hd_frame_end(const HdFrameMaker *maker, HdFrameInFlight *in_flight, HdFrame *frame,
+                      HdError *error) {
     if (maker->refinement != NULL)
-        return render_surveyed(maker, &flight->camera, frame, error);
+        return render_bounded(maker, &in_flight->camera, frame, error);
     HdStatus status = hd_renderer_collect(maker->renderer, frame, error);
     if (status == HD_OK && frame->first != NULL)
-        status = hd_renderer_first_hits(maker->renderer, &flight->tables, frame, error);
-    hd_frame_fill_samples(frame, flight->tables.samples);
-    hd_frame_tables_free(&flight->tables);
+        status = hd_renderer_first_hits(maker->renderer, &in_flight->tables, frame, error);
+    hd_frame_fill_samples(frame, in_flight->tables.samples);
+    hd_frame_tables_free(&in_flight->tables);
     return status;
 }
 
 HdStatus hd_frame_render(const HdFrameMaker *maker, const HdCamera *camera, HdFrame *frame,
                          HdError *error) {
     HdFrameMaker own = *maker;
-    HdFlight flight;
-    own.wish.radiance = true;
+    HdFrameInFlight in_flight;
+    own.request.radiance = true;
     HdStatus status = hd_frame_maker_open(&own, error);
     if (status == HD_OK)
-        status = hd_frame_prepare(&own, camera, &flight, error);
+        status = hd_frame_prepare(&own, camera, &in_flight, error);
     if (status == HD_OK)
-        status = hd_frame_begin(&own, &flight, error);
+        status = hd_frame_begin(&own, &in_flight, error);
     if (status == HD_OK)
-        status = hd_frame_end(&own, &flight, frame, error);
+        status = hd_frame_end(&own, &in_flight, frame, error);
     hd_renderer_drop(own.renderer);
     hd_frame_maker_close(&own);
     return status;

@@ -10,7 +10,7 @@
 #include "input/classic.h"
 #include "input/files.h"
 #include "input/scene_file.h"
-#include "render/survey.h"
+#include "render/bound_pass.h"
 #include "scene/contact.h"
 #include "scene/triangulate.h"
 #include "system/interrupt.h"
@@ -112,7 +112,7 @@ HdStatus hd_scene_apply_numbers(HdScene *scene, const HdScenePlan *plan, HdError
     }
     if (plan->sampling >= 0)
         scene->sampling = (HdSampling)plan->sampling;
-    hd_survey_end_rays(scene);
+    hd_bound_pass_end_rays(scene);
     if (plan->depth >= 0)
         scene->depth = plan->depth;
     if (plan->cutoff >= 0.0)

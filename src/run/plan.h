@@ -39,7 +39,7 @@ typedef struct HdScenePlan {
 } HdScenePlan;
 
 typedef struct HdDevicePlan {
-    const char *backend, *device; /* as in HdDeviceWish */
+    const char *backend, *device; /* as in HdDeviceSelection */
     HdDeviceKind kind;
     HdRenderOptions render; /* the device's lanes, a thread for each core, float, strict */
 } HdDevicePlan;

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "render/frame.h"
-#include "run/turns.h"
+#include "run/frame_scheduler.h"
 #include "scene/camera.h"
 #include "system/atomic_file.h"
 #include "system/interrupt.h"
@@ -17,7 +17,7 @@
 
 /* One for each count of lanes. */
 #define COUNTED(lanes) +1
-enum { MOST_TABLES = 0 HD_LANE_COUNTS(COUNTED) };
+enum { MAX_TABLES = 0 HD_LANE_COUNTS(COUNTED) };
 
 typedef struct Run Run;
 
@@ -31,13 +31,13 @@ typedef struct Member {
 
 struct Run {
     const HdSequence *sequence;
-    HdTurns turns; /* its mutex is taken after the store's, never before it */
-    double start;  /* by hd_monotonic_seconds */
+    HdFrameScheduler scheduler; /* its mutex is taken after the store's, never before it */
+    double start;               /* by hd_monotonic_seconds */
     HdFrameStore *store;
     HdStages *stages; /* of the store */
-    Member members[HD_MOST_TRACERS];
+    Member members[HD_MAX_WORKERS];
     pthread_mutex_t mutex; /* of what follows */
-    HdSceneTables tables[MOST_TABLES];
+    HdSceneTables tables[MAX_TABLES];
     int table_count;
     int waiting; /* renderers that have not got the scene */
     int alive;
@@ -101,16 +101,17 @@ static HdStatus estimate_pace(Run *run, int number, HdError *error) {
         .first_frame = missing->frames[0],
         .frame_count = missing->count,
     };
-    const HdTrialWish wish = hd_trial_estimates(0.0);
+    const HdTrialRequest request = hd_trial_request(0.0);
     HdTrial trial;
     bool has_gpu = false;
-    for (int i = 0; i < run->turns.count; i++)
-        has_gpu = has_gpu || !run->turns.list[i].is_cpu;
-    if (!run->turns.list[number].is_cpu || !has_gpu || hd_scene_is_surveyed(sequence->scene))
+    for (int i = 0; i < run->scheduler.count; i++)
+        has_gpu = has_gpu || !run->scheduler.list[i].is_cpu;
+    if (!run->scheduler.list[number].is_cpu || !has_gpu ||
+        hd_scene_has_error_bound(sequence->scene))
         return HD_OK;
-    HD_TRY(hd_trial(renderer_of(run, number), &job, &wish, &trial, error));
-    hd_turns_estimate(&run->turns, number, trial.frame_seconds);
-    hd_stages_ask_again(run->stages);
+    HD_TRY(hd_trial(renderer_of(run, number), &job, &request, &trial, error));
+    hd_scheduler_estimate(&run->scheduler, number, trial.frame_seconds);
+    hd_stages_wake(run->stages);
     return HD_OK;
 }
 
@@ -124,168 +125,169 @@ static HdStatus prepare(Run *run, int number, HdError *error) {
 /* ---- a device traces frames ---- */
 
 /* A frame that the renderer works on. */
-typedef struct Flight {
+typedef struct InFlight {
     int place; /* in the list */
-    HdFlight frame;
+    HdFrameInFlight frame;
     HdSpan prepare; /* since the start of the run */
-} Flight;
+} InFlight;
 
-typedef struct Tracer {
+typedef struct Worker {
     Run *run;
     int number;
     HdFrameMaker maker;
     int begun, ended; /* frames so far */
-    Flight flights[HD_FRAMES_IN_FLIGHT];
+    InFlight in_flight[HD_FRAMES_IN_FLIGHT];
     double traced;   /* when the last frame's tracing was over */
     double finished; /* when the last frame was */
-} Tracer;
+} Worker;
 
-static double seconds_since_start(const Tracer *tracer) {
-    return hd_monotonic_seconds() - tracer->run->start;
+static double seconds_since_start(const Worker *worker) {
+    return hd_monotonic_seconds() - worker->run->start;
 }
 
-static Flight *flight_of(Tracer *tracer, int count) {
-    return &tracer->flights[count % HD_FRAMES_IN_FLIGHT];
+static InFlight *in_flight_of(Worker *worker, int count) {
+    return &worker->in_flight[count % HD_FRAMES_IN_FLIGHT];
 }
 
-static int in_flight(const Tracer *tracer) {
-    return tracer->begun - tracer->ended;
+static int count_in_flight(const Worker *worker) {
+    return worker->begun - worker->ended;
 }
 
 /* Frames are traced one after the other. One that was waited for as long as its tracing took was
    traced then; another one as soon as the device could. What a device says by its own clock may not
    agree with ours to the last digit. */
-static void note_times(Tracer *tracer, const Flight *flight, double waited_from,
+static void note_times(Worker *worker, const InFlight *in_flight, double waited_from,
                        double trace_seconds, HdFrameTimes *times) {
-    double now = seconds_since_start(tracer);
-    double prepared = flight->prepare.began + flight->prepare.seconds;
-    double began = fmax(prepared, tracer->traced);
+    double now = seconds_since_start(worker);
+    double prepared = in_flight->prepare.began + in_flight->prepare.seconds;
+    double began = fmax(prepared, worker->traced);
     if (now - waited_from >= trace_seconds)
         began = waited_from;
-    tracer->traced = fmin(began + trace_seconds, now);
-    double rest_from = fmax(tracer->traced, waited_from);
-    times->prepare = flight->prepare;
+    worker->traced = fmin(began + trace_seconds, now);
+    double rest_from = fmax(worker->traced, waited_from);
+    times->prepare = in_flight->prepare;
     times->trace = (HdSpan){began, trace_seconds};
     times->copy = (HdSpan){rest_from, now - rest_from};
 }
 
 /* Fills the oldest frame under way, which it stays. */
-static HdStatus fill_oldest(Tracer *tracer, HdError *error) {
-    Flight *flight = flight_of(tracer, tracer->ended);
+static HdStatus fill_oldest(Worker *worker, HdError *error) {
+    InFlight *in_flight = in_flight_of(worker, worker->ended);
     HdFrameTimes *times;
     HdFrame *frame =
-        hd_frame_store_frame(tracer->run->store, flight->place, tracer->number, &times);
-    double waited_from = seconds_since_start(tracer);
-    HD_TRY(hd_frame_end(&tracer->maker, &flight->frame, frame, error));
-    note_times(tracer, flight, waited_from, frame->trace_seconds, times);
-    times->longest_launch = hd_renderer_take_longest_launch(tracer->maker.renderer);
+        hd_frame_store_frame(worker->run->store, in_flight->place, worker->number, &times);
+    double waited_from = seconds_since_start(worker);
+    HD_TRY(hd_frame_end(&worker->maker, &in_flight->frame, frame, error));
+    note_times(worker, in_flight, waited_from, frame->trace_seconds, times);
+    times->longest_launch = hd_renderer_take_longest_launch(worker->maker.renderer);
     if (hd_interrupt_signal() != 0)
         return hd_fail(error, HD_INTERRUPTED, "interrupted between two frames");
     return HD_OK;
 }
 
-static void give_oldest(Tracer *tracer) {
-    const Flight *flight = flight_of(tracer, tracer->ended++);
-    double now = seconds_since_start(tracer);
-    double taken = now - fmax(flight->prepare.began, tracer->finished);
-    tracer->finished = now;
-    hd_turns_ended(&tracer->run->turns, tracer->number, taken, hd_monotonic_seconds());
-    hd_stages_give(tracer->run->stages, flight->place);
+static void give_oldest(Worker *worker) {
+    const InFlight *in_flight = in_flight_of(worker, worker->ended++);
+    double now = seconds_since_start(worker);
+    double taken = now - fmax(in_flight->prepare.began, worker->finished);
+    worker->finished = now;
+    hd_scheduler_ended(&worker->run->scheduler, worker->number, taken, hd_monotonic_seconds());
+    hd_stages_submit(worker->run->stages, in_flight->place);
 }
 
-static void give_all_back(Tracer *tracer) {
-    hd_renderer_drop(tracer->maker.renderer);
-    for (; tracer->ended < tracer->begun; tracer->ended++) {
-        Flight *flight = flight_of(tracer, tracer->ended);
-        hd_frame_tables_free(&flight->frame.tables);
-        hd_turns_ended(&tracer->run->turns, tracer->number, 0.0, hd_monotonic_seconds());
-        hd_stages_give_back(tracer->run->stages, flight->place);
+static void give_all_back(Worker *worker) {
+    hd_renderer_drop(worker->maker.renderer);
+    for (; worker->ended < worker->begun; worker->ended++) {
+        InFlight *in_flight = in_flight_of(worker, worker->ended);
+        hd_frame_tables_free(&in_flight->frame.tables);
+        hd_scheduler_ended(&worker->run->scheduler, worker->number, 0.0, hd_monotonic_seconds());
+        hd_stages_release(worker->run->stages, in_flight->place);
     }
 }
 
 /* Whether the store is told of what failed, for no device would do better. */
-static bool is_told(Tracer *tracer, int place, HdStatus status, const HdError *error) {
-    if (status == HD_INTERRUPTED || hd_renderer_has_failed(tracer->maker.renderer))
+static bool is_reported(Worker *worker, int place, HdStatus status, const HdError *error) {
+    if (status == HD_INTERRUPTED || hd_renderer_has_failed(worker->maker.renderer))
         return false;
-    hd_stages_fail(tracer->run->stages, place, error);
+    hd_stages_fail(worker->run->stages, place, error);
     return true;
 }
 
 /* Once the store wants the oldest frame no more, another tracer may still fail at an earlier one,
    which is then to be taken. */
-static HdStatus finish_oldest(Tracer *tracer, HdError *error) {
-    int place = flight_of(tracer, tracer->ended)->place;
-    if (hd_stages_wait(tracer->run->stages, place)) {
-        HdStatus status = fill_oldest(tracer, error);
+static HdStatus finish_oldest(Worker *worker, HdError *error) {
+    int place = in_flight_of(worker, worker->ended)->place;
+    if (hd_stages_wait(worker->run->stages, place)) {
+        HdStatus status = fill_oldest(worker, error);
         if (status == HD_OK) {
-            give_oldest(tracer);
+            give_oldest(worker);
             return HD_OK;
         }
-        if (!is_told(tracer, place, status, error))
+        if (!is_reported(worker, place, status, error))
             return status;
     }
-    give_all_back(tracer);
+    give_all_back(worker);
     return HD_OK;
 }
 
 static bool wants(void *context, int left) {
-    const Tracer *tracer = context;
-    return hd_turns_want(&tracer->run->turns, tracer->number, left, hd_monotonic_seconds());
+    const Worker *worker = context;
+    return hd_scheduler_wants(&worker->run->scheduler, worker->number, left,
+                              hd_monotonic_seconds());
 }
 
 /* Negative: none now. A tracer alone begins frames before there is room for them. One of several
    may be given an earlier frame than those it has begun, which others wait for: it begins what it
    can finish. */
-static int take_frame(Tracer *tracer) {
-    const HdTaker taker = {
+static int take_frame(Worker *worker) {
+    const HdClaimer claimer = {
         .wants = wants,
-        .context = tracer,
-        .ahead = tracer->run->turns.count == 1 ? HD_FRAMES_IN_FLIGHT : 0,
+        .context = worker,
+        .ahead = worker->run->scheduler.count == 1 ? HD_FRAMES_IN_FLIGHT : 0,
     };
-    if (in_flight(tracer) >= hd_frame_most_flights(&tracer->maker))
+    if (count_in_flight(worker) >= hd_frame_max_in_flight(&worker->maker))
         return -1;
-    return hd_stages_take(tracer->run->stages, &taker, in_flight(tracer) == 0);
+    return hd_stages_claim(worker->run->stages, &claimer, count_in_flight(worker) == 0);
 }
 
 /* On failure the frame is not begun; the earlier ones are still under way. */
-static HdStatus begin(Tracer *tracer, int place, HdError *error) {
-    const HdSequence *sequence = tracer->run->sequence;
-    Flight *flight = flight_of(tracer, tracer->begun);
-    double now = seconds_since_start(tracer);
+static HdStatus begin(Worker *worker, int place, HdError *error) {
+    const HdSequence *sequence = worker->run->sequence;
+    InFlight *in_flight = in_flight_of(worker, worker->begun);
+    double now = seconds_since_start(worker);
     HdCamera camera;
-    *flight = (Flight){.place = place, .prepare = {.began = now}};
+    *in_flight = (InFlight){.place = place, .prepare = {.began = now}};
     HdStatus status =
         hd_camera_at(&camera, sequence->scene, sequence->resume->all->frames[place], error);
     if (status == HD_OK)
-        status = hd_frame_prepare(&tracer->maker, &camera, &flight->frame, error);
-    flight->prepare.seconds = seconds_since_start(tracer) - now;
+        status = hd_frame_prepare(&worker->maker, &camera, &in_flight->frame, error);
+    in_flight->prepare.seconds = seconds_since_start(worker) - now;
     if (status == HD_OK)
-        status = hd_frame_begin(&tracer->maker, &flight->frame, error);
+        status = hd_frame_begin(&worker->maker, &in_flight->frame, error);
     if (status == HD_OK) {
-        tracer->begun++;
-        hd_turns_begun(&tracer->run->turns, tracer->number, hd_monotonic_seconds());
+        worker->begun++;
+        hd_scheduler_begun(&worker->run->scheduler, worker->number, hd_monotonic_seconds());
         return HD_OK;
     }
-    if (is_told(tracer, place, status, error))
+    if (is_reported(worker, place, status, error))
         return HD_OK;
-    hd_stages_give_back(tracer->run->stages, place);
+    hd_stages_release(worker->run->stages, place);
     return status;
 }
 
 /* Where the device takes no more, it may still finish what it has. */
-static HdStatus trace(Tracer *tracer, HdError *error) {
+static HdStatus trace(Worker *worker, HdError *error) {
     HdStatus status = HD_OK, beginning = HD_OK;
     HdError of_beginning;
     while (status == HD_OK) {
-        int place = beginning == HD_OK ? take_frame(tracer) : -1;
+        int place = beginning == HD_OK ? take_frame(worker) : -1;
         if (place >= 0)
-            beginning = begin(tracer, place, &of_beginning);
-        else if (in_flight(tracer) > 0)
-            status = finish_oldest(tracer, error);
+            beginning = begin(worker, place, &of_beginning);
+        else if (count_in_flight(worker) > 0)
+            status = finish_oldest(worker, error);
         else
             break;
     }
-    give_all_back(tracer);
+    give_all_back(worker);
     if (status != HD_OK || beginning == HD_OK)
         return status;
     *error = of_beginning;
@@ -299,23 +301,23 @@ static HdStatus trace(Tracer *tracer, HdError *error) {
 static HdStatus trace_frames(const Member *member, bool *is_fault_of_device, HdError *error) {
     const HdSequence *sequence = member->run->sequence;
     HdRenderer *renderer = renderer_of(member->run, member->number);
-    Tracer tracer = {.run = member->run,
+    Worker worker = {.run = member->run,
                      .number = member->number,
                      .maker = {.renderer = renderer,
                                .scene = sequence->scene,
-                               .wish = sequence->outputs->wish,
+                               .request = sequence->outputs->request,
                                .watch = sequence->watch}};
-    HD_TRY(hd_frame_maker_open(&tracer.maker, error));
-    HdStatus status = trace(&tracer, error);
+    HD_TRY(hd_frame_maker_open(&worker.maker, error));
+    HdStatus status = trace(&worker, error);
     *is_fault_of_device = hd_renderer_has_failed(renderer);
-    hd_frame_maker_close(&tracer.maker);
+    hd_frame_maker_close(&worker.maker);
     return status;
 }
 
 /* ---- the end of a device ---- */
 
 static void drop_device(Run *run, int number, HdStatus status, const HdError *error) {
-    hd_turns_leave(&run->turns, number);
+    hd_scheduler_leave(&run->scheduler, number);
     if (--run->alive > 0)
         run->sequence->dropped(run->sequence->context, number, error);
     else if (run->status == HD_OK)
@@ -339,7 +341,7 @@ static void leave(const Member *member, HdStatus status, const HdError *error,
     if (is_over)
         hd_stages_stop(run->stages);
     else
-        hd_stages_ask_again(run->stages);
+        hd_stages_wake(run->stages);
 }
 
 /* ---- threads ---- */
@@ -394,7 +396,7 @@ static HdStatus start_store(Run *run, HdError *error) {
         .resume = sequence->resume,
         .width = sequence->scene->width,
         .height = sequence->scene->height,
-        .tracers = sequence->team->count > 0 ? sequence->team->count : 1,
+        .workers = sequence->team->count > 0 ? sequence->team->count : 1,
         .start = run->start,
         .stored = sequence->stored,
         .context = sequence->context,
@@ -409,14 +411,14 @@ HdStatus hd_sequence_render(const HdSequence *sequence, HdError *error) {
     Run run = {
         .sequence = sequence,
         .start = hd_monotonic_seconds(),
-        .turns = {.count = sequence->team->count},
+        .scheduler = {.count = sequence->team->count},
         .waiting = sequence->team->count,
         .alive = sequence->team->count,
     };
     pthread_mutex_init(&run.mutex, NULL);
-    pthread_mutex_init(&run.turns.mutex, NULL);
-    for (int i = 0; i < run.turns.count; i++)
-        run.turns.list[i].is_cpu = sequence->team->list[i].device.is_cpu;
+    pthread_mutex_init(&run.scheduler.mutex, NULL);
+    for (int i = 0; i < run.scheduler.count; i++)
+        run.scheduler.list[i].is_cpu = sequence->team->list[i].device.is_cpu;
     hd_known_folders_forget(); /* what was there before another sequence may rightly be gone */
     HdStatus status = sequence->team->count == 1 ? upload(&run, 0, error) : HD_OK;
     if (status == HD_OK)
@@ -424,7 +426,7 @@ HdStatus hd_sequence_render(const HdSequence *sequence, HdError *error) {
     if (status == HD_OK)
         status = hd_frame_store_end(run.store, trace_all(&run, error), error);
     free_tables(&run);
-    pthread_mutex_destroy(&run.turns.mutex);
+    pthread_mutex_destroy(&run.scheduler.mutex);
     pthread_mutex_destroy(&run.mutex);
     return status;
 }

@@ -6,7 +6,7 @@
 #include "base/trigonometry.h"
 
 /* Frame `frame_count` gets exactly the double 2 pi. */
-static double flight_time(int frame, int frame_count) {
+static double path_time(int frame, int frame_count) {
     return 2.0 * HD_PI * ((double)frame / (double)frame_count);
 }
 
@@ -30,7 +30,7 @@ HdVec3 hd_path_point(const HdPath *path, int frame, int frame_count) {
     const HdCylinderPath *law = &path->cylinder;
     if (path->is_fixed)
         return path->point;
-    const double t = flight_time(frame, frame_count);
+    const double t = path_time(frame, frame_count);
     double r_swing, z_swing, unused;
     hd_sine_cosine(law->r_frequency * t + law->r_phase, &r_swing, &unused);
     hd_sine_cosine(law->z_frequency * t + law->z_phase, &z_swing, &unused);
@@ -81,6 +81,6 @@ HdStatus hd_camera_at(HdCamera *camera, const HdScene *scene, int frame, HdError
     hd_sine_cosine(scene->field_of_view_degrees * (HD_PI / 360.0), &sine, &cosine);
     camera->eye = eye;
     camera->tangent_of_half_fov = sine / cosine;
-    set_basis(camera, view, &scene->eye, flight_time(frame, scene->frame_count));
+    set_basis(camera, view, &scene->eye, path_time(frame, scene->frame_count));
     return HD_OK;
 }

@@ -176,7 +176,7 @@ double hd_floor_overlap(const HdSolid *solid, const HdFloor *floor) {
    distance on they count as apart already. Half a step is twice what the float kernels need to tell
    faces apart. */
 static const double step_share = 0x1p-20, near_share = 0x1p-21;
-static const double most_inset_share = 0x1p-10; /* of the inradius */
+static const double max_inset_share = 0x1p-10; /* of the inradius */
 
 static double scale_of(const HdSolid *a, HdVec3 b_centre, double b_radius) {
     return fmax(hd_length(hd_sub(a->centre, b_centre)), fmax(a->circumradius, b_radius));
@@ -324,7 +324,7 @@ void hd_scene_part_contacts(HdScene *scene) {
         hd_platonic(solid->kind, &shape);
         const double share =
             parting.level[i] * parting.step[i] / (shape.inradius * solid->circumradius);
-        if (share <= most_inset_share)
+        if (share <= max_inset_share)
             solid->circumradius *= 1.0 - share;
     }
 }

@@ -95,18 +95,18 @@ static HdStatus fill_list(HdFrameList *list, const Range *ranges, int count, HdE
 
 static HdStatus parse_text(HdFrameList *list, const char *text, int frame_count, HdError *error) {
     Range *ranges = NULL, range;
-    int count = 0, room = 0;
+    int count = 0, capacity = 0;
     HdStatus status = HD_OK;
-    bool has_room = true;
-    for (bool is_last = false; !is_last && has_room && status == HD_OK;) {
+    bool has_memory = true;
+    for (bool is_last = false; !is_last && has_memory && status == HD_OK;) {
         const size_t length = strcspn(text, ",");
         status = parse_item(text, length, frame_count, &range, error);
         if (status == HD_OK)
-            has_room = hd_append(&ranges, sizeof range, &count, &room, &range);
+            has_memory = hd_append(&ranges, sizeof range, &count, &capacity, &range);
         is_last = text[length] == '\0';
         text += length + 1;
     }
-    if (!has_room)
+    if (!has_memory)
         status = HD_NO_ROOM(error, "a frame list");
     else if (status == HD_OK)
         status = fill_list(list, ranges, merge_ranges(ranges, count), error);

@@ -156,7 +156,7 @@ HdVec3 hd_radiance_bound(const HdScene *scene) {
 /* ---- what is seen from where a ray leaves ---- */
 
 /* Objects: the solids, the floor, all meshes. */
-enum { MOST_OBJECTS = HD_MAX_SOLIDS + 2, MOST_ROUNDS = 256 };
+enum { MAX_OBJECTS = HD_MAX_SOLIDS + 2, MAX_ROUNDS = 256 };
 
 /* Solids that are further apart than this part of their sizes have no point in common, however
    coordinates are rounded. */
@@ -173,8 +173,8 @@ typedef struct Shown {
 typedef struct Views {
     const HdScene *scene;
     HdVec3 light;
-    bool near[HD_MAX_SOLIDS][MOST_OBJECTS]; /* may have points in common */
-    Shown shown[MOST_OBJECTS];
+    bool near[HD_MAX_SOLIDS][MAX_OBJECTS]; /* may have points in common */
+    Shown shown[MAX_OBJECTS];
     HdSeen *seen;
 } Views;
 
@@ -284,7 +284,7 @@ void hd_seen_bounds(const HdScene *scene, HdSeen *seen) {
     find_neighbours(&views);
     for (int i = 0; i < scene->solid_count + 2; i++)
         seen[i] = (HdSeen){most, most};
-    for (int round = 0; round < MOST_ROUNDS && look_around(&views); round++)
+    for (int round = 0; round < MAX_ROUNDS && look_around(&views); round++)
         ;
     for (int i = 0; i < scene->solid_count + 2; i++) {
         seen[i].outside = hd_minimum(most, hd_scale(seen[i].outside, MARGIN));

@@ -7,7 +7,7 @@
 #include "system/machine.h"
 #include "system/thread_pool.h"
 
-bool hd_scene_is_surveyed(const HdScene *scene) {
+bool hd_scene_has_error_bound(const HdScene *scene) {
     return scene->sampling != HD_SAMPLING_GRID || scene->max_error > 0.0;
 }
 
@@ -17,7 +17,7 @@ bool hd_scene_has_deep_trees(const HdScene *scene) {
     return scene->depth > FEW_LEVELS && (scene->max_error > 0.0 || scene->cutoff <= small_cutoff);
 }
 
-void hd_scene_drop_survey(HdScene *scene) {
+void hd_scene_drop_error_bound(HdScene *scene) {
     enum { USUAL_DEPTH = 16 };
     if (scene->max_error > 0.0 && scene->depth > USUAL_DEPTH)
         scene->depth = USUAL_DEPTH;

@@ -144,14 +144,14 @@ HdPlatonic hd_solid_shape(const HdSolid *solid);
 int hd_edge_light_count(const HdSolid *solid);
 
 /* Pixels come with bounds of what was left out (HdFrame). */
-bool hd_scene_is_surveyed(const HdScene *scene);
+bool hd_scene_has_error_bound(const HdScene *scene);
 
 /* A sample's rays may go on for more than 64 levels, and are not ended long before by the cut-off.
    To be asked before the survey is dropped. */
 bool hd_scene_has_deep_trees(const HdScene *scene);
 
 /* Makes it a scene of about the same work that is not surveyed: to learn how fast a device is. */
-void hd_scene_drop_survey(HdScene *scene);
+void hd_scene_drop_error_bound(HdScene *scene);
 
 /* The mean of the corners. */
 HdVec3 hd_floor_centre(const HdFloor *floor);

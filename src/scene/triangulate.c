@@ -15,7 +15,7 @@
 
 /* In circumradii: the least rim and the least side of a disc or of what a rim leaves of a face.
    Smaller ones could hardly be told from points that are one. */
-static const double least_length = 1e-8;
+static const double min_length = 1e-8;
 
 /* Points that are no farther from a border lie on it; in circumradii. */
 static const double same_place = 1e-9;
@@ -50,7 +50,7 @@ typedef struct Work {
     double flatness;                    /* from that to the radius of the middles of its sides */
     HdVec2 outwards[HD_MAX_DISC_SIDES]; /* the directions to the middles of its sides */
     int point_count, side_count, facet_count, border_count;
-    int point_room, side_room, facet_room;
+    int point_capacity, side_capacity, facet_capacity;
     HdVec3 *points;
     Side *sides;
     Facet *facets;
@@ -64,16 +64,18 @@ static HdStatus no_memory(HdError *error) {
 /* Facets */
 
 static bool add_point(Work *work, HdVec3 point) {
-    return hd_append(&work->points, sizeof point, &work->point_count, &work->point_room, &point);
+    return hd_append(&work->points, sizeof point, &work->point_count, &work->point_capacity,
+                     &point);
 }
 
 static bool add_side(Work *work, int from, int next, int twin) {
     const Side side = {from, next, twin};
-    return hd_append(&work->sides, sizeof side, &work->side_count, &work->side_room, &side);
+    return hd_append(&work->sides, sizeof side, &work->side_count, &work->side_capacity, &side);
 }
 
 static bool add_facet(Work *work, Facet facet) {
-    return hd_append(&work->facets, sizeof facet, &work->facet_count, &work->facet_room, &facet);
+    return hd_append(&work->facets, sizeof facet, &work->facet_count, &work->facet_capacity,
+                     &facet);
 }
 
 static int end_of(const Work *work, int side) {
@@ -276,7 +278,7 @@ static bool carve_rim(Work *work, int face, int first) {
             continue;
         const HdVec3 side = middle_of_edge(work, e), inwards = hd_sub(middle, side);
         const double inradius = hd_length(inwards);
-        if (inradius - work->rim_width <= least_length * inradius)
+        if (inradius - work->rim_width <= min_length * inradius)
             return true;
         add_border(work, side, hd_scale(inwards, 1.0 / inradius), -work->rim_width);
     }
@@ -367,9 +369,9 @@ static void prepare(Work *work, const HdSolid *solid, int disc_sides) {
     work->solid = solid;
     work->shape = hd_solid_shape(solid);
     work->disc_sides = disc_sides;
-    if (rim > least_length)
+    if (rim > min_length)
         work->rim_width = rim;
-    if (solid->lights.per_edge > 0 && disc * 2.0 * HD_PI / disc_sides > least_length)
+    if (solid->lights.per_edge > 0 && disc * 2.0 * HD_PI / disc_sides > min_length)
         work->disc_radius = disc;
     hd_sine_cosine(HD_PI / disc_sides, &sine, &cosine);
     work->widening = sqrt(HD_PI / (disc_sides * sine * cosine));
@@ -401,8 +403,8 @@ static double height_of(HdVec3 a, HdVec3 b, HdVec3 c, HdVec3 normal) {
 
 /* The same for the flattest triangle of the fan about a corner, as far as that is above `enough`.
  */
-static double least_height(const HdVec3 *points, const int32_t *loop, int count, int corner,
-                           HdVec3 normal, double enough) {
+static double min_height(const HdVec3 *points, const int32_t *loop, int count, int corner,
+                         HdVec3 normal, double enough) {
     double least = HUGE_VAL;
     for (int k = 1; k < count - 1 && least > enough; k++) {
         const HdVec3 b = points[loop[(corner + k) % count]];
@@ -418,7 +420,7 @@ static int best_corner(const HdVec3 *points, const int32_t *loop, int count, HdV
     double best_height = 1e-2 * same_place;
     int best = count == 3 ? 0 : -1;
     for (int i = 0; i < count; i++) {
-        const double height = least_height(points, loop, count, i, normal, best_height);
+        const double height = min_height(points, loop, count, i, normal, best_height);
         if (height > best_height) {
             best_height = height;
             best = i;
@@ -455,16 +457,16 @@ static void add_fan(const Work *work, const Facet *facet, const int32_t *loop, i
 
 static bool fill_mesh(const Work *work, HdMesh *mesh) {
     int32_t *loop = malloc((size_t)work->side_count * sizeof *loop);
-    const bool has_room =
+    const bool has_memory =
         loop != NULL &&
         hd_mesh_allocate(mesh, (size_t)work->point_count + (size_t)work->facet_count,
                          (size_t)work->side_count);
-    for (int p = 0; p < work->point_count && has_room; p++)
+    for (int p = 0; p < work->point_count && has_memory; p++)
         mesh->vertices[mesh->vertex_count++] = hd_scale(work->points[p], work->solid->circumradius);
-    for (int f = 0; f < work->facet_count && has_room; f++)
+    for (int f = 0; f < work->facet_count && has_memory; f++)
         add_fan(work, &work->facets[f], loop, list_points(work, f, loop), mesh);
     free(loop);
-    return has_room;
+    return has_memory;
 }
 
 static HdStatus add_material(HdMesh *mesh, const char *name, const HdMeshMaterial *material,

@@ -145,7 +145,7 @@ static HdStatus temporary_name(const char *path, int attempt, char temporary[HD_
                                HdError *error) {
     int folder = (int)hd_folder_length(path);
     int length = snprintf(temporary, HD_MAX_PATH, "%.*s%.*s" MARK "%ld-%d", folder, path,
-                          HD_TEMPORARY_MOST_KEPT, path + folder, (long)getpid(), attempt);
+                          HD_TEMPORARY_MAX_KEPT, path + folder, (long)getpid(), attempt);
     if (length < 0 || length >= HD_MAX_PATH)
         return hd_fail(error, HD_BAD_INPUT,
                        "cannot write %s: its temporary name has %d bytes, expected fewer than %d",
@@ -259,7 +259,7 @@ static HdStatus reserve(HdAtomicFile *file, const char *path, unsigned mode, HdE
     HD_TRY(check_length(path, error));
     memcpy(file->path, path, strlen(path) + 1);
     HD_TRY(create(file, mode, error));
-    hd_leftovers_add_file(file->temporary);
+    hd_cleanup_add_file(file->temporary);
     learn_folder(path, THERE);
     return HD_OK;
 }
@@ -296,7 +296,7 @@ HdStatus hd_atomic_file_check(const HdAtomicFile *file, HdError *error) {
 
 /* The temporary name is gone. */
 static void leave(HdAtomicFile *file) {
-    hd_leftovers_forget_file(file->temporary);
+    hd_cleanup_forget_file(file->temporary);
     if (file->lock >= 0)
         close(file->lock);
     file->lock = -1;

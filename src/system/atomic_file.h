@@ -64,7 +64,7 @@ HdStatus hd_sync_folder(const char *path, HdError *error);
 void hd_known_folders_forget(void);
 
 /* Of a longer name than this, without its folder, a temporary file's name has only the begin. */
-enum { HD_TEMPORARY_MOST_KEPT = 200 };
+enum { HD_TEMPORARY_MAX_KEPT = 200 };
 
 /* How much of `name`, without its folder, is what a temporary file keeps of the final name; 0: it
    is not the name of a temporary file. */

@@ -152,7 +152,7 @@ static int spawn_here(const Order *order) {
         reason = read_report(report[0], *pid);
     close(report[0]);
     if (reason == 0)
-        hd_leftovers_add_group(*pid);
+        hd_cleanup_add_group(*pid);
     else
         *pid = 0;
     return reason;
@@ -224,9 +224,9 @@ static int spawn(Order *order) {
 }
 
 static void remember(HdChild *child, const char *text, size_t length) {
-    size_t room = HD_CHILD_MAX_SAID - child->said_length;
-    if (length > room) {
-        size_t gone = length - room;
+    size_t capacity = HD_CHILD_MAX_SAID - child->said_length;
+    if (length > capacity) {
+        size_t gone = length - capacity;
         memmove(child->said, child->said + gone, child->said_length - gone);
         child->said_length -= gone;
     }
@@ -250,13 +250,13 @@ static void take_output(HdChild *child) {
 /* Waits for one of the channels { input, output }, and takes in output. False after an interrupt,
    or where the child is stuck: `still_ms` counts glances in vain, and no clock, for the whole
    system may have slept or this program been stopped. */
-static bool glance(HdChild *child, struct pollfd ready[2], int glance_ms, int patience_ms,
-                   int *still_ms) {
-    const int count = hd_interrupt_signal() == 0 ? poll(ready, 2, glance_ms) : 0;
+static bool poll_interval(HdChild *child, struct pollfd ready[2], int poll_interval_ms,
+                          int timeout_ms, int *still_ms) {
+    const int count = hd_interrupt_signal() == 0 ? poll(ready, 2, poll_interval_ms) : 0;
     if (hd_interrupt_signal() != 0 || (count < 0 && errno != EINTR))
         return false;
-    *still_ms = count > 0 ? 0 : *still_ms + glance_ms;
-    child->is_stuck = *still_ms >= patience_ms;
+    *still_ms = count > 0 ? 0 : *still_ms + poll_interval_ms;
+    child->is_stuck = *still_ms >= timeout_ms;
     if (count > 0 && ready[1].revents != 0)
         take_output(child);
     return !child->is_stuck;
@@ -269,23 +269,23 @@ static bool has_ended(const HdChild *child) {
 }
 
 /* Takes in output until its end, then waits for the child's. False where it is to be killed. */
-static bool wait_for_end(HdChild *child, int patience_ms) {
+static bool wait_for_end(HdChild *child, int timeout_ms) {
     int still_ms = 0;
     while (child->output >= 0 || !has_ended(child)) {
         struct pollfd ready[2] = {{.fd = -1}, {.fd = child->output, .events = POLLIN}};
-        const int glance_ms = child->output >= 0 ? GLANCE_MS : SHORT_GLANCE_MS;
-        if (!glance(child, ready, glance_ms, patience_ms, &still_ms))
+        const int poll_interval_ms = child->output >= 0 ? GLANCE_MS : SHORT_GLANCE_MS;
+        if (!poll_interval(child, ready, poll_interval_ms, timeout_ms, &still_ms))
             return false;
     }
     return true;
 }
 
-bool hd_child_send(HdChild *child, const uint8_t *bytes, size_t size, int patience_ms) {
+bool hd_child_send(HdChild *child, const uint8_t *bytes, size_t size, int timeout_ms) {
     int still_ms = 0;
     while (size > 0) {
         struct pollfd ready[2] = {{.fd = child->input, .events = POLLOUT},
                                   {.fd = child->output, .events = POLLIN}};
-        if (!glance(child, ready, GLANCE_MS, patience_ms, &still_ms))
+        if (!poll_interval(child, ready, GLANCE_MS, timeout_ms, &still_ms))
             return false;
         if (ready[0].revents == 0)
             continue;
@@ -310,7 +310,7 @@ static bool reap(HdChild *child, char how[64]) {
     /* Its number is free for another process only once it was waited for. */
     while (waitid(P_PID, (id_t)child->pid, &unused, WEXITED | WNOWAIT) != 0 && errno == EINTR)
         continue;
-    hd_leftovers_forget_group(child->pid);
+    hd_cleanup_forget_group(child->pid);
     do
         ended = waitpid(child->pid, &state, 0);
     while (ended < 0 && errno == EINTR);
@@ -325,9 +325,9 @@ static bool reap(HdChild *child, char how[64]) {
     return ended > 0 && WIFEXITED(state) && WEXITSTATUS(state) == 0;
 }
 
-bool hd_child_end(HdChild *child, int patience_ms, char how[64]) {
+bool hd_child_end(HdChild *child, int timeout_ms, char how[64]) {
     close_descriptor(&child->input);
-    if (!wait_for_end(child, patience_ms))
+    if (!wait_for_end(child, timeout_ms))
         kill(-child->pid, SIGKILL);
     return reap(child, how);
 }

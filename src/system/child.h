@@ -38,12 +38,12 @@ HdStatus hd_child_start(HdChild *child, const char *const arguments[], bool with
 /* Sends everything; false where the child no longer reads, or is stuck: for so long it took nothing
    and said nothing. Output is taken in meanwhile, so that neither side waits for the other for
    ever. */
-bool hd_child_send(HdChild *child, const uint8_t *bytes, size_t size, int patience_ms);
+bool hd_child_send(HdChild *child, const uint8_t *bytes, size_t size, int timeout_ms);
 
 /* Ends the input and waits for the child, which is killed when an interrupt comes or it is stuck:
    for so long it neither said anything nor ended. Describes in `how` how it ended; true for exit
    code 0. */
-bool hd_child_end(HdChild *child, int patience_ms, char how[64]);
+bool hd_child_end(HdChild *child, int timeout_ms, char how[64]);
 
 /* Kills it if it runs, and closes its channels. */
 void hd_child_stop(HdChild *child);

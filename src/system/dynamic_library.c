@@ -39,7 +39,7 @@ bool hd_library_path(void *library, const char *symbol, char *path, size_t capac
     return (size_t)snprintf(path, capacity, "%s", info.dli_fname) < capacity;
 }
 
-void *hd_library_open_beside(void *library, const char *symbol, const char *name) {
+void *hd_library_open_adjacent(void *library, const char *symbol, const char *name) {
     char beside[HD_MAX_PATH], path[HD_MAX_PATH];
     if (!hd_library_path(library, symbol, beside, sizeof beside))
         return NULL;

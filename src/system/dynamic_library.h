@@ -27,6 +27,6 @@ bool hd_library_path(void *library, const char *symbol, char *path, size_t capac
 
 /* Opens a library that lies in the same folder as `library`, which has the given symbol; NULL where
    there is none. */
-void *hd_library_open_beside(void *library, const char *symbol, const char *name);
+void *hd_library_open_adjacent(void *library, const char *symbol, const char *name);
 
 #endif

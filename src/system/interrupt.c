@@ -17,8 +17,8 @@
 #include "system/path.h"
 
 enum {
-    SAME_WISH_MS = 500,
-    PATIENCE_MS = 1500,
+    SAME_REQUEST_MS = 500,
+    TIMEOUT_MS = 1500,
     REMOVAL_MS = 300,
     CLOCK_SLACK_MS = 2,
     GLANCE_MS = 250,
@@ -26,7 +26,7 @@ enum {
 };
 
 static const int watched_signals[] = {SIGINT, SIGTERM, SIGHUP};
-static const double MIN_PATIENCE_S = 0.1, MAX_PATIENCE_S = 86400.0;
+static const double MIN_TIMEOUT_S = 0.1, MAX_TIMEOUT_S = 86400.0;
 static const char too_late[] = "hedron: interrupted; what was at work did not end in time\n";
 
 /* Signals may come in any thread, and two of them in two threads at once. */
@@ -42,7 +42,7 @@ static struct {
 
 static atomic_bool is_removing;
 
-static long patience_ms = PATIENCE_MS;
+static long timeout_ms = TIMEOUT_MS;
 
 _Static_assert(ATOMIC_INT_LOCK_FREE == 2 && ATOMIC_LLONG_LOCK_FREE == 2 &&
                    ATOMIC_POINTER_LOCK_FREE == 2,
@@ -72,7 +72,7 @@ static bool swap(atomic_int *value, int from, int to) {
     return atomic_compare_exchange_strong(value, &from, to);
 }
 
-void hd_leftovers_add_file(const char *path) {
+void hd_cleanup_add_file(const char *path) {
     size_t size = strlen(path) + 1;
     pthread_mutex_lock(&files_mutex);
     for (int i = 0; i < MAX_FILES && size <= HD_MAX_PATH; i++) {
@@ -85,7 +85,7 @@ void hd_leftovers_add_file(const char *path) {
     pthread_mutex_unlock(&files_mutex);
 }
 
-void hd_leftovers_forget_file(const char *path) {
+void hd_cleanup_forget_file(const char *path) {
     pthread_mutex_lock(&files_mutex);
     for (int i = 0; i < MAX_FILES; i++)
         if (atomic_load(&files[i].state) == REMEMBERED && strcmp(files[i].path, path) == 0)
@@ -93,19 +93,19 @@ void hd_leftovers_forget_file(const char *path) {
     pthread_mutex_unlock(&files_mutex);
 }
 
-void hd_leftovers_add_group(pid_t leader) {
+void hd_cleanup_add_group(pid_t leader) {
     for (int i = 0; i < MAX_GROUPS; i++)
         if (swap(&groups[i], 0, (int)leader))
             return;
 }
 
-void hd_leftovers_forget_group(pid_t leader) {
+void hd_cleanup_forget_group(pid_t leader) {
     for (int i = 0; i < MAX_GROUPS; i++)
         swap(&groups[i], (int)leader, 0);
 }
 
 /* The groups first, lest they make their files again. */
-void hd_leftovers_remove(void) {
+void hd_cleanup_remove(void) {
     for (int i = 0; i < MAX_GROUPS; i++) {
         int leader = atomic_exchange(&groups[i], 0);
         if (leader > 0)
@@ -164,7 +164,7 @@ static void end_at_once(int number, const char *text) {
     if (timers.has_kill)
         set_timer(timers.kill, 2 * REMOVAL_MS);
     say(text);
-    hd_leftovers_remove();
+    hd_cleanup_remove();
     die(number);
 }
 
@@ -173,7 +173,7 @@ static void handle_deadline(int unused) {
     int number = atomic_load(&caught);
     long long waited = milliseconds() - atomic_load(&caught_ms);
     (void)unused;
-    if (number == 0 || waited + CLOCK_SLACK_MS < patience_ms)
+    if (number == 0 || waited + CLOCK_SLACK_MS < timeout_ms)
         return;
     if (atomic_load(&is_removing))
         die(number);
@@ -186,9 +186,9 @@ static void handle(int number) {
     if (atomic_compare_exchange_strong(&caught_ms, &first, now)) {
         atomic_store(&caught, number);
         if (timers.has_end)
-            set_timer(timers.end, patience_ms);
+            set_timer(timers.end, timeout_ms);
         say(atomic_load(&announcement));
-    } else if (now - first >= SAME_WISH_MS) {
+    } else if (now - first >= SAME_REQUEST_MS) {
         end_at_once(number, NULL);
     }
     errno = kept;
@@ -202,7 +202,7 @@ static bool is_ignored(int number) {
 /* The system hands a signal to the main thread if it can, but that one handles none while it waits
    for a file server that is gone. What was meant for it, it may be missing then. */
 static void *watch(void *main_thread) {
-    const struct timespec glance = {.tv_nsec = GLANCE_MS * 1000000};
+    const struct timespec poll_interval = {.tv_nsec = GLANCE_MS * 1000000};
     sigset_t all, watched;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, NULL);
@@ -211,7 +211,7 @@ static void *watch(void *main_thread) {
         sigaddset(&watched, watched_signals[i]);
     sigaddset(&watched, SIGALRM);
     for (;;) {
-        int number = sigtimedwait(&watched, NULL, &glance);
+        int number = sigtimedwait(&watched, NULL, &poll_interval);
         if (number == SIGALRM) {
             handle_deadline(number);
         } else if (number > 0 && !is_ignored(number)) {
@@ -250,17 +250,17 @@ void hd_interrupt_install(void) {
         pthread_detach(watcher);
 }
 
-HdStatus hd_interrupt_read_patience(HdError *error) {
+HdStatus hd_interrupt_read_timeout(HdError *error) {
     const char *text = getenv("HEDRON_STOP_PATIENCE");
     char *end;
     if (text == NULL || text[0] == '\0')
         return HD_OK;
     double seconds = strtod(text, &end);
-    if (*end != '\0' || !(seconds >= MIN_PATIENCE_S && seconds <= MAX_PATIENCE_S))
+    if (*end != '\0' || !(seconds >= MIN_TIMEOUT_S && seconds <= MAX_TIMEOUT_S))
         return hd_fail(error, HD_BAD_INPUT,
                        "HEDRON_STOP_PATIENCE is '%.200s', expected seconds from %g to %g", text,
-                       MIN_PATIENCE_S, MAX_PATIENCE_S);
-    patience_ms = (long)(1e3 * seconds);
+                       MIN_TIMEOUT_S, MAX_TIMEOUT_S);
+    timeout_ms = (long)(1e3 * seconds);
     return HD_OK;
 }
 

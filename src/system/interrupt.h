@@ -20,7 +20,7 @@ void hd_interrupt_install(void);
 
 /* Other seconds than 1.5 where the environment has HEDRON_STOP_PATIENCE; HD_BAD_INPUT where that is
    no time. */
-HdStatus hd_interrupt_read_patience(HdError *error);
+HdStatus hd_interrupt_read_timeout(HdError *error);
 
 /* The number of the signal that came, or 0. */
 int hd_interrupt_signal(void);
@@ -34,15 +34,15 @@ void hd_interrupt_announce(const char *text);
 
 /* Remember a file that exists, and the leader of a process group. One that finds no room, or a name
    of HD_MAX_PATH bytes, is not remembered. */
-void hd_leftovers_add_file(const char *path);
-void hd_leftovers_add_group(pid_t leader);
+void hd_cleanup_add_file(const char *path);
+void hd_cleanup_add_group(pid_t leader);
 
 /* Forget them again, which is no mistake where they are not known. */
-void hd_leftovers_forget_file(const char *path);
-void hd_leftovers_forget_group(pid_t leader);
+void hd_cleanup_forget_file(const char *path);
+void hd_cleanup_forget_group(pid_t leader);
 
 /* Kills the groups and removes the files, each once. May be called by a signal's handler, at any
    moment and in any thread. */
-void hd_leftovers_remove(void);
+void hd_cleanup_remove(void);
 
 #endif

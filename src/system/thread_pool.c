@@ -92,7 +92,7 @@ int hd_start_thread(pthread_t *thread, void *(*work)(void *), void *argument) {
 }
 
 /* Of the first thread, which computes no pixels; drivers take most of it. */
-enum { LEAST_STACK_BYTES = 1 << 20 };
+enum { MIN_STACK_BYTES = 1 << 20 };
 
 /* Those of threads that drivers start follow the limit that there was at the program's start. */
 static void enlarge_other_stacks(void) {
@@ -106,19 +106,19 @@ static void enlarge_other_stacks(void) {
 
 HdStatus hd_check_stack(HdError *error) {
     struct rlimit limit;
-    if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= LEAST_STACK_BYTES)
+    if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= MIN_STACK_BYTES)
         return HD_OK;
     const rlim_t found = limit.rlim_cur;
-    limit.rlim_cur = LEAST_STACK_BYTES;
-    if (limit.rlim_max < LEAST_STACK_BYTES)
-        limit.rlim_max = LEAST_STACK_BYTES;
+    limit.rlim_cur = MIN_STACK_BYTES;
+    if (limit.rlim_max < MIN_STACK_BYTES)
+        limit.rlim_max = MIN_STACK_BYTES;
     if (setrlimit(RLIMIT_STACK, &limit) == 0) {
         enlarge_other_stacks();
         return HD_OK;
     }
     return hd_fail(error, HD_FAILED,
                    "the stack may have %llu KiB (ulimit -s), expected at least %d KiB",
-                   (unsigned long long)found / 1024, LEAST_STACK_BYTES / 1024);
+                   (unsigned long long)found / 1024, MIN_STACK_BYTES / 1024);
 }
 
 static HdStatus start_threads(HdThreadPool *pool, int threads, HdError *error) {
@@ -197,7 +197,7 @@ void hd_thread_pool_destroy(HdThreadPool *pool) {
 
 /* A chunk of so many items takes some microseconds at least, as long as it takes to wake a thread;
    so many chunks keep the threads even where some have more work. */
-enum { LEAST_ITEMS = 1024, MOST_CHUNKS = 256 };
+enum { MIN_ITEMS = 1024, MAX_CHUNKS = 256 };
 
 typedef struct Job {
     int count, each; /* items, and those of a chunk */
@@ -205,7 +205,7 @@ typedef struct Job {
     HdChunkChoice *choose;
     void *context;
     int *chosen;
-    int found[MOST_CHUNKS]; /* by chunk */
+    int found[MAX_CHUNKS]; /* by chunk */
 } Job;
 
 static int end_of(const Job *job, int chunk) {
@@ -227,7 +227,7 @@ static void choose_in_chunk(void *context, int thread, int chunk) {
 
 /* Returns how many chunks there are. */
 static int run(HdThreadPool *pool, Job *job, HdThreadWork *work) {
-    job->each = hd_max(job->count / MOST_CHUNKS + 1, LEAST_ITEMS);
+    job->each = hd_max(job->count / MAX_CHUNKS + 1, MIN_ITEMS);
     const int chunks = (job->count + job->each - 1) / job->each;
     if (chunks == 1)
         work(job, 0, 0);

@@ -28,7 +28,7 @@ typedef struct HdLightSource {
 
 /* Entries of the tables of meshes. */
 typedef struct HdMeshSizes {
-    size_t triangles, nodes, wide_nodes, normals, uvs, corner_normals, corner_uvs, skins;
+    size_t triangles, nodes, wide_nodes, normals, uvs, corner_normals, corner_uvs, mesh_materials;
 } HdMeshSizes;
 
 typedef struct HdMeshPlace {
@@ -36,13 +36,13 @@ typedef struct HdMeshPlace {
     HdWideHierarchy wide;
 } HdMeshPlace;
 
-/* A light in the order of groups: those of a group follow each other. */
-typedef struct HdGroupedLight {
+/* A light in the order of clusters: those of a cluster follow each other. */
+typedef struct HdClusteredLight {
     HdVec3 position; /* in world space */
     HdVec3 about;    /* the middle of its edge, if it has one */
     double key;      /* by which they are sorted */
-    int light, group;
-} HdGroupedLight;
+    int light, cluster;
+} HdClusteredLight;
 
 typedef struct HdBuilder {
     const HdScene *scene;
@@ -53,7 +53,7 @@ typedef struct HdBuilder {
     int object_count, plane_count, edge_count, light_count;
     HdVec3 *centres;        /* of the objects, world space */
     HdLightSource *sources; /* in the order of the table of lights */
-    HdGroupedLight *grouped;
+    HdClusteredLight *clustered;
     HdMeshPlace *places; /* of the meshes */
     HdMeshSizes sizes;
     HdVec3 mesh_centre; /* of all instances */
@@ -81,9 +81,9 @@ typedef struct HdFloorFrame {
 
 /* Shapes the solids, and counts objects, planes, edges, lights and pictures. */
 HdStatus hd_builder_count(HdBuilder *builder, HdError *error);
-/* Lists the lights, and groups them: halves the lights across their longest side, and the halves,
-   until there are as many groups as HD_LIGHT_GROUPS says; an edge's lights stay together where they
-   can. */
+/* Lists the lights, and clusters them: halves the lights across their longest side, and the halves,
+   until there are as many clusters as HD_LIGHT_CLUSTERS says; an edge's lights stay together where
+   they can. */
 void hd_builder_list_lights(HdBuilder *builder);
 
 /* Solids, the floor and all meshes together, as far as there are any of them; and where one of
@@ -103,7 +103,7 @@ HdVec3 hd_light_offset(const HdBuilder *builder, const HdLightSource *source, in
 HdFloorFrame hd_floor_frame(const HdFloor *floor);
 
 /* No ray sees more radiance, contributions being clamped. */
-HdVec3 hd_most_radiance(const HdScene *scene);
+HdVec3 hd_max_radiance(const HdScene *scene);
 
 /* Where each mesh's entries begin, the box about all instances and the hierarchy over them. */
 HdStatus hd_builder_prepare_meshes(HdBuilder *builder, HdError *error);

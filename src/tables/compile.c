@@ -30,13 +30,13 @@ static void size_tables(const HdBuilder *builder, HdSceneTables *tables) {
         [HD_TABLE_objects] = objects,
         [HD_TABLE_planes] = planes,
         [HD_TABLE_edges] = (size_t)builder->edge_count,
-        [HD_TABLE_materials] = 2 * (size_t)builder->solid_count + 1 + sizes->skins,
+        [HD_TABLE_materials] = 2 * (size_t)builder->solid_count + 1 + sizes->mesh_materials,
         [HD_TABLE_lights] = lights,
         [HD_TABLE_light_offsets] = objects * lights,
         [HD_TABLE_light_coordinates] = lights * planes,
         [HD_TABLE_light_sides] = lights * objects,
-        [HD_TABLE_light_ways] = objects * (lights + 1),
-        [HD_TABLE_light_groups] = objects * HD_GROUP_ROWS * HD_LIGHT_GROUPS(lights),
+        [HD_TABLE_occlusion_masks] = objects * (lights + 1),
+        [HD_TABLE_light_clusters] = objects * HD_CLUSTER_ROWS * HD_LIGHT_CLUSTERS(lights),
         [HD_TABLE_light_runs] = tables->many_lights ? objects * lights : 0,
         [HD_TABLE_object_offsets] = objects * objects,
         [HD_TABLE_floor_map] = 1,
@@ -47,7 +47,7 @@ static void size_tables(const HdBuilder *builder, HdSceneTables *tables) {
         [HD_TABLE_wide_bounds] = sizes->wide_nodes * 6 * lanes,
         [HD_TABLE_wide_children] = sizes->wide_nodes * lanes,
         [HD_TABLE_top_items] = builder->top.node_count > 0 ? instances : 0,
-        [HD_TABLE_skins] = sizes->skins,
+        [HD_TABLE_mesh_materials] = sizes->mesh_materials,
         [HD_TABLE_mesh_normals] = sizes->normals,
         [HD_TABLE_corner_normals] = sizes->corner_normals + 1, /* likewise */
         [HD_TABLE_mesh_uvs] = sizes->uvs,
@@ -63,24 +63,24 @@ static void size_tables(const HdBuilder *builder, HdSceneTables *tables) {
 }
 
 /* Kernels count the two words of a texel in an int. */
-enum { MOST_TEXELS = (1 << 30) - 2 };
+enum { MAX_TEXELS = (1 << 30) - 2 };
 
 static HdStatus allocate_builder(HdBuilder *builder, HdSceneTables *tables, HdError *error) {
-    if (builder->texels > MOST_TEXELS)
+    if (builder->texels > MAX_TEXELS)
         return hd_fail(error, HD_BAD_INPUT,
                        "the scene's textures have %zu texels, expected at most %d", builder->texels,
-                       MOST_TEXELS);
+                       MAX_TEXELS);
     builder->centres = calloc((size_t)builder->object_count + 1, sizeof *builder->centres);
     builder->sources = calloc((size_t)builder->light_count + 1, sizeof *builder->sources);
-    builder->grouped = calloc((size_t)builder->light_count + 1, sizeof *builder->grouped);
-    if (builder->centres == NULL || builder->sources == NULL || builder->grouped == NULL)
+    builder->clustered = calloc((size_t)builder->light_count + 1, sizeof *builder->clustered);
+    if (builder->centres == NULL || builder->sources == NULL || builder->clustered == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: the scene has %d lights",
                        builder->light_count);
     size_tables(builder, tables);
-    const HdMemoryRoom machine = {.name = "this machine",
-                                  .advice = "fewer triangles need less",
-                                  .memory = hd_physical_memory()};
-    HD_TRY(hd_check_room(tables, &machine, error));
+    const HdMemoryBudget machine = {.name = "this machine",
+                                    .advice = "fewer triangles need less",
+                                    .memory = hd_physical_memory()};
+    HD_TRY(hd_check_budget(tables, &machine, error));
     for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++) {
         char what[64];
         snprintf(what, sizeof what, "scene's %s", hd_scene_table_content(i));
@@ -101,8 +101,8 @@ static void describe_shape(const HdBuilder *builder, HdSceneTables *tables) {
     tables->plane_count = builder->plane_count;
     tables->light_count = builder->light_count;
     tables->depth = scene->depth;
-    tables->many_lights = builder->lanes == 1 && HD_LIGHT_GROUPS(builder->light_count) > 0;
-    tables->surveyed = hd_scene_is_surveyed(scene);
+    tables->many_lights = builder->lanes == 1 && HD_LIGHT_CLUSTERS(builder->light_count) > 0;
+    tables->bounded = hd_scene_has_error_bound(scene);
     tables->node_stack = builder->node_stack;
     if (builder->has_floor)
         describe_material(tables, &scene->floor.material);
@@ -130,7 +130,7 @@ HdStatus NAMED(hd_compile_scene)(HdSceneTables *tables, const HdScene *scene, Hd
         hd_builder_list_lights(&builder);
         NAMED(hd_fill_header)(&builder, tables);
         NAMED(hd_fill_solids)(&builder);
-        if (tables->surveyed)
+        if (tables->bounded)
             NAMED(hd_fill_seen)(&builder);
         NAMED(hd_fill_floor)(&builder);
         NAMED(hd_fill_pictures)(&builder);
@@ -142,7 +142,7 @@ HdStatus NAMED(hd_compile_scene)(HdSceneTables *tables, const HdScene *scene, Hd
     free(builder.shapes);
     free(builder.centres);
     free(builder.sources);
-    free(builder.grouped);
+    free(builder.clustered);
     return status;
 }
 
@@ -157,12 +157,12 @@ static int ceil_log2(int n) {
 
 /* Bounds are small where they matter, so they have the more bits after the point the less can be
    left out. */
-enum { MOST_BOUND_BITS = 44 };
+enum { MAX_BOUND_BITS = 44 };
 
-static void fill_fixed_bound(View *view, double most_left_out, int samples) {
+static void fill_fixed_bound(View *view, double max_left_out, int samples) {
     int exponent;
-    frexp(most_left_out, &exponent);
-    int bits = exponent + MOST_BOUND_BITS <= 61 ? MOST_BOUND_BITS : 61 - exponent;
+    frexp(max_left_out, &exponent);
+    int bits = exponent + MAX_BOUND_BITS <= 61 ? MAX_BOUND_BITS : 61 - exponent;
     int excess = exponent + bits + ceil_log2(samples) - 62;
     view->bound_shift = excess > 0 ? excess : 0;
     view->bound_to_fixed = (real)ldexp(1.0, bits);
@@ -202,7 +202,7 @@ static void fill_view(View *view, const HdFrameTables *tables, const HdScene *sc
     fill_fixed_point(view, scene, tables->samples);
     if (list != NULL) {
         view->bound_cutoff = (real)list->bound_cutoff;
-        fill_fixed_bound(view, list->most_left_out, tables->samples);
+        fill_fixed_bound(view, list->max_left_out, tables->samples);
     }
 }
 

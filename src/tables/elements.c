@@ -139,26 +139,26 @@ HdFloorFrame hd_floor_frame(const HdFloor *floor) {
 
 /* ---- radiance ---- */
 
-HdVec3 hd_most_radiance(const HdScene *scene) {
+HdVec3 hd_max_radiance(const HdScene *scene) {
     double limit = HD_RADIANCE_LIMIT / scene->exposure;
     return hd_minimum(hd_radiance_bound(scene), hd_vec3(limit, limit, limit));
 }
 
-/* ---- groups of lights near each other ---- */
+/* ---- clusters of lights near each other ---- */
 
 static double coordinate(HdVec3 v, int axis) {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-/* Ties are broken by number, so that every machine makes the same groups. */
+/* Ties are broken by number, so that every machine makes the same clusters. */
 static int compare_keys(const void *a, const void *b) {
-    const HdGroupedLight *left = a, *right = b;
+    const HdClusteredLight *left = a, *right = b;
     if (left->key != right->key)
         return left->key < right->key ? -1 : 1;
     return (left->light > right->light) - (left->light < right->light);
 }
 
-static double extent(const HdGroupedLight *lights, int count, int axis) {
+static double extent(const HdClusteredLight *lights, int count, int axis) {
     double least = coordinate(lights[0].about, axis), most = least;
     for (int i = 1; i < count; i++) {
         double x = coordinate(lights[i].about, axis);
@@ -168,12 +168,12 @@ static double extent(const HdGroupedLight *lights, int count, int axis) {
     return most - least;
 }
 
-static bool is_between(const HdGroupedLight *lights, int place) {
+static bool is_between(const HdClusteredLight *lights, int place) {
     return hd_length(hd_sub(lights[place - 1].about, lights[place].about)) > 0.0;
 }
 
 /* The place nearest to `place` that parts no edge's lights, if there is one. */
-static int place_between(const HdGroupedLight *lights, int count, int place) {
+static int place_between(const HdClusteredLight *lights, int count, int place) {
     for (int off = 0; off < count; off++) {
         if (place - off > 0 && is_between(lights, place - off))
             return place - off;
@@ -183,11 +183,11 @@ static int place_between(const HdGroupedLight *lights, int count, int place) {
     return place;
 }
 
-/* There are no more groups than lights. */
-static void split(HdGroupedLight *lights, int count, int first_group, int groups) {
-    if (groups == 1) {
+/* There are no more clusters than lights. */
+static void split(HdClusteredLight *lights, int count, int first_cluster, int clusters) {
+    if (clusters == 1) {
         for (int i = 0; i < count; i++) {
-            lights[i].group = first_group;
+            lights[i].cluster = first_cluster;
             lights[i].key = 0.0;
         }
         qsort(lights, (size_t)count, sizeof *lights, compare_keys);
@@ -200,11 +200,11 @@ static void split(HdGroupedLight *lights, int count, int first_group, int groups
     for (int i = 0; i < count; i++)
         lights[i].key = coordinate(lights[i].about, axis);
     qsort(lights, (size_t)count, sizeof *lights, compare_keys);
-    int part = place_between(lights, count, (int)((int64_t)count * (groups / 2) / groups));
-    int half = (int)(((int64_t)groups * part + count / 2) / count);
-    half = half < 1 ? 1 : half < groups ? half : groups - 1;
-    split(lights, part, first_group, half);
-    split(lights + part, count - part, first_group + half, groups - half);
+    int part = place_between(lights, count, (int)((int64_t)count * (clusters / 2) / clusters));
+    int half = (int)(((int64_t)clusters * part + count / 2) / count);
+    half = half < 1 ? 1 : half < clusters ? half : clusters - 1;
+    split(lights, part, first_cluster, half);
+    split(lights + part, count - part, first_cluster + half, clusters - half);
 }
 
 static bool share_edge(const HdLightSource *a, const HdLightSource *b) {
@@ -214,7 +214,7 @@ static bool share_edge(const HdLightSource *a, const HdLightSource *b) {
 
 /* Of the lights on the edge of number `first`, which follow each other; returns the next one. */
 static int set_middle(HdBuilder *builder, int first) {
-    HdGroupedLight *lights = builder->grouped;
+    HdClusteredLight *lights = builder->clustered;
     int next = first + 1;
     while (next < builder->light_count &&
            share_edge(&builder->sources[first], &builder->sources[next]))
@@ -225,19 +225,19 @@ static int set_middle(HdBuilder *builder, int first) {
     return next;
 }
 
-static void group_lights(HdBuilder *builder) {
-    int groups = HD_LIGHT_GROUPS(builder->light_count);
+static void cluster_lights(HdBuilder *builder) {
+    int clusters = HD_LIGHT_CLUSTERS(builder->light_count);
     for (int i = 0; i < builder->light_count; i++) {
         const HdLightSource *source = &builder->sources[i];
         HdVec3 position = source->position;
         if (source->owner >= 0)
             position = hd_add(position, builder->scene->solids[source->owner].centre);
-        builder->grouped[i] = (HdGroupedLight){position, position, .light = i};
+        builder->clustered[i] = (HdClusteredLight){position, position, .light = i};
     }
     for (int i = 0, next; i < builder->light_count; i = next)
         next = set_middle(builder, i);
-    if (groups > 0)
-        split(builder->grouped, builder->light_count, 0, groups);
+    if (clusters > 0)
+        split(builder->clustered, builder->light_count, 0, clusters);
 }
 
 void hd_builder_list_lights(HdBuilder *builder) {
@@ -252,5 +252,5 @@ void hd_builder_list_lights(HdBuilder *builder) {
         };
     for (int s = 0; s < scene->solid_count; s++)
         count += list_edge_lights(builder, s, builder->sources + count);
-    group_lights(builder);
+    cluster_lights(builder);
 }

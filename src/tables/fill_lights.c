@@ -77,7 +77,7 @@ typedef struct {
     double radius, reach;
 } Ball;
 
-static Ball ball_about(const HdBuilder *builder, const HdGroupedLight *first, int count) {
+static Ball ball_about(const HdBuilder *builder, const HdClusteredLight *first, int count) {
     Ball ball = {{0.0, 0.0, 0.0}, 0.0, 0.0};
     for (int i = 0; i < count; i++)
         ball.centre = hd_add(ball.centre, hd_scale(first[i].position, 1.0 / count));
@@ -90,35 +90,35 @@ static Ball ball_about(const HdBuilder *builder, const HdGroupedLight *first, in
 }
 
 /* Lengths are less, and its square is within a float's range. */
-#define MOST_REACH 1e18
+#define MAX_REACH 1e18
 
 /* As places relative to an object are rounded to either precision. */
 static LightRun rounded_ball(const Ball *ball, HdVec3 object) {
     HdVec3 place = hd_sub(ball->centre, object);
     return (LightRun){.place = {(real)place.x, (real)place.y, (real)place.z},
                       .radius = (real)(ball->radius * 1.0001 + hd_length(place) * 1e-5),
-                      .reach = (real)fmin(ball->reach, MOST_REACH)};
+                      .reach = (real)fmin(ball->reach, MAX_REACH)};
 }
 
-static void fill_group(const HdBuilder *builder, int group, const HdGroupedLight *first,
-                       int count) {
-    size_t groups = (size_t)HD_LIGHT_GROUPS(builder->light_count);
+static void fill_cluster(const HdBuilder *builder, int cluster, const HdClusteredLight *first,
+                         int count) {
+    size_t clusters = (size_t)HD_LIGHT_CLUSTERS(builder->light_count);
     Ball ball = ball_about(builder, first, count);
     for (int object = 0; object < builder->object_count; object++) {
         LightRun rounded = rounded_ball(&ball, builder->centres[object]);
-        real *out = (real *)builder->table[HD_TABLE_light_groups] +
-                    (size_t)object * HD_GROUP_ROWS * groups + group;
-        out[HD_GROUP_X * groups] = rounded.place[0];
-        out[HD_GROUP_Y * groups] = rounded.place[1];
-        out[HD_GROUP_Z * groups] = rounded.place[2];
-        out[HD_GROUP_RADIUS * groups] = rounded.radius;
-        out[HD_GROUP_REACH * groups] = rounded.reach;
+        real *out = (real *)builder->table[HD_TABLE_light_clusters] +
+                    (size_t)object * HD_CLUSTER_ROWS * clusters + cluster;
+        out[HD_CLUSTER_X * clusters] = rounded.place[0];
+        out[HD_CLUSTER_Y * clusters] = rounded.place[1];
+        out[HD_CLUSTER_Z * clusters] = rounded.place[2];
+        out[HD_CLUSTER_RADIUS * clusters] = rounded.radius;
+        out[HD_CLUSTER_REACH * clusters] = rounded.reach;
     }
 }
 
 /* Whether so many lights end before the middles of solids that it pays to judge runs of them. */
 static bool runs_pay(const HdBuilder *builder) {
-    enum { LEAST_SHARE = 4 };
+    enum { MIN_SHARE = 4 };
     int64_t beyond = 0, pairs = (int64_t)builder->light_count * builder->solid_count;
     for (int i = 0; i < builder->light_count; i++)
         for (int s = 0; s < builder->solid_count; s++) {
@@ -126,22 +126,22 @@ static bool runs_pay(const HdBuilder *builder) {
             double end = source->falloff.end;
             beyond += end > 0.0 && hd_length(hd_light_offset(builder, source, s)) > end;
         }
-    return beyond > 0 && beyond * LEAST_SHARE >= pairs;
+    return beyond > 0 && beyond * MIN_SHARE >= pairs;
 }
 
 /* Fewer are looked at sooner than judged. */
-enum { LEAST_RUN = 3 };
+enum { MIN_RUN = 3 };
 
-/* Within a group lights are in their order, but maybe not all that are between them. Bundles of
-   several lanes judge the group and need only know how far to skip: they have all of its runs. */
-static void fill_runs(const HdBuilder *builder, Light *lights, const HdGroupedLight *first,
+/* Within a cluster lights are in their order, but maybe not all that are between them. Packets of
+   several lanes cull the cluster and need only know how far to skip: they have all of its runs. */
+static void fill_runs(const HdBuilder *builder, Light *lights, const HdClusteredLight *first,
                       int count) {
     LightRun *runs = builder->table[HD_TABLE_light_runs];
     for (int i = 0, next; i < count; i = next) {
         int light = first[i].light;
         for (next = i + 1; next < count && first[next].light == light + next - i; next++)
             continue;
-        if (builder->lanes == 1 && next - i < LEAST_RUN)
+        if (builder->lanes == 1 && next - i < MIN_RUN)
             continue;
         lights[light].run = next - i;
         if (builder->lanes > 1)
@@ -153,17 +153,17 @@ static void fill_runs(const HdBuilder *builder, Light *lights, const HdGroupedLi
     }
 }
 
-static void fill_groups(const HdBuilder *builder, Light *lights) {
-    const HdGroupedLight *grouped = builder->grouped;
-    int count = HD_LIGHT_GROUPS(builder->light_count) > 0 ? builder->light_count : 0;
+static void fill_clusters(const HdBuilder *builder, Light *lights) {
+    const HdClusteredLight *clustered = builder->clustered;
+    int count = HD_LIGHT_CLUSTERS(builder->light_count) > 0 ? builder->light_count : 0;
     bool has_runs = builder->lanes > 1 || runs_pay(builder);
     for (int i = 0, next; i < count; i = next) {
-        int group = grouped[i].group;
-        for (next = i; next < count && grouped[next].group == group; next++)
-            lights[grouped[next].light].group = group;
-        fill_group(builder, group, grouped + i, next - i);
+        int cluster = clustered[i].cluster;
+        for (next = i; next < count && clustered[next].cluster == cluster; next++)
+            lights[clustered[next].light].cluster = cluster;
+        fill_cluster(builder, cluster, clustered + i, next - i);
         if (has_runs)
-            fill_runs(builder, lights, grouped + i, next - i);
+            fill_runs(builder, lights, clustered + i, next - i);
     }
 }
 
@@ -196,7 +196,7 @@ static void fill_lights(const HdBuilder *builder) {
         if (builder->has_floor)
             fill_floor_distances(builder, i, &frame, row);
     }
-    fill_groups(builder, lights);
+    fill_clusters(builder, lights);
 }
 
 /* ---- beside and apart ---- */
@@ -240,7 +240,7 @@ static double radius_about(const HdBuilder *builder, int object) {
 
 /* Distance of a point from the convex hull of a ball about the origin and a light, a cone with a
    round end. */
-static double distance_to_ways(double radius, HdVec3 light, HdVec3 point) {
+static double distance_to_cone(double radius, HdVec3 light, HdVec3 point) {
     double length = hd_length(light), share = 0.0;
     if (length > radius) {
         double along = hd_dot(point, light) / length;
@@ -253,13 +253,13 @@ static double distance_to_ways(double radius, HdVec3 light, HdVec3 point) {
     return hd_length(hd_sub(point, hd_scale(light, share))) - left;
 }
 
-static bool solid_is_beside(const HdBuilder *builder, const HdLightSource *source, int object,
-                            double radius, int solid) {
+static bool solid_cannot_occlude(const HdBuilder *builder, const HdLightSource *source, int object,
+                                 double radius, int solid) {
     HdVec3 centre = way_between(builder, object, solid);
     double slack = (hd_length(centre) + radius) * 1e-4 +
                    hd_length(hd_light_offset(builder, source, solid)) * 1e-5;
     double least = builder->scene->solids[solid].circumradius * 1.001 + slack;
-    return distance_to_ways(radius, hd_light_offset(builder, source, object), centre) > least;
+    return distance_to_cone(radius, hd_light_offset(builder, source, object), centre) > least;
 }
 
 /* The points of an object, as lights see them. */
@@ -285,7 +285,7 @@ static int side_of_floor(const HdBuilder *builder, int object, double radius) {
     return (height > least) - (height < -least);
 }
 
-static bool floor_is_beside(const HdBuilder *builder, int light, const Lit *lit) {
+static bool floor_cannot_occlude(const HdBuilder *builder, int light, const Lit *lit) {
     if (lit->object == builder->solid_count)
         return true; /* it is in nobody's light who is on it */
     const real *row = (const real *)builder->table[HD_TABLE_light_coordinates] +
@@ -294,48 +294,48 @@ static bool floor_is_beside(const HdBuilder *builder, int light, const Lit *lit)
     return lit->side > 0 ? height > R(0.0) : lit->side < 0 && height < R(0.0);
 }
 
-static int beside_ways(const HdBuilder *builder, int light, const Lit *lit) {
+static int occlusion_mask(const HdBuilder *builder, int light, const Lit *lit) {
     const HdLightSource *source = &builder->sources[light];
     const LightSides *sides = (const LightSides *)builder->table[HD_TABLE_light_sides] +
                               (size_t)light * (size_t)builder->object_count;
-    int beside = 0;
-    for (int s = 0; s < builder->solid_count && s < HD_JUDGED_OBJECTS; s++) {
+    int nonoccluders = 0;
+    for (int s = 0; s < builder->solid_count && s < HD_MASKED_OBJECTS; s++) {
         /* Segments leave their own solid only to where the light is outside of it. */
-        bool is_beside = s == lit->object
-                             ? sides[s].outside == 0
-                             : solid_is_beside(builder, source, lit->object, lit->radius, s);
-        beside |= is_beside ? 1 << s : 0;
+        bool cannot_occlude =
+            s == lit->object ? sides[s].outside == 0
+                             : solid_cannot_occlude(builder, source, lit->object, lit->radius, s);
+        nonoccluders |= cannot_occlude ? 1 << s : 0;
     }
-    if (builder->has_floor && builder->solid_count < HD_JUDGED_OBJECTS)
-        beside |= floor_is_beside(builder, light, lit) ? 1 << builder->solid_count : 0;
-    return beside;
+    if (builder->has_floor && builder->solid_count < HD_MASKED_OBJECTS)
+        nonoccluders |= floor_cannot_occlude(builder, light, lit) ? 1 << builder->solid_count : 0;
+    return nonoccluders;
 }
 
 /* Kernels measure nothing for what is beside the ways of all lights: the first number has no bit
    that the number of some light has not. */
-static void fill_ways(const HdBuilder *builder, int object) {
-    int *beside = (int *)builder->table[HD_TABLE_light_ways] +
-                  (size_t)object * ((size_t)builder->light_count + 1);
+static void fill_occlusion_masks(const HdBuilder *builder, int object) {
+    int *nonoccluders = (int *)builder->table[HD_TABLE_occlusion_masks] +
+                        (size_t)object * ((size_t)builder->light_count + 1);
     double radius = radius_about(builder, object);
     Lit lit = {object, radius, builder->has_floor ? side_of_floor(builder, object, radius) : 0};
-    beside[0] = -1;
+    nonoccluders[0] = -1;
     for (int i = 0; i < builder->light_count; i++) {
-        beside[i + 1] = beside_ways(builder, i, &lit);
-        beside[0] &= beside[i + 1];
+        nonoccluders[i + 1] = occlusion_mask(builder, i, &lit);
+        nonoccluders[0] &= nonoccluders[i + 1];
     }
 }
 
 /* ---- what reaches into a solid ---- */
 
 /* Objects with less between them might meet, for all that rounding does. */
-static double least_gap(const HdBuilder *builder, int a, int b) {
+static double min_gap(const HdBuilder *builder, int a, int b) {
     return (radius_about(builder, a) + radius_about(builder, b)) * 1.0001 -
            circumradius(builder, a) - circumradius(builder, b);
 }
 
 static bool reaches_into(const HdBuilder *builder, int other, int solid) {
     const HdScene *scene = builder->scene;
-    double least = -least_gap(builder, solid, other);
+    double least = -min_gap(builder, solid, other);
     if (other < builder->solid_count)
         return hd_solid_depth(&scene->solids[solid], &scene->solids[other], least) > least;
     if (builder->has_floor && other == builder->solid_count)
@@ -344,7 +344,7 @@ static bool reaches_into(const HdBuilder *builder, int other, int solid) {
     return !(hd_length(way_between(builder, solid, other)) - sum > -least);
 }
 
-static bool is_apart(const HdBuilder *builder, int solid) {
+static bool is_isolated(const HdBuilder *builder, int solid) {
     for (int i = 0; i < builder->object_count; i++)
         if (i != solid && reaches_into(builder, i, solid))
             return false;
@@ -355,7 +355,7 @@ void NAMED(hd_fill_lights)(const HdBuilder *builder) {
     Object *objects = builder->table[HD_TABLE_objects];
     fill_lights(builder);
     for (int i = 0; i < builder->object_count; i++) {
-        fill_ways(builder, i);
-        objects[i].apart = i < builder->solid_count && is_apart(builder, i);
+        fill_occlusion_masks(builder, i);
+        objects[i].isolated = i < builder->solid_count && is_isolated(builder, i);
     }
 }

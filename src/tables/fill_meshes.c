@@ -124,8 +124,8 @@ static double contact_distance(const HdVec3 to[3]) {
     return precision * (64.0 + fmax(x, fmax(y, z)) / fmin(x, fmin(y, z)));
 }
 
-static void fill_instance(const HdBuilder *builder, Instance *out, int number, int first_skin,
-                          int first_face) {
+static void fill_instance(const HdBuilder *builder, Instance *out, int number,
+                          int first_mesh_material, int first_face) {
     const HdMeshPlace *place = &builder->places[builder->scene->instances[number].mesh];
     HdPlacement to = hd_placement_of(builder->scene, number);
     HdVec3 back[3];
@@ -142,7 +142,7 @@ static void fill_instance(const HdBuilder *builder, Instance *out, int number, i
         out->root = -1;
     out->first_triangle = (int)first->triangles;
     out->triangle_count = mesh->triangle_count;
-    out->first_skin = first_skin;
+    out->first_mesh_material = first_mesh_material;
     out->first_face = first_face;
     out->first_corner_normals = mesh->normals != NULL ? (int)first->corner_normals : -1;
     out->first_corner_uvs = mesh->uvs != NULL ? (int)first->corner_uvs : -1;
@@ -152,7 +152,7 @@ static void fill_instance(const HdBuilder *builder, Instance *out, int number, i
 
 /* Of 0 < x <= 1. Digit by digit, for library functions differ; an error of a late digit's square is
    worth little. */
-static double octaves_below_one(double x) {
+static double density_of_share(double x) {
     int exponent;
     double fraction = 2.0 * frexp(x, &exponent), digits = 0.0;
     for (int i = 1; i <= 52; i++) {
@@ -166,53 +166,54 @@ static double octaves_below_one(double x) {
 }
 
 /* A share of light in octaves, and what that leaves out. */
-static void set_filter(Skin *skin, int side, int channel, double passes) {
+static void set_filter(MeshMaterial *mesh_material, int side, int channel, double passes) {
     if (!(passes > 0.0)) {
-        skin->filter[side][channel] = HD_OPAQUE_OCTAVES;
+        mesh_material->filter[side][channel] = HD_OPAQUE_DENSITY;
         return;
     }
-    double octaves = octaves_below_one(passes) * (double)HD_OCTAVE;
-    double whole = floor(octaves);
-    if (whole >= (double)HD_OPAQUE_OCTAVES) {
-        skin->filter[side][channel] = HD_OPAQUE_OCTAVES;
+    double density = density_of_share(passes) * (double)HD_DENSITY_ONE;
+    double whole = floor(density);
+    if (whole >= (double)HD_OPAQUE_DENSITY) {
+        mesh_material->filter[side][channel] = HD_OPAQUE_DENSITY;
         return;
     }
-    skin->filter[side][channel] = (int)whole;
-    skin->filter_rest[side][channel] = (int)((octaves - whole) * (double)HD_OCTAVE);
+    mesh_material->filter[side][channel] = (int)whole;
+    mesh_material->filter_rest[side][channel] = (int)((density - whole) * (double)HD_DENSITY_ONE);
 }
 
-static void set_filters(Skin *skin, const HdMaterial *material, bool is_opaque) {
+static void set_filters(MeshMaterial *mesh_material, const HdMaterial *material, bool is_opaque) {
     double outer = is_opaque ? 0.0 : material->transmission;
     double inner = is_opaque                  ? 0.0
                    : material->has_inner_side ? material->inner_transmission
                                               : material->transmission;
     double shares[2] = {outer, inner};
     for (int side = 0; side < 2; side++) {
-        set_filter(skin, side, 0, shares[side] * material->colour.x);
-        set_filter(skin, side, 1, shares[side] * material->colour.y);
-        set_filter(skin, side, 2, shares[side] * material->colour.z);
+        set_filter(mesh_material, side, 0, shares[side] * material->colour.x);
+        set_filter(mesh_material, side, 1, shares[side] * material->colour.y);
+        set_filter(mesh_material, side, 2, shares[side] * material->colour.z);
         bool passes_nothing = true;
         for (int channel = 0; channel < 3; channel++)
-            passes_nothing &= skin->filter[side][channel] == HD_OPAQUE_OCTAVES;
-        skin->filter[side][3] = passes_nothing;
+            passes_nothing &= mesh_material->filter[side][channel] == HD_OPAQUE_DENSITY;
+        mesh_material->filter[side][3] = passes_nothing;
     }
 }
 
 /* Returns how many there are. */
-static int fill_skins(const HdBuilder *builder, int number, Skin *skins, Material *materials,
-                      int first) {
+static int fill_mesh_materials(const HdBuilder *builder, int number, MeshMaterial *mesh_materials,
+                               Material *materials, int first) {
     const HdInstance *instance = &builder->scene->instances[number];
     const HdMesh *mesh = hd_mesh_of(builder->scene, number);
     for (int i = 0; i < mesh->material_count; i++) {
         const HdMeshMaterial *material = &mesh->materials[i];
         const HdMeshMaterial *filter =
             material->passes_as >= 0 ? &mesh->materials[material->passes_as] : material;
-        Skin *skin = &skins[first + i];
-        hd_store3(skin->emission, material->emission);
-        skin->material = builder->first_mesh_material + first + i;
-        skin->picture = material->picture;
-        NAMED(hd_fill_material)(&materials[skin->material], hd_material_of(instance, material));
-        set_filters(skin, hd_material_of(instance, filter), filter->is_opaque_to_shadows);
+        MeshMaterial *mesh_material = &mesh_materials[first + i];
+        hd_store3(mesh_material->emission, material->emission);
+        mesh_material->material = builder->first_mesh_material + first + i;
+        mesh_material->picture = material->picture;
+        NAMED(hd_fill_material)
+        (&materials[mesh_material->material], hd_material_of(instance, material));
+        set_filters(mesh_material, hd_material_of(instance, filter), filter->is_opaque_to_shadows);
     }
     return mesh->material_count;
 }
@@ -241,12 +242,12 @@ void NAMED(hd_fill_meshes)(const HdBuilder *builder) {
         else
             fill_nodes(nodes, &mesh->tree, place->first.nodes, place->first.triangles);
     }
-    int skin = 0;
+    int mesh_material = 0;
     for (int i = 0; i < scene->instance_count; i++) {
-        fill_instance(builder, (Instance *)builder->table[HD_TABLE_instances] + i, i, skin,
+        fill_instance(builder, (Instance *)builder->table[HD_TABLE_instances] + i, i, mesh_material,
                       2 * builder->plane_count + i * HD_TRIANGLE_GROUPS);
-        skin += fill_skins(builder, i, builder->table[HD_TABLE_skins],
-                           builder->table[HD_TABLE_materials], skin);
+        mesh_material += fill_mesh_materials(builder, i, builder->table[HD_TABLE_mesh_materials],
+                                             builder->table[HD_TABLE_materials], mesh_material);
     }
     if (builder->top.node_count > 0) {
         header->top_root = (int)builder->first_top_node;

@@ -12,7 +12,7 @@ void NAMED(hd_fill_header)(const HdBuilder *builder, const HdSceneTables *tables
     header->exposure = (real)builder->scene->exposure;
     header->refracts = tables->refracts;
     header->lit_from_behind = tables->lit_from_behind;
-    header->surveyed = tables->surveyed;
+    header->bounded = tables->bounded;
     hd_store3(header->light_bound, hd_light_bound(builder->scene));
     header->solid_count = builder->solid_count;
     header->floor_end = builder->solid_count + (builder->has_floor ? 1 : 0);
@@ -30,7 +30,7 @@ static void store_seen(Object *out, const HdSeen *seen, HdVec3 limit) {
 void NAMED(hd_fill_seen)(const HdBuilder *builder) {
     const HdScene *scene = builder->scene;
     Object *objects = builder->table[HD_TABLE_objects];
-    const HdVec3 most = hd_most_radiance(scene);
+    const HdVec3 most = hd_max_radiance(scene);
     HdSeen seen[HD_MAX_SOLIDS + 2];
     hd_seen_bounds(scene, seen);
     for (int s = 0; s < builder->solid_count; s++)
@@ -55,7 +55,7 @@ static double power(double x, int n) {
 
 /* The cosine whose power is 2^-60, rounded up: by halving intervals, as library functions differ.
  */
-static real least_highlight(int shininess) {
+static real min_highlight(int shininess) {
     double below = 0.0, above = 1.0;
     for (int i = 0; i < 60; i++) {
         double middle = 0.5 * (below + above);
@@ -77,7 +77,7 @@ void NAMED(hd_fill_material)(Material *out, const HdMaterial *material) {
     out->index_of_refraction = (real)material->index_of_refraction;
     out->inverse_index = (real)(1.0 / material->index_of_refraction);
     out->shininess = material->shininess;
-    out->least_highlight = least_highlight(material->shininess);
+    out->min_highlight = min_highlight(material->shininess);
     out->lit_from_behind = material->lit_from_behind;
 }
 

@@ -110,7 +110,7 @@ static HdStatus count_meshes(HdBuilder *builder, HdError *error) {
                        "the meshes have %zu triangles in all, expected at most %d",
                        sizes->triangles, (int)HD_MAX_MESH_TRIANGLES);
     for (int i = 0; i < scene->instance_count; i++)
-        sizes->skins += (size_t)hd_mesh_of(builder->scene, i)->material_count;
+        sizes->mesh_materials += (size_t)hd_mesh_of(builder->scene, i)->material_count;
     return HD_OK;
 }
 
@@ -137,7 +137,7 @@ enum { FEW_INSTANCES = 4 };
 
 static HdStatus build_top(HdBuilder *builder, HdError *error) {
     const HdScene *scene = builder->scene;
-    const HdHierarchyOptions options = {.node_cost = 0.1f, .most_in_leaf = 1};
+    const HdHierarchyOptions options = {.node_cost = 0.1f, .max_in_leaf = 1};
     if (scene->accel == HD_ACCEL_BRUTE || scene->instance_count < FEW_INSTANCES)
         return HD_OK;
     HdThreadPool *pool = NULL;

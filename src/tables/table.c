@@ -21,8 +21,8 @@ const char *hd_scene_table_content(int table) {
         [HD_TABLE_light_offsets] = "places of lights",
         [HD_TABLE_light_coordinates] = "distances of lights from planes",
         [HD_TABLE_light_sides] = "sides of lights",
-        [HD_TABLE_light_ways] = "what lies beside the ways of lights",
-        [HD_TABLE_light_groups] = "groups of lights",
+        [HD_TABLE_occlusion_masks] = "occlusion masks",
+        [HD_TABLE_light_clusters] = "clusters of lights",
         [HD_TABLE_light_runs] = "runs of lights",
         [HD_TABLE_object_offsets] = "places of objects",
         [HD_TABLE_floor_map] = "maps of the floor",
@@ -33,7 +33,7 @@ const char *hd_scene_table_content(int table) {
         [HD_TABLE_wide_bounds] = "boxes of wide nodes",
         [HD_TABLE_wide_children] = "children of wide nodes",
         [HD_TABLE_top_items] = "lists of instances",
-        [HD_TABLE_skins] = "materials of meshes",
+        [HD_TABLE_mesh_materials] = "materials of meshes",
         [HD_TABLE_mesh_normals] = "normals",
         [HD_TABLE_corner_normals] = "normals of corners",
         [HD_TABLE_mesh_uvs] = "texture coordinates",
@@ -55,7 +55,7 @@ void hd_scene_tables_raise(HdSceneTables *tables, const HdSceneTables *like) {
     tables->refracts = tables->refracts || like->refracts;
     tables->lit_from_behind = tables->lit_from_behind || like->lit_from_behind;
     tables->many_lights = tables->many_lights || like->many_lights;
-    tables->surveyed = tables->surveyed || like->surveyed;
+    tables->bounded = tables->bounded || like->bounded;
     tables->small_tables = tables->small_tables && like->small_tables;
 }
 
@@ -71,7 +71,7 @@ void hd_frame_tables_free(HdFrameTables *tables) {
 
 /* Memory */
 
-const char hd_room_advice[] = "fewer triangles, a device with more memory or --backend c may do";
+const char hd_budget_advice[] = "fewer triangles, a device with more memory or --backend c may do";
 
 void hd_byte_text(double bytes, char out[HD_BYTE_TEXT_SIZE]) {
     static const char *const units[] = {"bytes", "kB", "MB", "GB", "TB"};
@@ -84,7 +84,8 @@ void hd_byte_text(double bytes, char out[HD_BYTE_TEXT_SIZE]) {
     snprintf(out, HD_BYTE_TEXT_SIZE, "%.*f %s", decimals, bytes, units[unit]);
 }
 
-HdStatus hd_check_room(const HdSceneTables *tables, const HdMemoryRoom *room, HdError *error) {
+HdStatus hd_check_budget(const HdSceneTables *tables, const HdMemoryBudget *capacity,
+                         HdError *error) {
     char need[HD_BYTE_TEXT_SIZE], most[HD_BYTE_TEXT_SIZE], at_once[HD_BYTE_TEXT_SIZE],
         memory[HD_BYTE_TEXT_SIZE];
     double all = 0.0, largest_bytes = 0.0;
@@ -97,17 +98,17 @@ HdStatus hd_check_room(const HdSceneTables *tables, const HdMemoryRoom *room, Hd
     }
     hd_byte_text(all, need);
     hd_byte_text(largest_bytes, most);
-    hd_byte_text(room->at_once, at_once);
-    hd_byte_text(room->memory, memory);
+    hd_byte_text(capacity->at_once, at_once);
+    hd_byte_text(capacity->memory, memory);
     const char *content = hd_scene_table_content(largest);
-    if (room->memory > 0.0 && all > room->memory)
+    if (capacity->memory > 0.0 && all > capacity->memory)
         return hd_fail(error, HD_UNAVAILABLE,
                        "the scene's tables need %s, %s of them for its %s; %s has %s; %s", need,
-                       most, content, room->name, memory, room->advice);
-    if (room->at_once > 0.0 && largest_bytes > room->at_once)
+                       most, content, capacity->name, memory, capacity->advice);
+    if (capacity->at_once > 0.0 && largest_bytes > capacity->at_once)
         return hd_fail(error, HD_UNAVAILABLE,
                        "the scene's %s need %s in one buffer; %s allows %s of its %s; %s", content,
-                       most, room->name, at_once, memory, room->advice);
+                       most, capacity->name, at_once, memory, capacity->advice);
     return HD_OK;
 }
 

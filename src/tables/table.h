@@ -25,7 +25,7 @@ typedef struct HdSceneTables {
     HdTable table[32];
     int table_count;
     HdPrecision precision;
-    int lanes; /* of the kernels' bundles: nodes for single rays have as many children */
+    int lanes; /* of the kernels' packets: nodes for single rays have as many children */
     int plane_count, light_count;
     int depth;
     int node_stack;       /* of the hierarchies of meshes; 0: there are no meshes */
@@ -33,7 +33,7 @@ typedef struct HdSceneTables {
     bool lit_from_behind; /* some material is */
     bool many_lights;  /* so many that one lane may judge those that follow each other together */
     bool small_tables; /* HD_SMALL_SCENE_TABLES and HD_SMALL_FRAME_TABLES have no more rows */
-    bool surveyed;     /* pixels come with bounds of what was left out */
+    bool bounded;      /* pixels come with bounds of what was left out */
 } HdSceneTables;
 
 /* In the order of HD_FRAME_TABLES. */
@@ -57,7 +57,7 @@ typedef struct HdSampleList {
     int samples;   /* of each entry: those that follow the first one */
     double
         bound_cutoff; /* rays and lights that cannot add more than this to a sample are left out */
-    double most_left_out; /* of a sample, in all: hd_most_left_out */
+    double max_left_out; /* of a sample, in all: hd_max_left_out */
 } HdSampleList;
 
 enum { HD_LISTED_WIDTH = 8 }; /* of the frame that entries form, row by row */
@@ -81,18 +81,19 @@ enum { HD_BYTE_TEXT_SIZE = 32 };
 void hd_byte_text(double bytes, char out[HD_BYTE_TEXT_SIZE]);
 
 /* What users may do where a device has too little memory; ends a sentence. */
-extern const char hd_room_advice[];
+extern const char hd_budget_advice[];
 
-typedef struct HdMemoryRoom {
+typedef struct HdMemoryBudget {
     const char *name;   /* of the device or machine */
     const char *advice; /* what to do where it is too little */
     double memory;      /* bytes in all; 0: unknown */
     double at_once;     /* most bytes of one table; 0: unknown */
-} HdMemoryRoom;
+} HdMemoryBudget;
 
 /* HD_UNAVAILABLE where a table, or all of them, can never fit, however much is free: with what is
    too large, what it needs, and what there is. */
-HdStatus hd_check_room(const HdSceneTables *tables, const HdMemoryRoom *room, HdError *error);
+HdStatus hd_check_budget(const HdSceneTables *tables, const HdMemoryBudget *capacity,
+                         HdError *error);
 
 /* Memory for table->bytes, zeroed and aligned for the widest loads; at least one unit, so that no
    table is NULL. `what` names it in a message: "scene's triangles". */
@@ -112,6 +113,6 @@ HdStatus hd_compile_frame(HdFrameTables *tables, const HdScene *scene, const HdC
 
 /* Of a surveyed scene: no more than this, after exposure, is left out of a sample in all. It goes
    through all lights and materials, so ask once for a scene. */
-double hd_most_left_out(const HdScene *scene);
+double hd_max_left_out(const HdScene *scene);
 
 #endif

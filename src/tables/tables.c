@@ -9,10 +9,10 @@
 #include "scene/light_bound.h"
 #include "tables/builder.h"
 
-_Static_assert((int)HD_SURVEY_FLOATS == HD_SURVEY_SUMS &&
+_Static_assert((int)HD_BOUNDED_FLOATS == HD_BOUNDED_SUMS &&
                    (int)HD_RADIANCE_FLOATS == HD_RADIANCE_SUMS,
                "a float comes of each sum");
-_Static_assert((int)HD_MOST_FIRST_FLOATS == HD_FIRST_FLOATS, "a frame has what kernels find");
+_Static_assert((int)HD_MAX_FIRST_FLOATS == HD_FIRST_FLOATS, "a frame has what kernels find");
 
 _Static_assert(HD_RADIANCE_LIMIT == HD_CONTRIBUTION_LIMIT * (HD_MAX_DEPTH + 1),
                "the deepest tree has so many levels");
@@ -23,8 +23,8 @@ static double greatest(HdVec3 a) {
 
 /* The weights of rays that end, and those of the hits of a level, add up to at most 1 in each
    channel; the greatest channel is taken at each of them. */
-double hd_most_left_out(const HdScene *scene) {
-    double rays = greatest(hd_most_radiance(scene));
+double hd_max_left_out(const HdScene *scene) {
+    double rays = greatest(hd_max_radiance(scene));
     double lights = greatest(hd_surface_bound(scene));
     return 3.0 * scene->exposure * (rays + (scene->depth + 1) * lights);
 }
@@ -51,7 +51,7 @@ HdStatus hd_compile_frame(HdFrameTables *tables, const HdScene *scene, const HdC
         list != NULL ? (list->entry_count + HD_LISTED_WIDTH - 1) / HD_LISTED_WIDTH : scene->height;
     tables->samples =
         list != NULL ? list->samples : scene->samples_per_side * scene->samples_per_side;
-    tables->floats = hd_scene_is_surveyed(scene) ? HD_SURVEY_FLOATS : HD_RADIANCE_FLOATS;
+    tables->floats = hd_scene_has_error_bound(scene) ? HD_BOUNDED_FLOATS : HD_RADIANCE_FLOATS;
     HdStatus status = precision == HD_PRECISION_FLOAT
                           ? hd_compile_frame_float(tables, scene, camera, list, error)
                           : hd_compile_frame_double(tables, scene, camera, list, error);

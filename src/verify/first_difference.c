@@ -12,11 +12,11 @@ enum { DEVICE, PLAIN_C, SIDES };
 enum { AS_IT_IS = -1, NOWHERE = -1 };
 
 typedef struct Search {
-    const HdDispute *dispute;
+    const HdMismatch *mismatch;
     HdRenderer *renderers[SIDES];
     HdFrame frames[SIDES]; /* of the last comparison, free where there was none */
     int depth, side;       /* of the scene as it is: levels of rays, samples per side */
-    bool is_surveyed;
+    bool is_bounded;
 } Search;
 
 /* ---- both sides ---- */
@@ -35,10 +35,10 @@ static HdStatus open_side(Search *search, int side, const HdDevice *device,
 static HdStatus open_sides(Search *search, HdError *error) {
     HdDevice plain;
     int count;
-    const HdDispute *dispute = search->dispute;
-    const HdRenderOptions options = {.precision = dispute->options->precision};
+    const HdMismatch *mismatch = search->mismatch;
+    const HdRenderOptions options = {.precision = mismatch->options->precision};
     HD_TRY(hd_backend_enumerate(hd_backend_always_there(), &plain, 1, &count, error));
-    HD_TRY(open_side(search, DEVICE, dispute->device, dispute->options, error));
+    HD_TRY(open_side(search, DEVICE, mismatch->device, mismatch->options, error));
     return open_side(search, PLAIN_C, &plain, &options, error);
 }
 
@@ -65,19 +65,19 @@ static void split_samples(HdScene *scene) {
 static HdStatus compare(Search *search, int depth, bool splits, bool *differs, HdError *error) {
     HdScene scene;
     HdCamera camera;
-    HdStatus status = search->dispute->build(search->dispute->what, &scene, &camera, error);
+    HdStatus status = search->mismatch->build(search->mismatch->what, &scene, &camera, error);
     if (status != HD_OK)
         return status;
     search->depth = scene.depth;
     search->side = scene.samples_per_side;
-    search->is_surveyed = hd_scene_is_surveyed(&scene);
+    search->is_bounded = hd_scene_has_error_bound(&scene);
     if (depth != AS_IT_IS)
         scene.depth = depth;
     if (splits)
         split_samples(&scene);
     forget_frames(search);
     for (int side = 0; status == HD_OK && side < SIDES; side++)
-        status = hd_put_and_render(search->renderers[side], &scene, &camera, search->dispute->like,
+        status = hd_put_and_render(search->renderers[side], &scene, &camera, search->mismatch->like,
                                    0, &search->frames[side], error);
     hd_scene_free(&scene);
     *differs = status == HD_OK &&
@@ -103,7 +103,7 @@ static int first_value(const Search *search) {
 
 /* ---- in words ---- */
 
-static void tell_counts(const Search *search, char *text, size_t capacity) {
+static void report_counts(const Search *search, char *text, size_t capacity) {
     const HdFrame *found = &search->frames[DEVICE], *expected = &search->frames[PLAIN_C];
     const struct {
         const char *what;
@@ -125,14 +125,14 @@ static void tell(const Search *search, int depth, bool is_split, char *text, siz
     char sample[80] = "";
     int value = first_value(search), side = search->side;
     if (value == NOWHERE) {
-        tell_counts(search, text, capacity);
+        report_counts(search, text, capacity);
         return;
     }
     int pixel = value / found->floats, x = pixel % found->width, y = pixel / found->width;
     if (is_split)
         snprintf(sample, sizeof sample, ", sample %d, %d of %d x %d", x % side, y % side, side,
                  side);
-    else if (side > 1 && !search->is_surveyed)
+    else if (side > 1 && !search->is_bounded)
         snprintf(sample, sizeof sample, ", though no sample of its %d x %d differs alone", side,
                  side);
     snprintf(text, capacity, "pixel %d, %d%s, depth %d of the ray: %s is %a, expected %a",
@@ -154,7 +154,7 @@ static HdStatus search_frame(Search *search, char *text, size_t capacity, HdErro
     for (; status == HD_OK && !differs && depth <= search->depth; depth++)
         status = compare(search, depth, false, &differs, error);
     depth--;
-    if (status == HD_OK && differs && search->side > 1 && !search->is_surveyed) {
+    if (status == HD_OK && differs && search->side > 1 && !search->is_bounded) {
         status = compare(search, depth, true, &is_split, error);
         if (status == HD_OK && !is_split)
             status = compare(search, depth, false, &differs, error);
@@ -166,9 +166,9 @@ static HdStatus search_frame(Search *search, char *text, size_t capacity, HdErro
     return status;
 }
 
-HdStatus hd_first_difference(const HdDispute *dispute, char *text, size_t capacity,
+HdStatus hd_first_difference(const HdMismatch *mismatch, char *text, size_t capacity,
                              HdError *error) {
-    Search search = {.dispute = dispute};
+    Search search = {.mismatch = mismatch};
     HdStatus status = open_sides(&search, error);
     if (status == HD_OK)
         status = search_frame(&search, text, capacity, error);

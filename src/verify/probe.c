@@ -63,8 +63,8 @@ static const char *precision_name(const Probe *probe) {
 
 /* Denormal. */
 static bool is_small(const Probe *probe, double a) {
-    double least_normal = probe->precision == HD_PRECISION_DOUBLE ? 0x1p-1022 : 0x1p-126;
-    return a != 0.0 && fabs(a) < least_normal;
+    double min_normal = probe->precision == HD_PRECISION_DOUBLE ? 0x1p-1022 : 0x1p-126;
+    return a != 0.0 && fabs(a) < min_normal;
 }
 
 /* ---- what differs ---- */
@@ -82,10 +82,11 @@ static double rounded_once(const Probe *probe, double a, double b, double c) {
 /* What a difference looks like, in brackets; "" where it looks like nothing that is known. */
 static const char *guess_cause(const Probe *probe, int primitive, double a, double b, double c,
                                double found, double expected) {
-    double first = primitive == HD_PROBE_NUMBER_apart_from ? -a : a;
-    bool is_apart = primitive == HD_PROBE_NUMBER_apart || primitive == HD_PROBE_NUMBER_apart_from;
+    double first = primitive == HD_PROBE_NUMBER_unfused_from ? -a : a;
+    bool is_isolated =
+        primitive == HD_PROBE_NUMBER_unfused || primitive == HD_PROBE_NUMBER_unfused_from;
     bool is_rounded = primitive == HD_PROBE_NUMBER_quotient || primitive == HD_PROBE_NUMBER_root;
-    if (is_apart && is_same(found, rounded_once(probe, first, b, c)))
+    if (is_isolated && is_same(found, rounded_once(probe, first, b, c)))
         return " (a product and a sum are contracted into one operation)";
     if (primitive == HD_PROBE_NUMBER_fused && is_same(found, rounded_twice(probe, a, b, c)))
         return " (it is rounded twice)";

@@ -9,7 +9,7 @@
 
 #if HD_DOUBLE
 typedef uint64_t Bits;
-enum { DIGITS = 53, LEAST_EXPONENT = -1022, MOST_EXPONENT = 1023, ROOT_BITS = 56 };
+enum { DIGITS = 53, MIN_EXPONENT = -1022, MAX_EXPONENT = 1023, ROOT_BITS = 56 };
 #define FILL   hd_probe_operands_double
 #define EXPECT hd_probe_expect_double
 #define FUSED  fma
@@ -18,7 +18,7 @@ enum { DIGITS = 53, LEAST_EXPONENT = -1022, MOST_EXPONENT = 1023, ROOT_BITS = 56
 #define SIGN   copysign
 #else
 typedef uint32_t Bits;
-enum { DIGITS = 24, LEAST_EXPONENT = -126, MOST_EXPONENT = 127, ROOT_BITS = 26 };
+enum { DIGITS = 24, MIN_EXPONENT = -126, MAX_EXPONENT = 127, ROOT_BITS = 26 };
 #define FILL   hd_probe_operands_float
 #define EXPECT hd_probe_expect_float
 #define FUSED  fmaf
@@ -107,16 +107,16 @@ static real special(uint64_t number) {
                            R(10.0),
                            (real)INFINITY,
                            (real)NAN,
-                           scaled(one, LEAST_EXPONENT),
-                           scaled(one - last * R(0.5), LEAST_EXPONENT),
-                           scaled(one - last, LEAST_EXPONENT),
-                           scaled(one + last, LEAST_EXPONENT),
-                           scaled(one, LEAST_EXPONENT - DIGITS + 1),
-                           scaled(R(3.0), LEAST_EXPONENT - DIGITS + 1),
-                           scaled(one, LEAST_EXPONENT / 2),
-                           scaled(R(2.0) - last, MOST_EXPONENT),
-                           scaled(one, MOST_EXPONENT),
-                           scaled(one, MOST_EXPONENT / 2 + 1),
+                           scaled(one, MIN_EXPONENT),
+                           scaled(one - last * R(0.5), MIN_EXPONENT),
+                           scaled(one - last, MIN_EXPONENT),
+                           scaled(one + last, MIN_EXPONENT),
+                           scaled(one, MIN_EXPONENT - DIGITS + 1),
+                           scaled(R(3.0), MIN_EXPONENT - DIGITS + 1),
+                           scaled(one, MIN_EXPONENT / 2),
+                           scaled(R(2.0) - last, MAX_EXPONENT),
+                           scaled(one, MAX_EXPONENT),
+                           scaled(one, MAX_EXPONENT / 2 + 1),
                            scaled(one, DIGITS),
                            scaled(one, DIGITS - 1),
                            scaled(one, DIGITS - 1) - R(0.5),
@@ -216,8 +216,8 @@ static void fill_quotient(Tuple *tuple, uint64_t seed) {
         tuple->a =
             draw_unit(&seed) * (kind < 6 ? tuple->b : R(1.0)); /* near another unit, or any */
     }
-    int least = kind & 1 ? 1 - DIGITS : LEAST_EXPONENT - DIGITS - 2;
-    int size_b = draw_between(&seed, LEAST_EXPONENT / 2, MOST_EXPONENT / 2);
+    int least = kind & 1 ? 1 - DIGITS : MIN_EXPONENT - DIGITS - 2;
+    int size_b = draw_between(&seed, MIN_EXPONENT / 2, MAX_EXPONENT / 2);
     int size = kind & 1 ? draw_between(&seed, least, DIGITS)
                         : draw_between(&seed, least, least + 2 * DIGITS);
     tuple->b = scaled(tuple->b, size_b / 4);
@@ -249,13 +249,13 @@ static void fill_root(Tuple *tuple, uint64_t seed) {
         tuple->a = root * root;
         break;
     case 1:
-        tuple->a = draw_of_size(&seed, LEAST_EXPONENT - DIGITS, MOST_EXPONENT);
+        tuple->a = draw_of_size(&seed, MIN_EXPONENT - DIGITS, MAX_EXPONENT);
         tuple->a = tuple->a < R(0.0) ? -tuple->a : tuple->a;
         break;
     default:
         tuple->a = close_square(&seed);
-        tuple->a = scaled(tuple->a, 2 * draw_between(&seed, LEAST_EXPONENT / 2 - DIGITS / 2,
-                                                     MOST_EXPONENT / 2 - DIGITS));
+        tuple->a = scaled(tuple->a, 2 * draw_between(&seed, MIN_EXPONENT / 2 - DIGITS / 2,
+                                                     MAX_EXPONENT / 2 - DIGITS));
         break;
     }
     tuple->b = draw_of_size(&seed, -3, 3);
@@ -264,7 +264,7 @@ static void fill_root(Tuple *tuple, uint64_t seed) {
 
 /* Operands or results are below the least normal number, or near the greatest one. */
 static void fill_small(Tuple *tuple, uint64_t seed) {
-    enum { LEAST = LEAST_EXPONENT, MOST = MOST_EXPONENT };
+    enum { LEAST = MIN_EXPONENT, MOST = MAX_EXPONENT };
     static const struct {
         int least, most;
     } exponents[4][3] = {
@@ -301,10 +301,10 @@ static void fill_whole(Tuple *tuple, uint64_t seed) {
 /* An integer that is nearly a tie where it becomes a number: of 64 bits, of 32, or any. */
 static int64_t draw_integer(uint64_t seed) {
     uint64_t kind = draw(&seed) % 3, digits = draw_digits(&seed) | (uint64_t)1 << (DIGITS - 1);
-    int room = (kind == 0 ? 63 : 31) - DIGITS;
+    int capacity = (kind == 0 ? 63 : 31) - DIGITS;
     int64_t number = (int64_t)draw(&seed);
-    if (kind < 2 && room > 0) {
-        int shift = draw_between(&seed, 1, room);
+    if (kind < 2 && capacity > 0) {
+        int shift = draw_between(&seed, 1, capacity);
         number =
             (int64_t)(digits << shift) + ((int64_t)1 << (shift - 1)) + draw_between(&seed, -1, 1);
         if (draw(&seed) & 1)
@@ -350,8 +350,8 @@ static void expect_arithmetic(real a, real b, real c, size_t stride, real *numbe
     NUMBER(quotient, a / b);
     NUMBER(root, ROOT(a));
     NUMBER(fused, FUSED(a, b, c));
-    NUMBER(apart, product + c);
-    NUMBER(apart_from, c - product);
+    NUMBER(unfused, product + c);
+    NUMBER(unfused_from, c - product);
     NUMBER(in_order, sum + c);
     NUMBER(lost, sum - a);
     NUMBER(nothing, a - a);
@@ -361,8 +361,8 @@ static void expect_arithmetic(real a, real b, real c, size_t stride, real *numbe
 static void expect_selection(real a, real b, real c, size_t stride, real *numbers,
                              int64_t *integers) {
     NUMBER(absolute, SIZE(a));
-    NUMBER(lesser, a < b ? a : b);
-    NUMBER(greater, b < a ? a : b);
+    NUMBER(vmin, a < b ? a : b);
+    NUMBER(vmax, b < a ? a : b);
     NUMBER(signed, SIGN(R(1.0), b) < R(0.0) ? -a : a);
     NUMBER(picked, a <= b ? c : a);
     INTEGER(less, a < b);

@@ -15,9 +15,9 @@
 #include "verify/scene_builder.h"
 #include "verify/trust.h"
 
-enum { WIDTH = 24, HEIGHT = 16, MOST_SOLIDS = 5, MOST_LIGHTS = 3 };
+enum { WIDTH = 24, HEIGHT = 16, MAX_SOLIDS = 5, MAX_LIGHTS = 3 };
 /* Of planes that kernels have room for; a floor takes five, cubes the fewest of all solids. */
-enum { PLANES = 32, FLOOR_PLANES = 5, LEAST_PLANES = 3 };
+enum { PLANES = 32, FLOOR_PLANES = 5, MIN_PLANES = 3 };
 
 #define SHALLOW    .plane_count = PLANES, .depth = 8
 #define DEEP       .plane_count = PLANES, .depth = 16
@@ -30,7 +30,7 @@ enum { PLANES = 32, FLOOR_PLANES = 5, LEAST_PLANES = 3 };
 typedef struct Kind {
     const char *name;
     HdSceneTables needs; /* what the kernels are built for (hd_scene_tables_raise) */
-    bool has_meshes, has_few_lights, has_many_lights, is_surveyed;
+    bool has_meshes, has_few_lights, has_many_lights, is_bounded;
 } Kind;
 
 static const Kind kinds[] = {
@@ -53,11 +53,11 @@ static const Kind kinds[] = {
     {.name = "all, deep", .needs = {DEEP, SMALL, ALL}},
     {.name = "meshes", .needs = {SHALLOW, SMALL, HAS_MESHES}, .has_meshes = true},
     {.name = "meshes and all", .needs = {SHALLOW, SMALL, HAS_MESHES, ALL}, .has_meshes = true},
-    {.name = "surveyed", .needs = {SHALLOW, SMALL, ALL, .surveyed = true}, .is_surveyed = true},
+    {.name = "surveyed", .needs = {SHALLOW, SMALL, ALL, .bounded = true}, .is_bounded = true},
     {.name = "meshes in global memory, surveyed",
-     .needs = {SHALLOW, HAS_MESHES, ALL, .surveyed = true},
+     .needs = {SHALLOW, HAS_MESHES, ALL, .bounded = true},
      .has_meshes = true,
-     .is_surveyed = true},
+     .is_bounded = true},
 };
 
 enum { KINDS = sizeof kinds / sizeof *kinds };
@@ -163,7 +163,7 @@ static void draw_edge_lights(Lots *lots, HdSolid *solid) {
 
 /* Solids that refract may touch nothing: then each has a sector of its own. */
 static void draw_place(Lots *lots, HdSolid *solid, int number) {
-    static const HdVec3 apart[MOST_SOLIDS] = {
+    static const HdVec3 apart[MAX_SOLIDS] = {
         {2.2, 0.0, 0.0}, {-2.2, 0.3, 0.2}, {0.0, 2.3, 0.4}, {0.2, -2.3, -0.2}, {0.0, 0.0, 2.4}};
     solid->circumradius = from_to(lots, 0.5, 1.6);
     solid->centre = vector(lots, -2.6, 2.6);
@@ -177,10 +177,10 @@ static void draw_place(Lots *lots, HdSolid *solid, int number) {
 }
 
 static void draw_solid(Lots *lots, HdSolid *solid, int number) {
-    static const int planes[HD_SOLID_KIND_COUNT] = {4, LEAST_PLANES, 4, 6, 10};
+    static const int planes[HD_SOLID_KIND_COUNT] = {4, MIN_PLANES, 4, 6, 10};
     *solid = (HdSolid){.lights = {.colour_count = 1}};
     solid->kind = (HdSolidKind)below(lots, HD_SOLID_KIND_COUNT);
-    if (planes[solid->kind] > lots->planes_left - LEAST_PLANES * (MOST_SOLIDS - 1 - number))
+    if (planes[solid->kind] > lots->planes_left - MIN_PLANES * (MAX_SOLIDS - 1 - number))
         solid->kind = HD_HEXAHEDRON;
     lots->planes_left -= planes[solid->kind];
     draw_place(lots, solid, number);
@@ -248,7 +248,7 @@ static void draw_picture(Lots *lots, HdScene *scene) {
         scene->cutoff = from_to(lots, 0.001, 0.02);
     scene->background = vector(lots, 0.0, 0.4);
     scene->exposure = chance(lots, 0.5) ? 1.0 : from_to(lots, 0.5, 2.0);
-    if (!lots->kind->is_surveyed)
+    if (!lots->kind->is_bounded)
         return;
     if (chance(lots, 0.7))
         scene->sampling = HD_SAMPLING_ADAPTIVE;
@@ -259,9 +259,9 @@ static void draw_picture(Lots *lots, HdScene *scene) {
 }
 
 static bool draw_scene(Lots *lots, HdScene *scene, HdCamera *camera) {
-    int solids = lots->kind->has_meshes ? below(lots, 3) : 1 + below(lots, MOST_SOLIDS);
-    int lights = below(lots, MOST_LIGHTS + 1);
-    int samples = lots->kind->is_surveyed ? 2 + below(lots, 2) : 1 + below(lots, 2);
+    int solids = lots->kind->has_meshes ? below(lots, 3) : 1 + below(lots, MAX_SOLIDS);
+    int lights = below(lots, MAX_LIGHTS + 1);
+    int samples = lots->kind->is_bounded ? 2 + below(lots, 2) : 1 + below(lots, 2);
     if (!build_scene(scene, WIDTH, HEIGHT, samples, 0, solids, lights))
         return false;
     draw_picture(lots, scene);
@@ -301,7 +301,7 @@ static HdStatus build_random(uint64_t seed, HdScene *scene, HdCamera *camera, Hd
 /* ---- the test ---- */
 
 enum { DEVICE, PLAIN_C, SIDES };
-enum { ANY = -1, MOST_WORKERS = 16 };
+enum { ANY = -1, MAX_WORKERS = 16 };
 
 typedef struct Worker {
     HdRenderer *renderers[SIDES];
@@ -311,7 +311,7 @@ typedef struct Worker {
 typedef struct Run {
     const HdRandomTest *test;
     HdDevice plain;
-    Worker workers[MOST_WORKERS];
+    Worker workers[MAX_WORKERS];
     int worker_count;
     pthread_mutex_t mutex; /* of what follows, and so that kernels are compiled once */
     HdRandomResult *result;
@@ -445,11 +445,12 @@ static HdStatus build(const void *what, HdScene *scene, HdCamera *camera, HdErro
     return build_random(result->first_seed, scene, camera, error);
 }
 
-static HdStatus tell_difference(const HdRandomTest *test, HdRandomResult *result, HdError *error) {
+static HdStatus report_difference(const HdRandomTest *test, HdRandomResult *result,
+                                  HdError *error) {
     char text[sizeof result->text / 2];
     int kind = kind_of(result->first_seed);
-    const HdDispute dispute = {test->device, &test->options, needs_of(test, kind), build, result};
-    HdStatus status = hd_first_difference(&dispute, text, sizeof text, error);
+    const HdMismatch mismatch = {test->device, &test->options, needs_of(test, kind), build, result};
+    HdStatus status = hd_first_difference(&mismatch, text, sizeof text, error);
     snprintf(result->text, sizeof result->text, "the scene of seed %" PRIu64 " (%s): %s",
              result->first_seed, kinds[kind].name, text);
     return status == HD_INTERRUPTED ? status : HD_OK;
@@ -461,14 +462,14 @@ HdStatus hd_random_test(const HdRandomTest *test, HdRandomResult *result, HdErro
     *result = (HdRandomResult){0};
     HD_TRY(hd_backend_enumerate(hd_backend_always_there(), &run.plain, 1, &count, error));
     run.worker_count = test->threads > 0 ? test->threads : hd_processor_count();
-    if (run.worker_count > MOST_WORKERS)
-        run.worker_count = MOST_WORKERS;
+    if (run.worker_count > MAX_WORKERS)
+        run.worker_count = MAX_WORKERS;
     pthread_mutex_init(&run.mutex, NULL);
     HdStatus status = run_workers(&run, error);
     pthread_mutex_destroy(&run.mutex);
     if (status == HD_INTERRUPTED || result->different == 0)
         return status;
     HdError later; /* the first failure is told */
-    HdStatus told = tell_difference(test, result, &later);
+    HdStatus told = report_difference(test, result, &later);
     return status == HD_OK ? told : status;
 }

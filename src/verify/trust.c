@@ -29,7 +29,7 @@ static HdStatus render_hash(HdRenderer *renderer, const HdSceneTables *tables, c
     HdFrameTables view;
     HdFrame image;
     HD_TRY(hd_compile_frame(&view, scene, camera, tables->precision, NULL, error));
-    view.floats = tables->surveyed ? HD_SURVEY_FLOATS : HD_RADIANCE_FLOATS;
+    view.floats = tables->bounded ? HD_BOUNDED_FLOATS : HD_RADIANCE_FLOATS;
     HdStatus status = hd_frame_create_with(&image, scene->width, scene->height, view.floats, error);
     if (status == HD_OK) {
         status = hd_renderer_upload(renderer, tables, error);
@@ -167,7 +167,8 @@ HdStatus hd_put_scene(HdRenderer *renderer, const HdScene *scene, const HdSceneT
 HdStatus hd_put_and_render(HdRenderer *renderer, const HdScene *scene, const HdCamera *camera,
                            const HdSceneTables *like, unsigned layers, HdFrame *frame,
                            HdError *error) {
-    const HdFrameMaker maker = {.renderer = renderer, .scene = scene, .wish.curve = HD_CURVE_SRGB};
+    const HdFrameMaker maker = {
+        .renderer = renderer, .scene = scene, .request.curve = HD_CURVE_SRGB};
     HD_TRY(hd_put_scene(renderer, scene, like, error));
     HD_TRY(hd_frame_create(frame, scene->width, scene->height, error));
     HdStatus status = hd_frame_add_layers(frame, layers, error);

@@ -15,7 +15,7 @@
 /* Farther and nearer nothing can be seen. */
 static const double farthest = 1e6, nearest = 1e-3;
 
-HdPose hd_pose_of_flight(const HdScene *scene, int frame) {
+HdPose hd_pose_on_path(const HdScene *scene, int frame) {
     return (HdPose){hd_path_point(&scene->eye, frame, scene->frame_count),
                     hd_path_point(&scene->target, frame, scene->frame_count)};
 }
@@ -79,7 +79,7 @@ void hd_pose_print(FILE *out, const HdPose *pose, double field_of_view_degrees) 
 
 /* Below this a picture tells nothing any more: rather its rays go less deep, and deeper again once
    the picture is larger than that by far. */
-enum { LEAST_WIDTH = 128, DEEPER_WIDTH = 256, LEAST_DEPTH = 2 };
+enum { MIN_WIDTH = 128, DEEPER_WIDTH = 256, MIN_DEPTH = 2 };
 
 static double sample_count(const HdDetail *detail) {
     return (double)detail->width * detail->height * detail->samples * detail->samples;
@@ -96,7 +96,7 @@ void hd_pace_note(HdPace *pace, const HdDetail *detail, double seconds) {
 static void adapt_depth(HdPace *pace, const HdDetail *full, double width) {
     const int depth = pace->depth > 0 && pace->depth < full->depth ? pace->depth : full->depth;
     const bool is_whole = width >= full->width;
-    if (width < LEAST_WIDTH && !is_whole && depth > LEAST_DEPTH)
+    if (width < MIN_WIDTH && !is_whole && depth > MIN_DEPTH)
         pace->depth = depth - 1;
     else if (is_whole || width >= DEEPER_WIDTH)
         pace->depth = depth < full->depth ? depth + 1 : 0;
@@ -111,7 +111,7 @@ HdDetail hd_pace_choose(HdPace *pace, const HdDetail *full) {
     if (pace->depth > 0 && pace->depth < full->depth)
         detail.depth = pace->depth;
     if (share < 1.0) {
-        const double kept = fmax(side, fmin(1.0, (double)LEAST_WIDTH / full->width));
+        const double kept = fmax(side, fmin(1.0, (double)MIN_WIDTH / full->width));
         detail.width = hd_max((int)(full->width * kept), 1);
         detail.height = hd_max((int)(full->height * kept), 1);
         detail.samples = 1;

@@ -13,7 +13,7 @@ typedef struct HdPose {
 } HdPose;
 
 /* Where the scene's own flight is at that frame. */
-HdPose hd_pose_of_flight(const HdScene *scene, int frame);
+HdPose hd_pose_on_path(const HdScene *scene, int frame);
 
 /* Turns the eye about the target, in radians: to the right and upwards, but never over a pole. */
 void hd_pose_orbit(HdPose *pose, double right, double up);

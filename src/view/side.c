@@ -60,7 +60,7 @@ static HdStatus open_device(HdViewSide *side, HdError *error) {
     HdScene plain = side->file.scene; /* what it owns stays with the other */
     HdRenderOptions render = side->devices.render;
     const HdJob job = {.scene = &plain, .frame_count = plain.frame_count};
-    const HdDeviceWish device = {
+    const HdDeviceSelection device = {
         .backend = side->devices.backend,
         .device = side->devices.device,
         .kind = HD_WANT_ANY,
@@ -69,7 +69,7 @@ static HdStatus open_device(HdViewSide *side, HdError *error) {
         .job = &job,
     };
     render.has_deep_trees = hd_scene_has_deep_trees(&plain);
-    hd_scene_drop_survey(&plain);
+    hd_scene_drop_error_bound(&plain);
     tell(side, "opening the device ...");
     hd_close_devices(&side->team);
     side->is_opened = side->is_uploaded = false;
@@ -88,7 +88,7 @@ static HdStatus upload(HdViewSide *side, const HdScene *scene, HdError *error) {
         tell(side, "building kernels ...");
     HD_TRY(hd_put_scene(renderer, scene, NULL, error));
     side->is_uploaded = true;
-    side->has_survey = hd_scene_is_surveyed(scene);
+    side->has_bound = hd_scene_has_error_bound(scene);
     const HdDevice *opened = hd_renderer_device(renderer);
     hd_renderer_describe(renderer, line, sizeof line);
     snprintf(device, sizeof device, "%.32s:%d %s", opened->backend->name, opened->index, line);
@@ -99,7 +99,7 @@ static HdStatus upload(HdViewSide *side, const HdScene *scene, HdError *error) {
 static HdStatus make_ready(HdViewSide *side, const HdScene *scene, HdError *error) {
     if (!side->is_opened)
         HD_TRY(open_device(side, error));
-    if (!side->is_uploaded || side->has_survey != hd_scene_is_surveyed(scene))
+    if (!side->is_uploaded || side->has_bound != hd_scene_has_error_bound(scene))
         HD_TRY(upload(side, scene, error));
     return HD_OK;
 }
@@ -113,17 +113,17 @@ static HdStatus fit_frame(HdFrame *frame, int width, int height, HdError *error)
     return hd_frame_create(frame, width, height, error);
 }
 
-static HdStatus render_scene(HdViewSide *side, const HdScene *scene, const HdViewWish *wish,
+static HdStatus render_scene(HdViewSide *side, const HdScene *scene, const HdViewRequest *request,
                              HdFrame *frame, HdError *error) {
     const HdFrameMaker maker = {.renderer = side->team.list[0].renderer, .scene = scene};
     HD_TRY(fit_frame(frame, scene->width, scene->height, error));
-    return hd_frame_render(&maker, &wish->camera, frame, error);
+    return hd_frame_render(&maker, &request->camera, frame, error);
 }
 
 /* The scene as quick pictures have it. */
 static HdScene quick_scene(const HdViewSide *side, const HdDetail *detail) {
     HdScene scene = side->file.scene; /* what it owns stays there */
-    hd_scene_drop_survey(&scene);
+    hd_scene_drop_error_bound(&scene);
     scene.width = detail->width;
     scene.height = detail->height;
     scene.samples_per_side = detail->samples;
@@ -131,17 +131,17 @@ static HdScene quick_scene(const HdViewSide *side, const HdDetail *detail) {
     return scene;
 }
 
-static HdStatus render_moving(HdViewSide *side, const HdViewWish *wish, HdError *error) {
-    const HdScene scene = quick_scene(side, &wish->detail);
-    HdScene uploaded = side->file.scene; /* what it owns stays there */
-    hd_scene_drop_survey(&uploaded);     /* its depth is that of all quick pictures, at most */
+static HdStatus render_moving(HdViewSide *side, const HdViewRequest *request, HdError *error) {
+    const HdScene scene = quick_scene(side, &request->detail);
+    HdScene uploaded = side->file.scene;  /* what it owns stays there */
+    hd_scene_drop_error_bound(&uploaded); /* its depth is that of all quick pictures, at most */
     HD_TRY(make_ready(side, &uploaded, error));
     const double start = hd_monotonic_seconds();
-    HD_TRY(render_scene(side, &scene, wish, &side->part, error));
+    HD_TRY(render_scene(side, &scene, request, &side->part, error));
     const HdViewImage facts = {
         .width = scene.width,
         .height = scene.height,
-        .detail = wish->detail,
+        .detail = request->detail,
         .share = 1.0,
         .seconds = hd_monotonic_seconds() - start,
         .rays = hd_frame_rays(&side->part),
@@ -156,7 +156,7 @@ static int next_rows(int rows, double seconds) {
 }
 
 /* All rows of a scene that is not surveyed, from the top, each as the whole picture has it. */
-static HdStatus render_rows(HdViewSide *side, const HdScene *whole, const HdViewWish *wish,
+static HdStatus render_rows(HdViewSide *side, const HdScene *whole, const HdViewRequest *request,
                             HdViewImage *facts, HdError *error) {
     HdScene scene = *whole;
     int rows = PART_ROWS;
@@ -165,7 +165,7 @@ static HdStatus render_rows(HdViewSide *side, const HdScene *whole, const HdView
         const double start = hd_monotonic_seconds();
         scene.crop = (HdCrop){whole->width, whole->height, 0, top};
         scene.height = height;
-        HD_TRY(render_scene(side, &scene, wish, &side->part, error));
+        HD_TRY(render_scene(side, &scene, request, &side->part, error));
         const double seconds = hd_monotonic_seconds() - start;
         memcpy(side->frame.rgb + 3 * (size_t)whole->width * (size_t)top, side->part.rgb,
                3 * sizeof(float) * (size_t)whole->width * (size_t)height);
@@ -180,16 +180,16 @@ static HdStatus render_rows(HdViewSide *side, const HdScene *whole, const HdView
 }
 
 /* Adaptive samples hang on their neighbours: such a picture is made in one piece, or given up. */
-static HdStatus render_surveyed(HdViewSide *side, const HdViewWish *wish, HdViewImage *facts,
-                                HdError *error) {
+static HdStatus render_bounded(HdViewSide *side, const HdViewRequest *request, HdViewImage *facts,
+                               HdError *error) {
     const HdScene *scene = &side->file.scene;
     const double start = hd_monotonic_seconds();
     HD_TRY(make_ready(side, scene, error));
     const HdFrameMaker maker = {.renderer = side->team.list[0].renderer,
                                 .scene = scene,
-                                .wish.curve = side->file.output.style.picture.curve,
+                                .request.curve = side->file.output.style.picture.curve,
                                 .watch = &side->watch};
-    HD_TRY(hd_frame_render(&maker, &wish->camera, &side->frame, error));
+    HD_TRY(hd_frame_render(&maker, &request->camera, &side->frame, error));
     facts->seconds = hd_monotonic_seconds() - start;
     facts->rays = hd_frame_rays(&side->frame);
     facts->share = 1.0;
@@ -209,31 +209,31 @@ static HdStatus finish(HdViewSide *side, HdViewImage *facts, HdError *error) {
     return status;
 }
 
-static HdStatus settle(HdViewSide *side, const HdViewWish *wish, HdError *error) {
+static HdStatus settle(HdViewSide *side, const HdViewRequest *request, HdError *error) {
     const HdScene *scene = &side->file.scene;
-    const bool is_surveyed = hd_scene_is_surveyed(scene);
+    const bool is_bounded = hd_scene_has_error_bound(scene);
     const HdDetail full = {scene->width, scene->height, scene->samples_per_side, scene->depth};
     const HdDetail once = {scene->width, scene->height, 1, scene->depth};
     HdViewImage facts = {.width = scene->width, .height = scene->height, .detail = once};
     const HdScene quick = quick_scene(side, &once);
     HD_TRY(make_ready(side, &quick, error));
     HD_TRY(fit_frame(&side->frame, scene->width, scene->height, error));
-    if (is_surveyed || full.samples > 1)
-        HD_TRY(render_rows(side, &quick, wish, &facts, error));
+    if (is_bounded || full.samples > 1)
+        HD_TRY(render_rows(side, &quick, request, &facts, error));
     facts = (HdViewImage){.width = scene->width, .height = scene->height, .detail = full};
     if (is_stale(side))
         return HD_OK;
-    HD_TRY(is_surveyed ? render_surveyed(side, wish, &facts, error)
-                       : render_rows(side, scene, wish, &facts, error));
+    HD_TRY(is_bounded ? render_bounded(side, request, &facts, error)
+                      : render_rows(side, scene, request, &facts, error));
     return is_stale(side) ? HD_OK : finish(side, &facts, error);
 }
 
 /* ---- the thread ---- */
 
-static void fulfil(HdViewSide *side, const HdViewWish *wish) {
+static void fulfil(HdViewSide *side, const HdViewRequest *request) {
     HdError error;
     HdStatus status =
-        wish->is_moving ? render_moving(side, wish, &error) : settle(side, wish, &error);
+        request->is_moving ? render_moving(side, request, &error) : settle(side, request, &error);
     pthread_mutex_lock(&side->mutex);
     side->is_done = side->is_done || !is_stale(side);
     side->is_busy = false;
@@ -244,33 +244,33 @@ static void fulfil(HdViewSide *side, const HdViewWish *wish) {
     pthread_mutex_unlock(&side->mutex);
 }
 
-static bool take_wish(HdViewSide *side, HdViewWish *wish) {
+static bool claim_request(HdViewSide *side, HdViewRequest *request) {
     pthread_mutex_lock(&side->mutex);
-    while (!side->must_end && (!side->has_wish || side->is_done))
+    while (!side->must_end && (!side->has_request || side->is_done))
         pthread_cond_wait(&side->changed, &side->mutex);
     const bool has_work = !side->must_end;
     side->is_busy = has_work;
     side->is_saveable = side->is_saveable && !has_work;
     atomic_store(&side->watch.is_unwanted, false);
-    *wish = side->wish;
+    *request = side->request;
     pthread_mutex_unlock(&side->mutex);
     return has_work;
 }
 
 static void *work(void *argument) {
     HdViewSide *side = argument;
-    HdViewWish wish;
-    while (take_wish(side, &wish))
-        fulfil(side, &wish);
+    HdViewRequest request;
+    while (claim_request(side, &request))
+        fulfil(side, &request);
     hd_close_devices(&side->team);
     return NULL;
 }
 
-void hd_view_side_show(HdViewSide *side, const HdViewWish *wish) {
+void hd_view_side_show(HdViewSide *side, const HdViewRequest *request) {
     pthread_mutex_lock(&side->mutex);
-    side->wish = *wish;
+    side->request = *request;
     atomic_store(&side->watch.is_unwanted, true);
-    side->has_wish = true;
+    side->has_request = true;
     side->is_done = false;
     pthread_cond_broadcast(&side->changed);
     pthread_mutex_unlock(&side->mutex);
@@ -279,7 +279,7 @@ void hd_view_side_show(HdViewSide *side, const HdViewWish *wish) {
 /* Drops the wish, and waits until the thread reads nothing of plan and file any more. */
 static void rest(HdViewSide *side) {
     pthread_mutex_lock(&side->mutex);
-    side->has_wish = false;
+    side->has_request = false;
     atomic_store(&side->watch.is_unwanted, true);
     while (side->is_busy)
         pthread_cond_wait(&side->changed, &side->mutex);
@@ -288,7 +288,7 @@ static void rest(HdViewSide *side) {
 
 bool hd_view_side_is_idle(HdViewSide *side) {
     pthread_mutex_lock(&side->mutex);
-    const bool is_idle = !side->is_busy && (!side->has_wish || side->is_done);
+    const bool is_idle = !side->is_busy && (!side->has_request || side->is_done);
     pthread_mutex_unlock(&side->mutex);
     return is_idle;
 }

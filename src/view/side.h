@@ -23,11 +23,11 @@ typedef enum HdViewSetting {
 } HdViewSetting;
 
 /* What is to be seen. */
-typedef struct HdViewWish {
+typedef struct HdViewRequest {
     HdCamera camera;
     bool is_moving;  /* one picture of `detail`; otherwise the scene's own, which settles */
     HdDetail detail; /* with one sample at least */
-} HdViewWish;
+} HdViewRequest;
 
 typedef struct HdViewSide {
     HdScenePlan scene_plan; /* this, the next and the file change while the thread rests */
@@ -42,14 +42,14 @@ typedef struct HdViewSide {
     bool is_opened;    /* the device is that of the plan */
     bool is_uploaded;  /* the device has the scene of the file */
     HdDeviceTeam team; /* the thread's own, and so are the next ones */
-    bool has_survey;   /* the kernels' tables are those of a surveyed scene */
+    bool has_bound;    /* the kernels' tables are those of a surveyed scene */
     HdFrame frame;     /* of the scene's own size */
     HdFrame part;
     HdWatch watch;         /* unwanted once the wish under way is an earlier one */
     pthread_mutex_t mutex; /* of what follows */
     pthread_cond_t changed;
-    HdViewWish wish;
-    bool has_wish, is_done, is_busy, must_end;
+    HdViewRequest request;
+    bool has_request, is_done, is_busy, must_end;
     bool is_saveable; /* `frame` is settled, in `style` */
     HdPictureStyle style;
     HdViewImage made; /* becomes the image */
@@ -69,7 +69,7 @@ bool hd_view_side_follow_files(HdViewSide *side);
 void hd_view_side_change(HdViewSide *side, HdViewSetting setting, int by);
 
 /* Replaces the wish; a picture that is under way for an earlier one is given up. */
-void hd_view_side_show(HdViewSide *side, const HdViewWish *wish);
+void hd_view_side_show(HdViewSide *side, const HdViewRequest *request);
 
 /* The wish is fulfilled, or cannot be. */
 bool hd_view_side_is_idle(HdViewSide *side);

@@ -20,7 +20,7 @@ enum {
     ANSWER_WAIT_MS = 1000,
     USUAL_CELL_WIDTH = 8, /* where the terminal does not tell */
     SYMBOL_WIDTH = 2,     /* pixels that a symbol shows beside each other */
-    MOST_SIXEL_WIDTH = 640
+    MAX_SIXEL_WIDTH = 640
 };
 
 /* Takes a picture by the kitty protocol off the screen. */
@@ -170,7 +170,7 @@ static Area place_of_picture(const Terminal *t) {
     int width, height, columns = t->columns, rows = MAX(t->rows - t->line_count, 1);
     hd_viewer_size(t->viewer, &width, &height);
     if (t->protocol == CHAFA_PIXEL_MODE_SIXELS) {
-        columns = MIN(columns, MAX(MOST_SIXEL_WIDTH / t->cell_width, 1));
+        columns = MIN(columns, MAX(MAX_SIXEL_WIDTH / t->cell_width, 1));
         rows = MIN(rows, MAX(t->rows - 1, 1));
     }
     const double shape = (double)width * t->cell_height / ((double)height * t->cell_width);

@@ -27,7 +27,7 @@
 /* Flags of a viewer; it saves once the picture is whole. */
 enum { SAVES = 1, HIDES_FIGURES = 2, SHOWS_HELP = 4, HAS_ENDED = 8 };
 
-enum { FIRST_GAIN = 16, MOST_GAIN = 128 };
+enum { FIRST_GAIN = 16, MAX_GAIN = 128 };
 
 struct HdViewer {
     FILE *out; /* the host's */
@@ -44,7 +44,7 @@ struct HdViewer {
     double moved;        /* when it changed last */
     double watched;
     HdPace pace;
-    int most_width;         /* of moving pictures; 0: the scene's */
+    int max_width;          /* of moving pictures; 0: the scene's */
     double last_picture;    /* when a moving one came */
     double picture_seconds; /* between two, smoothed; 0: not known */
     HdViewImage composed;
@@ -66,16 +66,16 @@ static const HdSceneFile *file_of(const HdViewer *viewer) {
 
 /* ---- where the eye is ---- */
 
-static void leave_flight(HdViewer *viewer) {
+static void leave_path(HdViewer *viewer) {
     if (!viewer->is_free)
-        viewer->pose = hd_pose_of_flight(&file_of(viewer)->scene, viewer->frame);
+        viewer->pose = hd_pose_on_path(&file_of(viewer)->scene, viewer->frame);
     viewer->is_free = true;
     viewer->is_playing = false;
 }
 
 static void move_eye(HdViewer *viewer, void (*move)(HdPose *pose, double right, double up),
                      double right, double up) {
-    leave_flight(viewer);
+    leave_path(viewer);
     move(&viewer->pose, right, up);
     change_view(viewer);
 }
@@ -111,30 +111,30 @@ static bool all_idle(HdViewer *viewer) {
     return idle;
 }
 
-static HdDetail most_detail(const HdViewer *viewer) {
+static HdDetail max_detail(const HdViewer *viewer) {
     const HdScene *scene = &file_of(viewer)->scene;
     HdDetail full = {scene->width, scene->height, scene->samples_per_side, scene->depth};
-    if (viewer->most_width > 0 && viewer->most_width < full.width) {
-        const double scale = (double)viewer->most_width / full.width;
-        full.width = viewer->most_width;
+    if (viewer->max_width > 0 && viewer->max_width < full.width) {
+        const double scale = (double)viewer->max_width / full.width;
+        full.width = viewer->max_width;
         full.height = (int)fmax(1.0, scale * full.height);
     }
     return full;
 }
 
-static void wish_for(HdViewer *viewer, bool quickly) {
+static void request_for(HdViewer *viewer, bool quickly) {
     HdError error;
-    HdViewWish wish = {.is_moving = quickly};
-    const HdDetail full = most_detail(viewer);
+    HdViewRequest request = {.is_moving = quickly};
+    const HdDetail full = max_detail(viewer);
     viewer->asked = viewer->change;
     viewer->settling = quickly ? 0 : viewer->change;
-    if (find_camera(viewer, &wish.camera, &error) != HD_OK) {
+    if (find_camera(viewer, &request.camera, &error) != HD_OK) {
         snprintf(viewer->note, sizeof viewer->note, "%.500s", error.message);
         return;
     }
-    wish.detail = hd_pace_choose(&viewer->pace, &full);
+    request.detail = hd_pace_choose(&viewer->pace, &full);
     for (int i = 0; i < viewer->side_count; i++)
-        hd_view_side_show(&viewer->sides[i], &wish);
+        hd_view_side_show(&viewer->sides[i], &request);
 }
 
 static bool is_moving(const HdViewer *viewer) {
@@ -149,9 +149,9 @@ int hd_viewer_wait_ms(HdViewer *viewer) {
 static void ask_workers(HdViewer *viewer) {
     const bool idle = all_idle(viewer);
     if (viewer->asked != viewer->change && (idle || viewer->settling != 0))
-        wish_for(viewer, true);
+        request_for(viewer, true);
     else if (idle && viewer->settling != viewer->change && !is_moving(viewer))
-        wish_for(viewer, false);
+        request_for(viewer, false);
 }
 
 /* ---- what they made ---- */
@@ -226,7 +226,7 @@ static void save_when_whole(HdViewer *viewer) {
 
 static void print_camera(HdViewer *viewer, int by) {
     const HdScene *scene = &file_of(viewer)->scene;
-    const HdPose pose = viewer->is_free ? viewer->pose : hd_pose_of_flight(scene, viewer->frame);
+    const HdPose pose = viewer->is_free ? viewer->pose : hd_pose_on_path(scene, viewer->frame);
     (void)by;
     hd_pose_print(viewer->out, &pose, scene->field_of_view_degrees);
     fflush(viewer->out);
@@ -252,7 +252,7 @@ static void step(HdViewer *viewer, int by) {
 }
 
 static void dolly(HdViewer *viewer, int by) {
-    leave_flight(viewer);
+    leave_path(viewer);
     hd_pose_dolly(&viewer->pose, by > 0 ? 1.0 / DOLLY_STEP : DOLLY_STEP);
     change_view(viewer);
 }
@@ -279,7 +279,7 @@ static void other_side(HdViewer *viewer, int by) {
 }
 
 static void change_gain(HdViewer *viewer, int by) {
-    viewer->gain = by > 0 ? hd_min(2 * viewer->gain, MOST_GAIN) : hd_max(viewer->gain / 2, 1);
+    viewer->gain = by > 0 ? hd_min(2 * viewer->gain, MAX_GAIN) : hd_max(viewer->gain / 2, 1);
     viewer->version++;
 }
 
@@ -531,7 +531,7 @@ void hd_viewer_size(const HdViewer *viewer, int *width, int *height) {
 }
 
 void hd_viewer_limit(HdViewer *viewer, int width) {
-    viewer->most_width = width;
+    viewer->max_width = width;
 }
 
 HdStatus hd_viewer_open(HdViewer **viewer, const HdScenePlan *scene, const HdDevicePlan *devices,

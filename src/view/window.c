@@ -10,7 +10,7 @@
 #include "view/viewer.h"
 
 /* Smaller scenes get a window of this width at least. */
-enum { LEAST_WIDTH = 960, MARGIN = 6 };
+enum { MIN_WIDTH = 960, MARGIN = 6 };
 
 /* Seconds after which a held arrow glides, and how fast: shares of the picture's width in one. */
 #define GLIDE_AFTER 0.2
@@ -115,8 +115,9 @@ static SDL_Rect place_of_picture(const Window *w, int width, int height) {
 static void draw_text(const Window *w, int width, int height) {
     const int scale = width >= 1600 ? 3 : width >= 800 ? 2 : 1;
     const bool is_split = hd_viewer_is_split(w->viewer);
-    const int room = is_split ? width / 2 : width;
-    const int fitting = scale > 1 && room < HD_VIEW_LINE * LETTER_WIDTH * scale ? scale - 1 : scale;
+    const int capacity = is_split ? width / 2 : width;
+    const int fitting =
+        scale > 1 && capacity < HD_VIEW_LINE * LETTER_WIDTH * scale ? scale - 1 : scale;
     const int across = LETTER_WIDTH * fitting, down = LETTER_HEIGHT * fitting;
     SDL_Rect ground = {is_split ? width / 2 : 0, is_split ? height / 2 : 0, 0,
                        w->line_count * down + 2 * MARGIN};
@@ -246,7 +247,7 @@ static HdStatus run(Window *w, HdError *error) {
 static HdStatus open_window(Window *w, HdError *error) {
     int width, height;
     hd_viewer_size(w->viewer, &width, &height);
-    const double scale = width < LEAST_WIDTH ? (double)LEAST_WIDTH / width : 1.0;
+    const double scale = width < MIN_WIDTH ? (double)MIN_WIDTH / width : 1.0;
     w->window = SDL_CreateWindow("hedron", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
                                  (int)(scale * width), (int)(scale * height), SDL_WINDOW_RESIZABLE);
     if (w->window == NULL)

@@ -5,7 +5,7 @@
    --write-golden FILE those of the first renderer are written instead. The options --backend,
    --lanes, --precision and --threads leave out the others; with
    --one-build no scene has kernels of its own. Then it renders with the other pipeline and with
-   other launches (variants.h). Each renderer also has frames under way together (flights.h). With
+   other launches (variants.h). Each renderer also has frames under way together (in_flight.h). With
    --few each renders only what the least of the variants do, and no truths are checked. With
    --brief so do kernels of a scene's own, beside all frames without, processors with more lanes
    than they take by themselves, and the variants that differ from another only in how the work is
@@ -28,7 +28,7 @@
 #include "../options.h"
 #include "base/hash.h"
 #include "device/renderer.h"
-#include "flights.h"
+#include "frames_in_flight.h"
 #include "image/picture.h"
 #include "render/backends.h"
 #include "render_scene.h"
@@ -49,7 +49,7 @@ static const char usage[] =
     "                          [--ptx ARCHITECTURE] (of CUDA; 61: compute_61, a Pascal card's)\n";
 
 /* Which frames are rendered; those that are surveyed have kernels of their own. */
-typedef enum Frames { FEW, NOT_SURVEYED, EVERY } Frames;
+typedef enum Frames { FEW, NOT_BOUNDED, EVERY } Frames;
 
 typedef struct Golden {
     HdGoldenHashes hashes[MAX_FRAMES][2];
@@ -169,25 +169,25 @@ static void compare_frame(const Target *target, int number, const Options *optio
         compare_hash(target, first, hashes.first_hits, expected->first_hits, tally);
 }
 
-static bool is_surveyed(int frame) {
+static bool is_bounded(int frame) {
     HdScene scene;
     HdCamera camera;
     HdError error;
     if (hd_golden_build(&hd_golden_frames[frame], &scene, &camera, &error) != HD_OK)
         fail(hd_golden_frames[frame].name, &error);
-    bool surveyed = hd_scene_is_surveyed(&scene);
+    bool bounded = hd_scene_has_error_bound(&scene);
     hd_scene_free(&scene);
-    return surveyed;
+    return bounded;
 }
 
 /* The frames that are surveyed come last, for kernels are built anew for them. */
 static void compare_frames(const Target *target, Frames frames, const Options *options,
                            Golden *golden, Tally *tally) {
     int different = tally->different, compared = tally->frames;
-    for (int surveyed = 0; surveyed <= (frames != NOT_SURVEYED); surveyed++)
+    for (int bounded = 0; bounded <= (frames != NOT_BOUNDED); bounded++)
         for (int i = 0; i < hd_golden_frame_count; i++)
             if ((frames != FEW || is_variant_frame(hd_golden_frames[i].name)) &&
-                is_surveyed(i) == surveyed)
+                is_bounded(i) == bounded)
                 compare_frame(target, i, options, golden, tally);
     printf("%-4s %2d frames  %s\n", different == tally->different ? "same" : "DIFF",
            tally->frames - compared, target->label);
@@ -234,8 +234,8 @@ static void check_renderer(const HdDevice *device, const HdRenderOptions *wanted
 
 /* The lanes of which all frames are rendered: briefly only those that a processor takes where
    nobody asks for any, and fewer. */
-static int most_lanes_for_all(const HdDevice *device, HdPrecision precision,
-                              const Options *options) {
+static int max_lanes_for_all(const HdDevice *device, HdPrecision precision,
+                             const Options *options) {
     const HdRenderOptions wanted = {.precision = precision};
     HdRenderer *renderer;
     HdError error;
@@ -255,7 +255,7 @@ static bool needs_no_build(const HdDevice *device) {
 
 static void check_lanes(const HdDevice *device, HdPrecision precision, const Options *options,
                         Golden *golden, Tally *tally) {
-    int most_for_all = most_lanes_for_all(device, precision, options);
+    int max_for_all = max_lanes_for_all(device, precision, options);
     for (int i = 0; i < (device->is_cpu ? LANE_COUNTS : 1); i++) {
         if (options->lanes != ALL && options->lanes != i)
             continue;
@@ -268,14 +268,14 @@ static void check_lanes(const HdDevice *device, HdPrecision precision, const Opt
         };
         bool compiles = device->is_cpu && !needs_no_build(device);
         if (options->brief && options->lanes == ALL && compiles &&
-            precision == HD_PRECISION_DOUBLE && i > 0 && lane_counts[i] != most_for_all)
+            precision == HD_PRECISION_DOUBLE && i > 0 && lane_counts[i] != max_for_all)
             continue;
         bool has_own = compiles ? lane_counts[i] == OWN_BUILDS
-                                : !options->brief || lane_counts[i] == most_for_all;
-        bool own_builds = !options->one_build && lane_counts[i] <= most_for_all && has_own;
-        Frames frames = options->few || lane_counts[i] > most_for_all ? FEW : EVERY;
-        if (frames == EVERY && options->brief && compiles && lane_counts[i] < most_for_all)
-            frames = NOT_SURVEYED;
+                                : !options->brief || lane_counts[i] == max_for_all;
+        bool own_builds = !options->one_build && lane_counts[i] <= max_for_all && has_own;
+        Frames frames = options->few || lane_counts[i] > max_for_all ? FEW : EVERY;
+        if (frames == EVERY && options->brief && compiles && lane_counts[i] < max_for_all)
+            frames = NOT_BOUNDED;
         wanted.first_hits = true;
         if (options->brief || !own_builds)
             check_renderer(device, &wanted, frames, true, options, golden, tally);

@@ -91,7 +91,7 @@ void check_first_hits(Check *check) {
     HdFrame frame = render(check, &scene, &camera);
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         const int x = i % WIDTH, y = i / WIDTH;
-        const float *first = frame.first + (size_t)i * HD_MOST_FIRST_FLOATS;
+        const float *first = frame.first + (size_t)i * HD_MAX_FIRST_FLOATS;
         const float *normal = first + HD_FIRST_NORMAL;
         const Expected middle = look(&camera, direction_at(&scene, &camera, x + 0.5, y + 0.5));
         double alpha;

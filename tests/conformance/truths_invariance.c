@@ -115,7 +115,7 @@ static HdFrame render_quarter(const Check *check, bool turned) {
 /* (x, y) goes to (-y, x): the pixel in column i and row j to column j and row SIDE - 1 - i.
    Rounding may push a sample over an edge. */
 static void check_quarter_turn(Check *check) {
-    enum { MOST_DIFFERENT = SIDE * SIDE * 3 / 200 };
+    enum { MAX_DIFFERENT = SIDE * SIDE * 3 / 200 };
     int different = 0;
     HdFrame before = render_quarter(check, false), after = render_quarter(check, true);
     for (int j = 0; j < SIDE; j++)
@@ -123,7 +123,7 @@ static void check_quarter_turn(Check *check) {
             for (int c = 0; c < 3; c++)
                 different += fabs(channel_of(&after, j, SIDE - 1 - i, c) -
                                   channel_of(&before, i, j, c)) > 1e-3;
-    expect_compared(check, "a quarter turn turns the picture", MOST_DIFFERENT - different, 0);
+    expect_compared(check, "a quarter turn turns the picture", MAX_DIFFERENT - different, 0);
     hd_frame_free(&before);
     hd_frame_free(&after);
 }
@@ -289,7 +289,7 @@ static double largest_near(const HdFrame *frame, int x, int y, int channel, doub
    edges of solids, of the floor, of rims and discs, of shadows, and where reflection becomes
    total. */
 static void check_small_step(Check *check) {
-    enum { MOST_CROSSED = WIDTH * HEIGHT / 200 };
+    enum { MAX_CROSSED = WIDTH * HEIGHT / 200 };
     const Place origin = {.scale = 1.0};
     HdFrame frames[2];
     int crossed = 0;
@@ -312,8 +312,7 @@ static void check_small_step(Check *check) {
                 crossed += step > 1.0 / 255.0;
                 expect(check, "a small step of the camera", x, y, is_between, 1.0);
             }
-    expect_compared(check, "a small step of the camera, few pixels jump", MOST_CROSSED - crossed,
-                    0);
+    expect_compared(check, "a small step of the camera, few pixels jump", MAX_CROSSED - crossed, 0);
     for (int i = 0; i < 2; i++)
         hd_frame_free(&frames[i]);
 }

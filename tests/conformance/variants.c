@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-/* The least memory that works: a bundle or a group of threads at a time. */
+/* The least memory that works: a packet or a group of threads at a time. */
 enum { LEAST = 1, LITTLE = 100000, SOME = 1000000 };
 
 #define WAVEFRONT   .pipeline = HD_PIPELINE_WAVEFRONT

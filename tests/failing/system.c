@@ -68,7 +68,7 @@ int posix_memalign(void **memory, size_t alignment, size_t size) {
     return *memory != NULL ? 0 : ENOMEM;
 }
 
-__attribute__((destructor)) static void tell_count(void) {
+__attribute__((destructor)) static void report_count(void) {
     const char *name = getenv("FAILING_MEMORY_COUNT");
     int file = name != NULL ? open(name, O_WRONLY | O_CREAT | O_TRUNC, 0666) : -1;
     if (file >= 0 && dprintf(file, "%ld\n", atomic_load(&counted)) > 0)

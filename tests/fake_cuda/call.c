@@ -31,8 +31,8 @@ int fake_capability(void) {
 }
 
 /* Makes the file, so that a test knows of it. */
-static void hang(const char *mark) {
-    FILE *file = fopen(mark, "w");
+static void hang(const char *event) {
+    FILE *file = fopen(event, "w");
     if (file != NULL)
         fclose(file);
     for (;;)
@@ -41,11 +41,11 @@ static void hang(const char *mark) {
 
 static bool is_to_fail(const char *function) {
     static int calls;
-    const char *failing = getenv("FAKE_CUDA_FAILS"), *mark = getenv("FAKE_CUDA_HANGS");
+    const char *failing = getenv("FAKE_CUDA_FAILS"), *event = getenv("FAKE_CUDA_HANGS");
     bool is_time = failing != NULL && strcmp(failing, function) == 0 &&
                    ++calls >= (int)fake_number("FAKE_CUDA_FAILS_AT", FIRST_FAILING);
-    if (is_time && mark != NULL)
-        hang(mark);
+    if (is_time && event != NULL)
+        hang(event);
     return is_time;
 }
 

@@ -8,7 +8,7 @@
 
 #include "fake.h"
 
-enum { GUARD = 256, POISON = 0xcd, UNTOUCHED = 0xa5, PAGE = 4096, MOST_GLOBALS = 256 };
+enum { GUARD = 256, POISON = 0xcd, UNTOUCHED = 0xa5, PAGE = 4096, MAX_GLOBALS = 256 };
 
 static const HdCuPointer first_address = 0xfade000000000000;
 static const double default_memory = 256e6;
@@ -56,10 +56,10 @@ static struct {
     const void *module; /* NULL: the place is free */
     unsigned char *data;
     size_t bytes;
-} globals[MOST_GLOBALS];
+} globals[MAX_GLOBALS];
 
 bool fake_add_global(const void *module, void *data, size_t bytes) {
-    for (int i = 0; i < MOST_GLOBALS; i++)
+    for (int i = 0; i < MAX_GLOBALS; i++)
         if (globals[i].module == NULL || globals[i].data == data) {
             globals[i].module = module;
             globals[i].data = data;
@@ -70,13 +70,13 @@ bool fake_add_global(const void *module, void *data, size_t bytes) {
 }
 
 void fake_drop_globals(const void *module) {
-    for (int i = 0; i < MOST_GLOBALS; i++)
+    for (int i = 0; i < MAX_GLOBALS; i++)
         if (globals[i].module == module)
             globals[i].module = NULL;
 }
 
 static void *global(HdCuPointer pointer, size_t bytes) {
-    for (int i = 0; i < MOST_GLOBALS; i++)
+    for (int i = 0; i < MAX_GLOBALS; i++)
         if (globals[i].module != NULL &&
             is_within(pointer, bytes, (uintptr_t)globals[i].data, globals[i].bytes))
             return globals[i].data + (pointer - (uintptr_t)globals[i].data);

@@ -236,14 +236,14 @@ static bool expand(const char *folder, const char *source, Words words) {
 
 /* Writes a FAKE_KERNEL for every __global__ void NAME( of the expanded text behind it. */
 static bool describe_kernels(const char *folder) {
-    static const char mark[] = "__global__ void ";
+    static const char event[] = "__global__ void ";
     Text text = {0};
     bool good = read_file(folder, "kernels.cpp", &text);
     FILE *file = good ? open_to_write(folder, "kernels.cpp") : NULL;
     if (file != NULL) {
         fprintf(file, "%s\n", text.data);
-        for (const char *at = text.data; (at = strstr(at, mark)) != NULL;) {
-            at += strlen(mark);
+        for (const char *at = text.data; (at = strstr(at, event)) != NULL;) {
+            at += strlen(event);
             fprintf(file, "FAKE_KERNEL(%.*s)\n", (int)strcspn(at, " ("), at);
         }
         fclose(file);
@@ -381,14 +381,14 @@ static size_t write_tail(HdNvrtcProgram program, char tail[HEAD_SIZE]) {
     return (size_t)snprintf(tail, HEAD_SIZE, "sm_%d", program->arch) + 1;
 }
 
-static HdNvrtcResult tell_size(HdNvrtcProgram program, size_t more, size_t *size) {
+static HdNvrtcResult report_size(HdNvrtcProgram program, size_t more, size_t *size) {
     *size = program->image.size + more;
     return program->image.size > 0 ? 0 : INVALID_PROGRAM;
 }
 
 HdNvrtcResult nvrtcGetCUBINSize(HdNvrtcProgram program, size_t *size) {
     char tail[HEAD_SIZE];
-    return tell_size(program, write_tail(program, tail), size);
+    return report_size(program, write_tail(program, tail), size);
 }
 
 HdNvrtcResult nvrtcGetCUBIN(HdNvrtcProgram program, char *cubin) {
@@ -401,7 +401,7 @@ HdNvrtcResult nvrtcGetCUBIN(HdNvrtcProgram program, char *cubin) {
 
 HdNvrtcResult nvrtcGetPTXSize(HdNvrtcProgram program, size_t *size) {
     char head[HEAD_SIZE];
-    return tell_size(program, write_head(program, head), size);
+    return report_size(program, write_head(program, head), size);
 }
 
 HdNvrtcResult nvrtcGetPTX(HdNvrtcProgram program, char *ptx) {

@@ -54,9 +54,9 @@ static void run_launch(const FakeLaunch *launch) {
     if (getenv("FAKE_CUDA_SKIPS") != NULL)
         return;
     fake_run_launch(launch);
-    double told = fake_number("FAKE_CUDA_THREAD_NS", -1.0);
+    double reported = fake_number("FAKE_CUDA_THREAD_NS", -1.0);
     double threads = (double)launch->blocks.x * (double)launch->threads.x;
-    now += told >= 0.0 ? 1e-6 * told * threads : 1e3 * (seconds() - start);
+    now += reported >= 0.0 ? 1e-6 * reported * threads : 1e3 * (seconds() - start);
 }
 
 static uint64_t hash_of(const void *data, size_t bytes) {

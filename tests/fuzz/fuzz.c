@@ -9,10 +9,10 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MOST_FILES = 4, PATH_SIZE = 256 };
+enum { MAX_FILES = 4, PATH_SIZE = 256 };
 
 static char folder[PATH_SIZE / 2];
-static char paths[MOST_FILES][PATH_SIZE];
+static char paths[MAX_FILES][PATH_SIZE];
 
 static int remove_entry(const char *path, const struct stat *found, int kind, struct FTW *walk) {
     (void)found;
@@ -44,7 +44,7 @@ static void make_folder(void) {
 static char *path_of(const char *name) {
     char path[PATH_SIZE];
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    for (int i = 0; i < MOST_FILES; i++) {
+    for (int i = 0; i < MAX_FILES; i++) {
         if (paths[i][0] == '\0')
             memcpy(paths[i], path, sizeof path);
         if (strcmp(paths[i], path) == 0)

@@ -7,7 +7,7 @@
 #include "mesh/mesh.h"
 #include "system/thread_pool.h"
 
-enum { MOST_BYTES = 64 << 20, MOST_TRIANGLES = 20000 };
+enum { MAX_BYTES = 64 << 20, MAX_TRIANGLES = 20000 };
 
 static int is_index(int32_t index, int count, int least) {
     return index >= least && index < count;
@@ -51,7 +51,7 @@ static void build(HdMesh *mesh) {
         fuzz_expect(hd_thread_pool_create(&pool, 1, &error) == HD_OK, error.message);
     fuzz_expect_input_status(hd_mesh_smooth(mesh, 40.0, &error), &error);
     check_mesh(mesh);
-    if (mesh->triangle_count <= MOST_TRIANGLES)
+    if (mesh->triangle_count <= MAX_TRIANGLES)
         fuzz_expect_input_status(hd_mesh_build(mesh, pool, &error), &error);
 }
 
@@ -59,7 +59,7 @@ void fuzz_read_mesh(const char *path) {
     static HdError error;
     HdProblems notes = {.count = 0};
     HdMesh mesh;
-    const HdStatus status = hd_mesh_read_obj(&mesh, path, MOST_BYTES, &notes, &error);
+    const HdStatus status = hd_mesh_read_obj(&mesh, path, MAX_BYTES, &notes, &error);
     fuzz_expect_input_status(status, &error);
     if (status != HD_OK)
         return;

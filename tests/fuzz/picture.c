@@ -7,11 +7,11 @@
 #include "image/picture.h"
 
 /* Reading more takes the campaign's time. */
-enum { MOST_PIXELS = 1 << 20 };
+enum { MAX_PIXELS = 1 << 20 };
 
 static HdStatus read_rows(HdPictureReader *reader, HdError *error) {
     const HdPictureFacts *facts = hd_picture_reader_facts(reader);
-    if ((uint64_t)facts->width * (uint64_t)facts->height > MOST_PIXELS)
+    if ((uint64_t)facts->width * (uint64_t)facts->height > MAX_PIXELS)
         return HD_OK;
     HdPictureValue *values = malloc((size_t)facts->width * 3 * sizeof *values);
     fuzz_expect(values != NULL, "no memory");

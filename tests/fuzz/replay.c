@@ -14,7 +14,7 @@
 #include "base/hash.h"
 #include "fuzz.h"
 
-enum { MOST_BYTES = 1 << 20 };
+enum { MAX_BYTES = 1 << 20 };
 
 static uint64_t random_state;
 
@@ -56,14 +56,14 @@ static size_t change(uint8_t *bytes, size_t size) {
 }
 
 static void run_changed(const uint8_t *bytes, size_t size, int changes) {
-    enum { MOST_AT_ONCE = 4 };
-    uint8_t *changed = malloc(size + 16 * MOST_AT_ONCE);
+    enum { MAX_AT_ONCE = 4 };
+    uint8_t *changed = malloc(size + 16 * MAX_AT_ONCE);
     fuzz_expect(changed != NULL, "no memory");
     for (int i = 0; i < changes && size > 0; i++) {
         size_t left = size;
         memcpy(changed, bytes, size);
         random_state = hd_hash_bytes(HD_HASH_START, bytes, size) + (uint64_t)i;
-        for (size_t count = 1 + random_below(MOST_AT_ONCE); count > 0 && left > 0; count--)
+        for (size_t count = 1 + random_below(MAX_AT_ONCE); count > 0 && left > 0; count--)
             left = change(changed, left);
         run_copy(changed, left);
     }
@@ -72,11 +72,11 @@ static void run_changed(const uint8_t *bytes, size_t size, int changes) {
 
 static void run_file(const char *folder, const char *name, int changes) {
     char path[4096];
-    uint8_t *bytes = malloc(MOST_BYTES);
+    uint8_t *bytes = malloc(MAX_BYTES);
     snprintf(path, sizeof path, "%s/%s", folder, name);
     FILE *file = fopen(path, "rb");
     fuzz_expect(bytes != NULL && file != NULL, "a file of the corpus that cannot be read");
-    const size_t size = fread(bytes, 1, MOST_BYTES, file);
+    const size_t size = fread(bytes, 1, MAX_BYTES, file);
     fclose(file);
     run_copy(bytes, size);
     run_changed(bytes, size, changes);

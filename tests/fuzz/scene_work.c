@@ -7,9 +7,9 @@
 #include "verify/trust.h"
 
 /* More takes the campaign's time. */
-enum { MOST_SOLIDS = 8, MOST_LIGHTS = 2000, WIDTH = 8, HEIGHT = 6, MOST_DEPTH = 3 };
+enum { MAX_SOLIDS = 8, MAX_LIGHTS = 2000, WIDTH = 8, HEIGHT = 6, MAX_DEPTH = 3 };
 
-/* What sanitizers see (cpu_kernels.cmake): bundles of floats that are taken where nobody asks for
+/* What sanitizers see (cpu_kernels.cmake): packets of floats that are taken where nobody asks for
    lanes, single lanes of doubles. */
 static HdRenderer *open_renderer(HdPrecision precision) {
     static HdError error;
@@ -40,12 +40,12 @@ static void render(const HdScene *scene, const HdCamera *camera, HdPrecision pre
 /* A small picture of it. */
 static HdScene shrunk(const HdScene *scene) {
     HdScene small = *scene;
-    hd_scene_drop_survey(&small);
+    hd_scene_drop_error_bound(&small);
     small.width = WIDTH;
     small.height = HEIGHT;
     small.crop = (HdCrop){0};
     small.samples_per_side = 1;
-    small.depth = scene->depth < MOST_DEPTH ? scene->depth : MOST_DEPTH;
+    small.depth = scene->depth < MAX_DEPTH ? scene->depth : MAX_DEPTH;
     return small;
 }
 
@@ -58,7 +58,7 @@ void fuzz_render_scene(const HdScene *scene) {
     const HdScene small = shrunk(scene);
     const HdStatus status = hd_camera_at(&camera, &small, scene->frame_count - 1, &error);
     fuzz_expect_input_status(status, &error);
-    if (status != HD_OK || scene->solid_count > MOST_SOLIDS || lights > MOST_LIGHTS)
+    if (status != HD_OK || scene->solid_count > MAX_SOLIDS || lights > MAX_LIGHTS)
         return;
     render(&small, &camera, HD_PRECISION_FLOAT);
     render(&small, &camera, HD_PRECISION_DOUBLE);

@@ -15,7 +15,7 @@
 #include "fuzz.h"
 #include "image/picture.h"
 
-enum { MOST_NAMES = 8, MOST_LENGTH = 200 };
+enum { MAX_NAMES = 8, MAX_LENGTH = 200 };
 
 typedef enum Kind { SEGMENT, UNFINISHED, KIND_COUNT } Kind;
 
@@ -38,13 +38,13 @@ static void path_of(char path[HD_MAX_PATH], const char *film, const char *name) 
 }
 
 /* What has no name that a file can have is left out; returns how many there are. */
-static int make_files(char *text, const char *film, const char *names[MOST_NAMES]) {
+static int make_files(char *text, const char *film, const char *names[MAX_NAMES]) {
     char path[HD_MAX_PATH], *rest = NULL;
     int count = 0;
-    for (char *name = strtok_r(text, "\n", &rest); name != NULL && count < MOST_NAMES;
+    for (char *name = strtok_r(text, "\n", &rest); name != NULL && count < MAX_NAMES;
          name = strtok_r(NULL, "\n", &rest)) {
         path_of(path, film, name);
-        const int file = strlen(name) > MOST_LENGTH || strchr(name, '/') != NULL
+        const int file = strlen(name) > MAX_LENGTH || strchr(name, '/') != NULL
                              ? -1
                              : open(path, O_CREAT | O_EXCL | O_WRONLY, 0600);
         if (file < 0)
@@ -72,9 +72,9 @@ static void check_files(const char *film, const char *names[], int count, Kind g
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static HdError error;
-    static int numbers[2 * HD_LEAST_SEGMENT];
-    const HdFrameList frames = {.frames = numbers, .count = 2 * HD_LEAST_SEGMENT};
-    const char *film = fuzz_file("film.mkv", "", 0), *names[MOST_NAMES];
+    static int numbers[2 * HD_MIN_SEGMENT];
+    const HdFrameList frames = {.frames = numbers, .count = 2 * HD_MIN_SEGMENT};
+    const char *film = fuzz_file("film.mkv", "", 0), *names[MAX_NAMES];
     HdOutputPlan plan = {
         .style = {.frames_per_second = 1}, .has_fingerprint = true, .resumes = true};
     plan.list[plan.count++] =

@@ -8,7 +8,7 @@
 #include "image/picture.h"
 
 /* Allocating more takes the campaign's time. */
-enum { MOST_PIXELS = 1 << 20 };
+enum { MAX_PIXELS = 1 << 20 };
 
 static void touch(const HdTexture *texture) {
     const size_t count = (size_t)texture->width * (size_t)texture->height * 3;
@@ -33,7 +33,7 @@ static uint64_t pixels_of_jpeg(const unsigned char *bytes, size_t size) {
 
 static bool is_small(unsigned char *bytes, size_t size) {
     return (hd_format_png.begins(bytes, size) ? fuzz_mend_png(bytes, size)
-                                              : pixels_of_jpeg(bytes, size)) <= MOST_PIXELS;
+                                              : pixels_of_jpeg(bytes, size)) <= MAX_PIXELS;
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

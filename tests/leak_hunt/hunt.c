@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "../../scenes/models/random.h"
-#include "hunt_skins.h"
+#include "hunt_mesh_materials.h"
 #include "scene/platonic.h"
 #include "verify/scene_builder.h"
 
@@ -123,11 +123,12 @@ static void add_meshes(Hunt *hunt) {
         build_mirrors(&scene->meshes[1], hunt->side, WALL_DEPTH, &scene->meshes[0],
                       placement->rotation_degrees, &mirror, &hunt->random);
     } else {
-        build_skin(&scene->meshes[0],
-                   hunt->kind == HUNT_ROOM    ? SKIN_ROOM
-                   : hunt->kind == HUNT_WEDGE ? SKIN_WEDGE
-                                              : SKIN_SHEETS,
-                   hunt->side, roughness, is_room(hunt->kind) ? &mirror : &passing, &hunt->random);
+        build_mesh_material(&scene->meshes[0],
+                            hunt->kind == HUNT_ROOM    ? MATERIAL_ROOM
+                            : hunt->kind == HUNT_WEDGE ? MATERIAL_WEDGE
+                                                       : MATERIAL_SHEETS,
+                            hunt->side, roughness, is_room(hunt->kind) ? &mirror : &passing,
+                            &hunt->random);
         unturn(&scene->meshes[0], placement->rotation_degrees);
         scene->meshes[0].materials[0].is_opaque_to_shadows = hunt->kind == HUNT_SHADE;
     }

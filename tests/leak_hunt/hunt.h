@@ -11,7 +11,7 @@
    meet, a ray may cross nothing or both of them.
 
    The mirrors: a wall of little mirrors, one for each pixel, throws the eye's rays at corners and
-   edges of a sphere about the eye, chosen at random: no two rays of a bundle go the same way.
+   edges of a sphere about the eye, chosen at random: no two rays of a packet go the same way.
 
    The room: mirrors all about the eye, rough in front, so that rays meet the next surface at once
    where they are thrown back beside an edge. None may come out.

@@ -113,9 +113,9 @@ static HdStatus fake_upload(void *state, const HdSceneTables *tables, HdError *e
     return status != HD_OK ? status : hd_backend_c.functions->upload(renderer->c, tables, error);
 }
 
-static HdStatus fake_submit(void *state, const HdFrameTables *tables, const HdFrameWish *wish,
+static HdStatus fake_submit(void *state, const HdFrameTables *tables, const HdFrameRequest *request,
                             HdError *error) {
-    (void)tables, (void)wish; /* plain C has nothing to do yet */
+    (void)tables, (void)request; /* plain C has nothing to do yet */
     return fake_event(FAKE_SUBMIT, ((FakeRenderer *)state)->index, error);
 }
 

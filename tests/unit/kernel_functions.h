@@ -99,12 +99,12 @@ TEST(pictures_repeat_or_end) {
 TEST(what_filters_light_adds_up) {
     vreal share = passing_share(splat_int(0), splat_int(0));
     assert_true(lane_real(&share, 0) == R(1.0));
-    share = passing_share(splat_int(HD_DARK_OCTAVES), splat_int(0));
+    share = passing_share(splat_int(HD_DARK_DENSITY), splat_int(0));
     assert_true(lane_real(&share, 0) == R(0.0));
     for (int i = 1; i < 1000; i++) {
         share = passing_share(splat_int(i * 20011), splat_int(i * 1009));
-        double octaves = i * 20011 * 0x1p-24 + i * 1009 * 0x1p-48;
-        double error = (double)lane_real(&share, 0) / pow(2.0, -octaves) - 1.0;
+        double density = i * 20011 * 0x1p-24 + i * 1009 * 0x1p-48;
+        double error = (double)lane_real(&share, 0) / pow(2.0, -density) - 1.0;
         assert_true(fabs(error) < (HD_DOUBLE ? 1e-15 : 2.5e-7));
     }
 }
@@ -123,7 +123,7 @@ static Ray make_ray(int channel) {
     *parts[channel] = splat(R(0.25)) + to_real(lane_numbers()) * R(0.25);
     vint inside = splat_int(0);
     for (int lane = 0; lane < HD_LANES; lane++) {
-        set_lane_int(&ray.touched, lane, lane % WAYS == 2 ? 4 : 0);
+        set_lane_int(&ray.last_hit, lane, lane % WAYS == 2 ? 4 : 0);
         set_lane_int(&inside, lane, lane % WAYS == 1);
     }
     ray.inside = eq_int(inside, splat_int(1));
@@ -142,7 +142,7 @@ TEST(rays_that_end_are_bounded) {
         int level;
         real cutoff;
     } cases[] = {{12.0, 2, R(0.0)}, {1.0, 5, R(0.0)}, {0.0, 2, R(0.5)}};
-    Header no_header = {.surveyed = 1, .exposure = R(2.0), .floor_end = 1};
+    Header no_header = {.bounded = 1, .exposure = R(2.0), .floor_end = 1};
     Object solid_and_meshes[2] = {{0}};
     for (int i = 0; i < CHANNELS; i++) {
         const double most = 1 << i;
@@ -164,7 +164,7 @@ TEST(rays_that_end_are_bounded) {
         view = &no_view;
         objects = solid_and_meshes;
         end_rays(SCENE_ARGUMENTS cases[k].level, &ray, &sample);
-        vint going_on = pick_int(ray.alive, splat_int(1), splat_int(0));
+        vint going_on = vselect_int(ray.alive, splat_int(1), splat_int(0));
         for (int lane = 0; lane < HD_LANES; lane++) {
             double bound = each * (lane + 1) * seen_times[lane % WAYS];
             bool is_over = k == 0 ? bound < 12.0 * each : k == 1 || lane == 0;

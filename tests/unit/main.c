@@ -16,25 +16,25 @@
 #include "unit_test.h"
 #include "wrapped.h"
 
-enum { MOST_FILES = 200, MOST_TESTS = 100, MOST_STARTS = 16, MOST_PROGRAMS = 8 };
+enum { MAX_FILES = 200, MAX_TESTS = 100, MAX_STARTS = 16, MAX_PROGRAMS = 8 };
 enum { PASSED = 42 }; /* the exit code of a file's process, which a stray exit(0) does not have */
 
 typedef struct File {
     const char *path;
     char name[200]; /* of tests/unit/system/test_path.c: "system/path" */
-    struct CMUnitTest tests[MOST_TESTS];
-    bool has_own_fixture[MOST_TESTS];
+    struct CMUnitTest tests[MAX_TESTS];
+    bool has_own_fixture[MAX_TESTS];
     int test_count, start_count;
-    void (*starts[MOST_STARTS])(void);
+    void (*starts[MAX_STARTS])(void);
     UnitFixture group_setup, group_teardown, setup, teardown;
 } File;
 
-static File files[MOST_FILES];
+static File files[MAX_FILES];
 static int file_count;
 static struct {
     const char *name;
     int (*program)(void);
-} programs[MOST_PROGRAMS];
+} programs[MAX_PROGRAMS];
 static int program_count;
 
 const char *unit_project, *unit_program;
@@ -50,7 +50,7 @@ static File *file_of(const char *path) {
     for (int i = 0; i < file_count; i++)
         if (strcmp(files[i].path, path) == 0)
             return &files[i];
-    if (file_count == MOST_FILES)
+    if (file_count == MAX_FILES)
         refuse("too many files");
     File *file = &files[file_count++];
     const char *name = strstr(path, "tests/unit/");
@@ -68,7 +68,7 @@ static File *file_of(const char *path) {
 void unit_add_test(const char *path, const char *name, CMUnitTestFunction test, UnitFixture setup,
                    UnitFixture teardown) {
     File *file = file_of(path);
-    if (file->test_count == MOST_TESTS)
+    if (file->test_count == MAX_TESTS)
         refuse("too many tests in a file");
     file->has_own_fixture[file->test_count] = setup != NULL || teardown != NULL;
     file->tests[file->test_count++] = (struct CMUnitTest){
@@ -89,13 +89,13 @@ void unit_set_each(const char *path, UnitFixture setup, UnitFixture teardown) {
 
 void unit_add_start(const char *path, void (*start)(void)) {
     File *file = file_of(path);
-    if (file->start_count == MOST_STARTS)
+    if (file->start_count == MAX_STARTS)
         refuse("too many starts in a file");
     file->starts[file->start_count++] = start;
 }
 
 void unit_add_program(const char *name, int (*program)(void)) {
-    if (program_count == MOST_PROGRAMS)
+    if (program_count == MAX_PROGRAMS)
         refuse("too many programs");
     programs[program_count].name = name;
     programs[program_count++].program = program;
@@ -162,8 +162,8 @@ static bool is_wanted(const File *file, const char *test, int count, char **filt
 }
 
 static int run_chosen(File *file, int count, char **filters) {
-    static struct CMUnitTest tests[MOST_TESTS];
-    static Timed timed[MOST_TESTS];
+    static struct CMUnitTest tests[MAX_TESTS];
+    static Timed timed[MAX_TESTS];
     size_t wanted = 0;
     for (int i = 0; i < file->test_count; i++) {
         struct CMUnitTest *test = &file->tests[i];

@@ -15,7 +15,7 @@ from harness.speed import film, timeline
 CORES = 2  # that the targets for two cores are measured on
 MODEL_OPTIONS = ["--set", "camera.frames=5"]  # of the runs that the rows of the model make
 # Views that give a like number of pairs: the middle of one picture, always as fine as the whole of it
-# in 640 x 360 with one sample, so that the rays of a bundle are as near to each other.
+# in 640 x 360 with one sample, so that the rays of a packet are as near to each other.
 LIGHT_VIEWS = {200: ("160x90", 62), 1000: ("72x40", 30.3), 10000: ("24x14", 10.3)}
 COUNTED_LIGHTS = 32
 
@@ -140,7 +140,7 @@ class Speed(Bench):
                     raise Missing(f"the view has no {name}")
                 return [1e-6 * value for value in self.rates["rates"][name]]
             self.plan.row("searches", words, "M/s", figure, device=device, **named)
-        row(f"{what}, bundles that meet a solid", "search:meeting", target=target,
+        row(f"{what}, packets that meet a solid", "search:meeting", target=target,
             note="the function alone; the target is for AVX-512")
         for count in LIGHT_VIEWS:
             row(f"  direct light alone, {count} lights, pairs a CPU-second", f"light:lights-{count}")
@@ -174,7 +174,7 @@ class Speed(Bench):
                                     ("slots", "  share of the vector issue slots", None)):
                 if device is not None:
                     self.plan.row("share", f"{what}, {loop}", "%", lambda name=name, key=key: self.cpu_share(name, key),
-                                  device=device, target=goal, note="operations counted in the machine code, on the same bundles")
+                                  device=device, target=goal, note="operations counted in the machine code, on the same packets")
         for label in self.gpus():
             for scene in ("default", "lights-1000"):
                 job = self.job(label, scene, "0-3")

@@ -32,7 +32,7 @@ static bool does_all(const HdKernelShape *ptx, const HdKernelShape *shape) {
            (shape->is_probe ||
             (shape->wavefront == ptx->wavefront && (ptx->first_hits || !shape->first_hits))) &&
            shape->precision == ptx->precision && shape->math == ptx->math &&
-           shape->group_size <= ptx->group_size && shape->needs.surveyed == ptx->needs.surveyed &&
+           shape->group_size <= ptx->group_size && shape->needs.bounded == ptx->needs.bounded &&
            shape->needs.plane_bound <= ptx->needs.plane_bound &&
            shape->needs.depth_bound <= ptx->needs.depth_bound &&
            shape->needs.node_stack_bound <= ptx->needs.node_stack_bound;
@@ -191,8 +191,8 @@ static HdCuPointer pointer_to(const HdGpuMemory *memory) {
     return (HdCuPointer)(uintptr_t)memory->handle;
 }
 
-static HdCuResult take(const HdCudaDriver *driver, HdGpuMemory *memory, HdGpuPlace place,
-                       size_t bytes) {
+static HdCuResult allocate_at(const HdCudaDriver *driver, HdGpuMemory *memory, HdGpuPlace place,
+                              size_t bytes) {
     HdCuPointer pointer = 0;
     if (place == HD_GPU_HOST) {
         HdCuResult code = driver->cuMemHostAlloc(&memory->data, bytes, 0);
@@ -209,7 +209,7 @@ static HdStatus allocate(void *state, HdGpuMemory *memory, HdGpuPlace place, siz
     const HdCudaDriver *driver = &((const Device *)state)->driver;
     const char *function = place == HD_GPU_HOST ? "cuMemHostAlloc" : "cuMemAlloc";
     size_t available = 0, total = 0;
-    HdCuResult code = take(driver, memory, place, bytes);
+    HdCuResult code = allocate_at(driver, memory, place, bytes);
     if (code == HD_CU_SUCCESS) {
         memory->bytes = bytes;
         return HD_OK;
@@ -390,7 +390,7 @@ static unsigned char *copy_binary(const void *state, size_t *size) {
 }
 
 /* Threads share the registers of a multiprocessor. */
-static HdStatus query_most_threads(void *state, size_t *threads, HdError *error) {
+static HdStatus query_max_threads(void *state, size_t *threads, HdError *error) {
     int most = 0;
     HD_TRY(query_kernel(state, HD_CU_FUNCTION_MAX_THREADS, &most, error));
     *threads = (size_t)most;
@@ -408,33 +408,33 @@ static HdStatus record(const Device *device, void **event, HdCuStream stream, Hd
     return CALL(device->driver, cuEventRecord, (made, stream), error);
 }
 
-static void forget(void *state, HdGpuMark *mark) {
+static void forget(void *state, HdGpuEvent *event) {
     const Device *device = state;
-    if (mark->begin)
-        device->driver.cuEventDestroy(mark->begin);
-    if (mark->end)
-        device->driver.cuEventDestroy(mark->end);
-    *mark = (HdGpuMark){0};
+    if (event->begin)
+        device->driver.cuEventDestroy(event->begin);
+    if (event->end)
+        device->driver.cuEventDestroy(event->end);
+    *event = (HdGpuEvent){0};
 }
 
-static HdStatus launch(void *state, const HdGpuLaunch *launch, HdGpuMark *mark, HdError *error) {
+static HdStatus launch(void *state, const HdGpuLaunch *launch, HdGpuEvent *event, HdError *error) {
     const Device *device = state;
-    void *arguments[HD_GPU_MOST_ARGUMENTS];
+    void *arguments[HD_GPU_MAX_ARGUMENTS];
     unsigned int blocks = (unsigned int)launch->groups, threads = (unsigned int)launch->group_size;
     for (int i = 0; i < launch->argument_count; i++)
         arguments[i] = (void *)launch->arguments[i].value;
-    HD_TRY(mark != NULL ? record(device, &mark->begin, device->stream, error) : HD_OK);
+    HD_TRY(event != NULL ? record(device, &event->begin, device->stream, error) : HD_OK);
     HD_TRY(CALL(device->driver, cuLaunchKernel,
                 (device->kernels[launch->kernel], blocks, 1, 1, threads, 1, 1, 0, device->stream,
                  arguments, NULL),
                 error));
-    if (mark != NULL)
-        HD_TRY(record(device, &mark->end, device->stream, error));
+    if (event != NULL)
+        HD_TRY(record(device, &event->end, device->stream, error));
     return HD_OK;
 }
 
-static HdStatus copy_back(void *state, const HdGpuMark *after, const HdGpuCopy *copies, int count,
-                          HdGpuMark *done, HdError *error) {
+static HdStatus copy_back(void *state, const HdGpuEvent *after, const HdGpuCopy *copies, int count,
+                          HdGpuEvent *done, HdError *error) {
     const Device *device = state;
     HD_TRY(CALL(device->driver, cuStreamWaitEvent, (device->copies, after->end, 0), error));
     for (int i = 0; i < count; i++)
@@ -444,9 +444,9 @@ static HdStatus copy_back(void *state, const HdGpuMark *after, const HdGpuCopy *
     return record(device, &done->end, device->copies, error);
 }
 
-static HdStatus wait_for(void *state, const HdGpuMark *mark, HdError *error) {
+static HdStatus wait_for(void *state, const HdGpuEvent *event, HdError *error) {
     const Device *device = state;
-    return CALL(device->driver, cuEventSynchronize, (mark->end), error);
+    return CALL(device->driver, cuEventSynchronize, (event->end), error);
 }
 
 static void drain(void *state) {
@@ -454,7 +454,7 @@ static void drain(void *state) {
     device->driver.cuCtxSynchronize();
 }
 
-static HdStatus measure_seconds(void *state, const HdGpuMark *from, const HdGpuMark *to,
+static HdStatus measure_seconds(void *state, const HdGpuEvent *from, const HdGpuEvent *to,
                                 double *seconds, HdError *error) {
     const Device *device = state;
     float milliseconds = 0.0f;
@@ -497,7 +497,7 @@ static const HdGpuDriver driver = {
     .binary = copy_binary,
     .unload = unload,
     .constant = find_constant,
-    .most_threads = query_most_threads,
+    .max_threads = query_max_threads,
     .launch = launch,
     .copy_back = copy_back,
     .wait_for_launch = wait_for,

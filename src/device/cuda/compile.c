@@ -184,7 +184,7 @@ HdStatus hd_nvrtc_open(HdNvrtc *nvrtc, const char *device, int arch, int driver_
     /* NVRTC opens its helper by name and relies on the loader to look in NVRTC's own folder, which
        it does not do when a sanitizer stands between. A library that is loaded already is found. */
     snprintf(builtins, sizeof builtins, "libnvrtc-builtins.so.%d.%d", nvrtc->major, nvrtc->minor);
-    hd_library_close(hd_library_open_beside(nvrtc->library, "nvrtcVersion", builtins));
+    hd_library_close(hd_library_open_adjacent(nvrtc->library, "nvrtcVersion", builtins));
     return HD_OK;
 }
 
@@ -247,7 +247,7 @@ HdStatus hd_nvrtc_check(const char *device, int arch, int driver_major, HdError 
 
 /* ---- what it compiles ---- */
 
-enum { MOST_PARTS = 48, MOST_TEXT = 1024 };
+enum { MAX_PARTS = 48, MAX_TEXT = 1024 };
 
 static HdStatus fail_by_code(const HdNvrtc *nvrtc, const char *function, HdNvrtcResult code,
                              HdError *error) {
@@ -256,12 +256,12 @@ static HdStatus fail_by_code(const HdNvrtc *nvrtc, const char *function, HdNvrtc
 }
 
 /* A compiler that claims more lies. */
-enum { MOST_LOG_BYTES = 1 << 26 };
+enum { MAX_LOG_BYTES = 1 << 26 };
 
 /* Returns the log, "" if there is none, or NULL when out of memory. */
 static char *copy_log(const HdNvrtc *nvrtc, HdNvrtcProgram program) {
     size_t size = 0;
-    if (nvrtc->functions.log_size(program, &size) != 0 || size > MOST_LOG_BYTES)
+    if (nvrtc->functions.log_size(program, &size) != 0 || size > MAX_LOG_BYTES)
         size = 0;
     char *log = calloc(size + 1, 1);
     if (log && size > 0)
@@ -318,10 +318,10 @@ void hd_cuda_options(char *options, size_t capacity, HdCudaTarget target,
 }
 
 /* Cuts the text at its spaces and returns the number of parts. */
-static int split(char *text, const char *parts[MOST_PARTS]) {
+static int split(char *text, const char *parts[MAX_PARTS]) {
     int count = 0;
     char *rest = NULL;
-    for (char *part = strtok_r(text, " ", &rest); part != NULL && count < MOST_PARTS;
+    for (char *part = strtok_r(text, " ", &rest); part != NULL && count < MAX_PARTS;
          part = strtok_r(NULL, " ", &rest))
         parts[count++] = part;
     return count;
@@ -329,8 +329,8 @@ static int split(char *text, const char *parts[MOST_PARTS]) {
 
 static HdStatus compile(HdCudaCode *code, const HdNvrtc *nvrtc, HdNvrtcProgram program,
                         HdCudaTarget target, const char *options, HdError *error) {
-    char text[MOST_TEXT];
-    const char *parts[MOST_PARTS];
+    char text[MAX_TEXT];
+    const char *parts[MAX_PARTS];
     snprintf(text, sizeof text, "%s", options);
     HdNvrtcResult result = nvrtc->functions.compile_program(program, split(text, parts), parts);
     if (result != 0)

@@ -22,9 +22,9 @@ typedef struct HdGpuMemory {
 } HdGpuMemory;
 
 /* When something that was queued began and ended; all zero at first, then the driver's. */
-typedef struct HdGpuMark {
+typedef struct HdGpuEvent {
     void *begin, *end;
-} HdGpuMark;
+} HdGpuEvent;
 
 /* Filled in where memory is refused, for that may be helped. */
 typedef struct HdGpuRefusal {
@@ -34,7 +34,7 @@ typedef struct HdGpuRefusal {
     double free; /* bytes */
 } HdGpuRefusal;
 
-enum { HD_GPU_MOST_ARGUMENTS = 64 };
+enum { HD_GPU_MAX_ARGUMENTS = 64 };
 
 typedef struct HdGpuArgument {
     const void *value; /* a number, or the handle of a memory */
@@ -44,7 +44,7 @@ typedef struct HdGpuArgument {
 typedef struct HdGpuLaunch {
     HdKernel kernel;
     int groups, group_size;
-    HdGpuArgument arguments[HD_GPU_MOST_ARGUMENTS];
+    HdGpuArgument arguments[HD_GPU_MAX_ARGUMENTS];
     int argument_count;
 } HdGpuLaunch;
 
@@ -106,26 +106,26 @@ typedef struct HdGpuDriver {
     /* The kernels' room for a table in constant memory; false: none. NULL: no driver's table is. */
     bool (*constant)(void *gpu, const char *table, HdGpuMemory *memory);
     /* The most threads of a group of the tracing kernel. */
-    HdStatus (*most_threads)(void *gpu, size_t *threads, HdError *error);
+    HdStatus (*max_threads)(void *gpu, size_t *threads, HdError *error);
 
-    /* Queues a launch; `mark`, if it is not NULL, tells its times. */
-    HdStatus (*launch)(void *gpu, const HdGpuLaunch *launch, HdGpuMark *mark, HdError *error);
+    /* Queues a launch; `event`, if it is not NULL, tells its times. */
+    HdStatus (*launch)(void *gpu, const HdGpuLaunch *launch, HdGpuEvent *event, HdError *error);
     /* Queues copies to the host, after what `after` marks, beside later launches. `done` marks the
        last one. */
-    HdStatus (*copy_back)(void *gpu, const HdGpuMark *after, const HdGpuCopy *copies, int count,
-                          HdGpuMark *done, HdError *error);
+    HdStatus (*copy_back)(void *gpu, const HdGpuEvent *after, const HdGpuCopy *copies, int count,
+                          HdGpuEvent *done, HdError *error);
     /* Waits for a launch, and for copies to the host, without keeping a core busy. */
-    HdStatus (*wait_for_launch)(void *gpu, const HdGpuMark *launch, HdError *error);
-    HdStatus (*wait_for_copies)(void *gpu, const HdGpuMark *done, HdError *error);
+    HdStatus (*wait_for_launch)(void *gpu, const HdGpuEvent *launch, HdError *error);
+    HdStatus (*wait_for_copies)(void *gpu, const HdGpuEvent *done, HdError *error);
     /* Waits for all launches and copies to the device. */
     HdStatus (*finish)(void *gpu, HdError *error);
     /* Waits for everything, whatever comes of it. */
     void (*drain)(void *gpu);
     /* From the begin of one to the end of another, both over; negative: the device does not tell.
      */
-    HdStatus (*seconds)(void *gpu, const HdGpuMark *from, const HdGpuMark *to, double *seconds,
+    HdStatus (*seconds)(void *gpu, const HdGpuEvent *from, const HdGpuEvent *to, double *seconds,
                         HdError *error);
-    void (*forget)(void *gpu, HdGpuMark *mark);
+    void (*forget)(void *gpu, HdGpuEvent *event);
 
     /* One line for people about the device and its kernels, as HdBackend's. `maker` as above. */
     int (*describe)(const void *gpu, const HdKernelShape *shape, int group_size,

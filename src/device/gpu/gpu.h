@@ -35,8 +35,8 @@ void hd_gpu_release(const HdGpu *gpu, HdGpuMemory *memory);
 
 typedef struct HdGpuWaveQueue {
     HdGpuMemory buffers[HD_WAVE_BUFFERS];
-    HdGpuMemory taken; /* the counter of taken places */
-    HdGpuMemory told;  /* of the host: what it reads of that */
+    HdGpuMemory taken;    /* the counter of taken places */
+    HdGpuMemory reported; /* of the host: what it reads of that */
     HdWavePlan plan;
     size_t bytes; /* that it may use, for each of its workers */
     bool is_cut;  /* the device refused more */
@@ -82,31 +82,31 @@ HdStatus hd_gpu_run_probe(const HdGpuProgram *program, const HdGpu *gpu, const H
 
 enum { HD_SUM_WORKERS = 1024 }; /* work items of hedron_sum_counts; each writes one sum */
 
-typedef struct HdGpuFlight {
+typedef struct HdGpuFrameInFlight {
     HdGpuMemory pixels, sums; /* radiance, and HD_SUM_WORKERS sums of the counts */
     HdGpuMemory image;        /* 8 bits, where the frame is encoded */
     HdGpuMemory tables;       /* of the host: of the frame, on their way to the device */
     HdGpuMemory copy;         /* of the host: the sums, then the pixels or the image */
     bool encodes;
     const HdFrameTables *of; /* the frame */
-    int items, told;         /* of the frame, and how many of them are told to be done */
+    int items, reported;     /* of the frame, and how many of them are told to be done */
     double submitted;        /* by hd_monotonic_seconds */
     int launches;            /* of the tracing kernel */
-    HdGpuMark first, later;  /* of its launches: the first one, and the last of others */
-    HdGpuMark *untimed;      /* which of them is not timed yet, if one is */
+    HdGpuEvent first, later; /* of its launches: the first one, and the last of others */
+    HdGpuEvent *untimed;     /* which of them is not timed yet, if one is */
     double work;             /* of that launch */
     double launched;         /* by hd_monotonic_seconds, that launch */
     bool is_alone;           /* nothing was queued before that launch that may not be over */
     double longest_launch;   /* seconds, of those that are timed; negative: there is none */
-    HdGpuMark summed, encoded, copied;
-} HdGpuFlight;
+    HdGpuEvent summed, encoded, copied;
+} HdGpuFrameInFlight;
 
-typedef struct HdGpuFlights {
-    HdGpuFlight flights[HD_FRAMES_IN_FLIGHT];
+typedef struct HdGpuFramesInFlight {
+    HdGpuFrameInFlight frames_in_flight[HD_FRAMES_IN_FLIGHT];
     int oldest, count;
     double collected;  /* when the last one was */
     HdLaunchSize size; /* of the tracing kernel's launches */
-} HdGpuFlights;
+} HdGpuFramesInFlight;
 
 /* ---- the renderer ---- */
 
@@ -121,41 +121,41 @@ typedef struct HdGpuRenderer {
     HdGpuMemory frame[HD_FRAME_TABLE_COUNT];
     HdGpuMemory counts;
     HdGpuMemory first_hits;
-    HdGpuMark first_hits_found;
+    HdGpuEvent first_hits_found;
     HdGpuMemory thresholds; /* of `curve`, if there are any */
     HdCurve curve;
     HdGpuWaveQueue queue;
-    HdGpuFlights flights;
+    HdGpuFramesInFlight frames_in_flight;
 } HdGpuRenderer;
 
 /* None is under way. */
-void hd_gpu_flights_close(HdGpuRenderer *renderer);
+void hd_gpu_frames_in_flight_close(HdGpuRenderer *renderer);
 
 /* The next flight, with room for a frame of so many items. */
-HdStatus hd_gpu_flight_begin(HdGpuRenderer *renderer, const HdFrameTables *tables, int items,
-                             bool encodes, HdGpuFlight **flight, HdError *error);
+HdStatus hd_gpu_frame_begin(HdGpuRenderer *renderer, const HdFrameTables *tables, int items,
+                            bool encodes, HdGpuFrameInFlight **in_flight, HdError *error);
 
 /* A launch of the tracing kernel, with so much work. */
-HdStatus hd_gpu_flight_launch(const HdGpuRenderer *renderer, HdGpuFlight *flight,
-                              const HdGpuLaunch *launch, double work, HdError *error);
+HdStatus hd_gpu_frame_launch(const HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight,
+                             const HdGpuLaunch *launch, double work, HdError *error);
 
 /* Learns from the last of these launches, which is over, what the size of the next ones should be;
    if the device does not time it, by the host's clock: `waited` is when, by hd_monotonic_seconds,
    the host began to wait for it. */
-HdStatus hd_gpu_flight_time_launch(HdGpuRenderer *renderer, HdGpuFlight *flight, double waited,
-                                   HdError *error);
+HdStatus hd_gpu_frame_time_launch(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight,
+                                  double waited, HdError *error);
 
 /* The items before number `end` are done. */
-void hd_gpu_flight_tell(HdGpuFlight *flight, int end);
+void hd_gpu_frame_report(HdGpuFrameInFlight *in_flight, int end);
 
 /* Queues the copies, all kernels being queued: the flight is under way. */
-HdStatus hd_gpu_flight_send(HdGpuRenderer *renderer, HdGpuFlight *flight, HdError *error);
+HdStatus hd_gpu_frame_send(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight, HdError *error);
 
 /* Waits for the oldest flight, which ends in any case, and fills the frame. */
-HdStatus hd_gpu_flight_collect(HdGpuRenderer *renderer, HdFrame *frame, HdError *error);
+HdStatus hd_gpu_frame_collect(HdGpuRenderer *renderer, HdFrame *frame, HdError *error);
 
 /* Queues all that the frame needs, up to its copies. */
-HdStatus hd_gpu_launch_frame(HdGpuRenderer *renderer, HdGpuFlight *flight, HdCurve curve,
+HdStatus hd_gpu_launch_frame(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight, HdCurve curve,
                              HdError *error);
 
 /* Fills the frame's `first` and waits for it. */

@@ -10,14 +10,14 @@
 
 /* ---- arguments of kernels ---- */
 
-_Static_assert(HD_SCENE_TABLE_COUNT + HD_FRAME_TABLE_COUNT + 16 <= HD_GPU_MOST_ARGUMENTS,
+_Static_assert(HD_SCENE_TABLE_COUNT + HD_FRAME_TABLE_COUNT + 16 <= HD_GPU_MAX_ARGUMENTS,
                "a launch has room for the tables and for what follows them");
 
 #define QUEUE_LIST(X, LAST) HD_QUEUE_ARGUMENTS(X)
 
 HD_GPU_ARGUMENTS(Render, add_render, HD_RENDER_ARGUMENTS)
 HD_GPU_ARGUMENTS(Queue, add_queue, QUEUE_LIST)
-HD_GPU_ARGUMENTS(TraceTake, add_trace_take, HD_TRACE_TAKE_ARGUMENTS)
+HD_GPU_ARGUMENTS(TraceChunk, add_trace_chunk, HD_TRACE_CHUNK_ARGUMENTS)
 HD_GPU_ARGUMENTS(StoreBatch, add_store_batch, HD_STORE_BATCH_ARGUMENTS)
 HD_GPU_ARGUMENTS(RenderByWaves, add_render_by_waves, HD_RENDER_BY_WAVES_ARGUMENTS)
 HD_GPU_ARGUMENTS(FirstHits, add_first_hits, HD_FIRST_HITS_ARGUMENTS)
@@ -48,8 +48,8 @@ static int group_count(const HdGpuRenderer *renderer, int items, int items_per_g
 }
 
 static HdStatus queue_launch(const HdGpuRenderer *renderer, const HdGpuLaunch *launch,
-                             HdGpuMark *mark, HdError *error) {
-    return renderer->gpu.driver->launch(renderer->gpu.handle, launch, mark, error);
+                             HdGpuEvent *event, HdError *error) {
+    return renderer->gpu.driver->launch(renderer->gpu.handle, launch, event, error);
 }
 
 static HdStatus check_wanted(const HdFrameTables *tables, HdError *error) {
@@ -61,46 +61,47 @@ static HdStatus check_wanted(const HdFrameTables *tables, HdError *error) {
 /* Launches are queued one by one, so that a signal ends the frame between two of them, so that
    each tells how large the next one may be, and so that it is known what is done: the items before
    number `done`. CPUs drive no display, but the rest holds for them too. */
-static HdStatus wait_between(HdGpuRenderer *renderer, HdGpuFlight *flight, int done,
+static HdStatus wait_between(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight, int done,
                              HdError *error) {
     const HdGpu *gpu = &renderer->gpu;
     double waited = hd_monotonic_seconds();
-    HD_TRY(gpu->driver->wait_for_launch(gpu->handle, flight->untimed, error));
-    HD_TRY(hd_gpu_flight_time_launch(renderer, flight, waited, error));
-    hd_gpu_flight_tell(flight, done);
-    return check_wanted(flight->of, error);
+    HD_TRY(gpu->driver->wait_for_launch(gpu->handle, in_flight->untimed, error));
+    HD_TRY(hd_gpu_frame_time_launch(renderer, in_flight, waited, error));
+    hd_gpu_frame_report(in_flight, done);
+    return check_wanted(in_flight->of, error);
 }
 
 /* Among how many threads of a group the samples of a pixel are shared: the greatest divisor of
    their number up to the group's size and 64, so that all of them have as many. */
 static int sample_parts(int samples, int group_size) {
-    enum { MOST_PARTS = 64 };
-    int parts = hd_min(group_size, MOST_PARTS);
+    enum { MAX_PARTS = 64 };
+    int parts = hd_min(group_size, MAX_PARTS);
     while (samples % parts != 0)
         parts--;
     return parts;
 }
 
-static int samples_per_item(const HdGpuRenderer *renderer, const HdGpuFlight *flight) {
-    return renderer->program.cache.shape.pixels_per_item * flight->of->samples;
+static int samples_per_item(const HdGpuRenderer *renderer, const HdGpuFrameInFlight *in_flight) {
+    return renderer->program.cache.shape.pixels_per_item * in_flight->of->samples;
 }
 
-static HdStatus launch_mega(HdGpuRenderer *renderer, HdGpuFlight *flight, HdError *error) {
-    int samples = flight->of->samples, group_size = renderer->program.group_size;
+static HdStatus launch_mega(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight,
+                            HdError *error) {
+    int samples = in_flight->of->samples, group_size = renderer->program.group_size;
     int parts = renderer->has_groups ? sample_parts(samples, group_size) : 1;
-    int per_group = group_size / parts, work = samples_per_item(renderer, flight);
-    Render own = {.parts = parts, .pixels = &flight->pixels, .counts = &renderer->counts};
+    int per_group = group_size / parts, work = samples_per_item(renderer, in_flight);
+    Render own = {.parts = parts, .pixels = &in_flight->pixels, .counts = &renderer->counts};
     HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_TRACE);
     add_render(&launch, &own);
-    for (int done = 0; done < flight->items; done += own.item_count) {
+    for (int done = 0; done < in_flight->items; done += own.item_count) {
         if (done > 0)
-            HD_TRY(wait_between(renderer, flight, done, error));
+            HD_TRY(wait_between(renderer, in_flight, done, error));
         own.first_item = done;
-        own.item_count =
-            hd_launch_size_items(&renderer->flights.size, flight->items - done, work, per_group);
+        own.item_count = hd_launch_size_items(&renderer->frames_in_flight.size,
+                                              in_flight->items - done, work, per_group);
         launch.groups = group_count(renderer, own.item_count, per_group);
-        HD_TRY(
-            hd_gpu_flight_launch(renderer, flight, &launch, (double)own.item_count * work, error));
+        HD_TRY(hd_gpu_frame_launch(renderer, in_flight, &launch, (double)own.item_count * work,
+                                   error));
     }
     return HD_OK;
 }
@@ -125,36 +126,38 @@ static Queue queue_of(const HdGpuRenderer *renderer) {
 }
 
 /* The wavefront of CPUs. */
-static HdStatus launch_workers(HdGpuRenderer *renderer, HdGpuFlight *flight, HdError *error) {
+static HdStatus launch_workers(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight,
+                               HdError *error) {
     const Queue queue = queue_of(renderer);
-    const int work = samples_per_item(renderer, flight);
-    RenderByWaves own = {.pixels = &flight->pixels, .counts = &renderer->counts};
+    const int work = samples_per_item(renderer, in_flight);
+    RenderByWaves own = {.pixels = &in_flight->pixels, .counts = &renderer->counts};
     HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_TRACE);
     add_queue(&launch, &queue);
     add_render_by_waves(&launch, &own);
-    for (int done = 0; done < flight->items; done = own.end_item) {
+    for (int done = 0; done < in_flight->items; done = own.end_item) {
         if (done > 0)
-            HD_TRY(wait_between(renderer, flight, done, error));
-        const int count =
-            hd_launch_size_items(&renderer->flights.size, flight->items - done, work, 1);
+            HD_TRY(wait_between(renderer, in_flight, done, error));
+        const int count = hd_launch_size_items(&renderer->frames_in_flight.size,
+                                               in_flight->items - done, work, 1);
         own.first_item = done;
         own.end_item = done + count;
         launch.groups = worker_count(renderer, count);
-        HD_TRY(hd_gpu_flight_launch(renderer, flight, &launch, (double)count * work, error));
+        HD_TRY(hd_gpu_frame_launch(renderer, in_flight, &launch, (double)count * work, error));
     }
     return HD_OK;
 }
 
-static HdStatus trace_step(HdGpuRenderer *renderer, HdGpuFlight *flight, const HdWaveStep *step,
-                           int most_groups, unsigned *taken, HdError *error) {
+static HdStatus trace_step(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight,
+                           const HdWaveStep *step, int max_groups, unsigned *taken,
+                           HdError *error) {
     int group_size = renderer->program.group_size;
     const Queue queue = queue_of(renderer);
-    const TraceTake own = {
+    const TraceChunk own = {
         .first_item = step->first_item,
-        .level = step->take.level,
-        .first = step->take.first,
-        .count = step->take.count,
-        .to = step->take.to,
+        .level = step->chunk.level,
+        .first = step->chunk.first,
+        .count = step->chunk.count,
+        .to = step->chunk.to,
         .taken_before = step->taken_before,
         .is_first_launch = step->is_first,
         .taken = &renderer->queue.taken,
@@ -162,16 +165,16 @@ static HdStatus trace_step(HdGpuRenderer *renderer, HdGpuFlight *flight, const H
     };
     HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_TRACE);
     add_queue(&launch, &queue);
-    add_trace_take(&launch, &own);
-    launch.groups = (step->take.count + group_size - 1) / group_size;
-    launch.groups = step->is_first ? most_groups : hd_min(launch.groups, most_groups);
-    HD_TRY(hd_gpu_flight_launch(renderer, flight, &launch, step->take.count, error));
+    add_trace_chunk(&launch, &own);
+    launch.groups = (step->chunk.count + group_size - 1) / group_size;
+    launch.groups = step->is_first ? max_groups : hd_min(launch.groups, max_groups);
+    HD_TRY(hd_gpu_frame_launch(renderer, in_flight, &launch, step->chunk.count, error));
     double waited = hd_monotonic_seconds();
     HD_TRY(hd_gpu_wave_queue_read(&renderer->queue, &renderer->gpu, taken, error));
-    return hd_gpu_flight_time_launch(renderer, flight, waited, error);
+    return hd_gpu_frame_time_launch(renderer, in_flight, waited, error);
 }
 
-static HdStatus store_batch(const HdGpuRenderer *renderer, const HdGpuFlight *flight,
+static HdStatus store_batch(const HdGpuRenderer *renderer, const HdGpuFrameInFlight *in_flight,
                             const HdWaveStep *step, HdError *error) {
     const StoreBatch own = {
         .header = &renderer->scene[HD_TABLE_header],
@@ -180,7 +183,7 @@ static HdStatus store_batch(const HdGpuRenderer *renderer, const HdGpuFlight *fl
         .sum_stride = renderer->queue.plan.sum_stride,
         .first_item = step->first_item,
         .item_count = step->item_count,
-        .pixels = &flight->pixels,
+        .pixels = &in_flight->pixels,
     };
     HdGpuLaunch launch = launch_of(renderer, HD_KERNEL_STORE);
     add_store_batch(&launch, &own);
@@ -190,21 +193,21 @@ static HdStatus store_batch(const HdGpuRenderer *renderer, const HdGpuFlight *fl
 
 /* Samples of a batch are taken from its end on, each time once all rays of those before are
    traced. */
-static void tell_step(HdGpuFlight *flight, const HdWaveStep *step) {
-    const int samples = flight->of->samples;
+static void report_step(HdGpuFrameInFlight *in_flight, const HdWaveStep *step) {
+    const int samples = in_flight->of->samples;
     const int last =
-        step->action == HD_WAVE_TRACES ? (step->take.first + step->take.count) / samples : 0;
-    if (step->action == HD_WAVE_STORES || step->take.level == 0)
-        hd_gpu_flight_tell(flight, step->first_item + step->item_count - last);
+        step->action == HD_WAVE_TRACES ? (step->chunk.first + step->chunk.count) / samples : 0;
+    if (step->action == HD_WAVE_STORES || step->chunk.level == 0)
+        hd_gpu_frame_report(in_flight, step->first_item + step->item_count - last);
 }
 
 /* The wavefront of devices with groups of threads. */
-static HdStatus launch_waves(HdGpuRenderer *renderer, HdGpuFlight *flight, int most_groups,
+static HdStatus launch_waves(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight, int max_groups,
                              HdError *error) {
     HdWaveRun run = {
         .plan = &renderer->queue.plan,
-        .items = flight->items,
-        .samples_per_item = flight->of->samples,
+        .items = in_flight->items,
+        .samples_per_item = in_flight->of->samples,
         .depth = renderer->depth,
         .grain = renderer->program.group_size,
     };
@@ -212,39 +215,39 @@ static HdStatus launch_waves(HdGpuRenderer *renderer, HdGpuFlight *flight, int m
     unsigned taken = 0;
     HD_TRY(hd_gpu_wave_queue_empty(&renderer->queue, &renderer->gpu, error));
     for (;;) {
-        HD_TRY(check_wanted(flight->of, error));
-        HD_TRY(hd_wave_next(&run, taken, &renderer->flights.size, error));
+        HD_TRY(check_wanted(in_flight->of, error));
+        HD_TRY(hd_wave_next(&run, taken, &renderer->frames_in_flight.size, error));
         if (step->action == HD_WAVE_IS_DONE)
             return HD_OK;
-        tell_step(flight, step);
+        report_step(in_flight, step);
         HD_TRY(step->action == HD_WAVE_STORES
-                   ? store_batch(renderer, flight, step, error)
-                   : trace_step(renderer, flight, step, most_groups, &taken, error));
+                   ? store_batch(renderer, in_flight, step, error)
+                   : trace_step(renderer, in_flight, step, max_groups, &taken, error));
     }
 }
 
-static HdStatus launch_sum(HdGpuRenderer *renderer, HdGpuFlight *flight, int count_slots,
+static HdStatus launch_sum(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight, int count_slots,
                            HdError *error) {
     const SumCounts own = {.counts = &renderer->counts,
                            .count = count_slots,
-                           .sums = &flight->sums,
+                           .sums = &in_flight->sums,
                            .workers = HD_SUM_WORKERS};
     HdGpuLaunch launch = launch_of(renderer, HD_KERNEL_SUM);
     add_sum_counts(&launch, &own);
     launch.groups = (own.workers + launch.group_size - 1) / launch.group_size;
-    return queue_launch(renderer, &launch, &flight->summed, error);
+    return queue_launch(renderer, &launch, &in_flight->summed, error);
 }
 
-static HdStatus trace(HdGpuRenderer *renderer, HdGpuFlight *flight, int count_slots,
+static HdStatus trace(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight, int count_slots,
                       HdError *error) {
-    hd_launch_size_begin_frame(&renderer->flights.size);
+    hd_launch_size_begin_frame(&renderer->frames_in_flight.size);
     if (!renderer->program.cache.shape.wavefront)
-        HD_TRY(launch_mega(renderer, flight, error));
+        HD_TRY(launch_mega(renderer, in_flight, error));
     else if (renderer->has_groups)
-        HD_TRY(launch_waves(renderer, flight, count_slots, error));
+        HD_TRY(launch_waves(renderer, in_flight, count_slots, error));
     else
-        HD_TRY(launch_workers(renderer, flight, error));
-    return launch_sum(renderer, flight, count_slots, error);
+        HD_TRY(launch_workers(renderer, in_flight, error));
+    return launch_sum(renderer, in_flight, count_slots, error);
 }
 
 /* ---- 8 bits ---- */
@@ -265,31 +268,32 @@ static HdStatus write_thresholds(HdGpuRenderer *renderer, HdCurve curve, HdError
     return status;
 }
 
-static HdStatus encode(HdGpuRenderer *renderer, HdGpuFlight *flight, HdCurve curve,
+static HdStatus encode(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight, HdCurve curve,
                        HdError *error) {
-    const Encode own = {.pixels = &flight->pixels,
-                        .count = flight->of->width * flight->of->height,
+    const Encode own = {.pixels = &in_flight->pixels,
+                        .count = in_flight->of->width * in_flight->of->height,
                         .thresholds = &renderer->thresholds,
-                        .image = &flight->image};
+                        .image = &in_flight->image};
     HdGpuLaunch launch = launch_of(renderer, HD_KERNEL_ENCODE);
     HD_TRY(write_thresholds(renderer, curve, error));
     add_encode(&launch, &own);
     launch.groups = group_count(renderer, own.count, launch.group_size);
-    return queue_launch(renderer, &launch, &flight->encoded, error);
+    return queue_launch(renderer, &launch, &in_flight->encoded, error);
 }
 
 /* ---- frames ---- */
 
-static HdStatus reserve_queue(HdGpuRenderer *renderer, const HdGpuFlight *flight, HdError *error) {
+static HdStatus reserve_queue(HdGpuRenderer *renderer, const HdGpuFrameInFlight *in_flight,
+                              HdError *error) {
     const HdKernelShape *shape = &renderer->program.cache.shape;
-    int items = flight->items, per_item = samples_per_item(renderer, flight);
+    int items = in_flight->items, per_item = samples_per_item(renderer, in_flight);
     bool has_groups = renderer->has_groups;
     HdWaveNeeds needs = {
         .bytes = renderer->queue.bytes,
         .precision = shape->precision,
         .depth = renderer->depth,
         .grain = has_groups ? renderer->program.group_size : shape->lanes,
-        .samples_at_once = has_groups ? per_item : HD_WAVE_BUNDLE,
+        .samples_at_once = has_groups ? per_item : HD_WAVE_PACKET,
         .samples = has_groups ? hd_wave_samples(items, per_item) : per_item,
     };
     return hd_gpu_wave_queue_reserve(&renderer->queue, &renderer->gpu, &needs,
@@ -303,10 +307,11 @@ static HdStatus write_frame_table(HdGpuRenderer *renderer, int table, const void
                               "tables of the frame", error);
 }
 
-static HdStatus write_frame(HdGpuRenderer *renderer, HdGpuFlight *flight, HdError *error) {
-    char *from = flight->tables.data;
+static HdStatus write_frame(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight,
+                            HdError *error) {
+    char *from = in_flight->tables.data;
     for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++) {
-        const HdTable *table = &flight->of->table[i];
+        const HdTable *table = &in_flight->of->table[i];
         if (table->bytes > 0)
             memcpy(from, table->data, table->bytes);
         HD_TRY(write_frame_table(renderer, i, from, table->bytes, error));
@@ -316,21 +321,21 @@ static HdStatus write_frame(HdGpuRenderer *renderer, HdGpuFlight *flight, HdErro
 }
 
 /* Parts of it are counted one by one. */
-HdStatus hd_gpu_launch_frame(HdGpuRenderer *renderer, HdGpuFlight *flight, HdCurve curve,
+HdStatus hd_gpu_launch_frame(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight, HdCurve curve,
                              HdError *error) {
     const HdGpuProgram *program = &renderer->program;
-    int count_slots = flight->items;
+    int count_slots = in_flight->items;
     if (program->cache.shape.wavefront)
-        HD_TRY(reserve_queue(renderer, flight, error));
+        HD_TRY(reserve_queue(renderer, in_flight, error));
     if (program->cache.shape.wavefront && renderer->has_groups)
         count_slots =
             hd_wave_groups(&renderer->queue.plan, program->group_size, renderer->options.grid);
-    HD_TRY(write_frame(renderer, flight, error));
+    HD_TRY(write_frame(renderer, in_flight, error));
     HD_TRY(hd_gpu_reserve(&renderer->gpu, &renderer->counts, HD_GPU_DEVICE,
                           sizeof(HdRayCounts) * (size_t)count_slots, "counts of the work items",
                           error));
-    HD_TRY(trace(renderer, flight, count_slots, error));
-    return flight->encodes ? encode(renderer, flight, curve, error) : HD_OK;
+    HD_TRY(trace(renderer, in_flight, count_slots, error));
+    return in_flight->encodes ? encode(renderer, in_flight, curve, error) : HD_OK;
 }
 
 /* ---- what is met first ---- */
@@ -339,21 +344,21 @@ HdStatus hd_gpu_launch_frame(HdGpuRenderer *renderer, HdGpuFlight *flight, HdCur
    they are short enough. */
 static HdStatus launch_first_hits(HdGpuRenderer *renderer, const HdFrameTables *tables, int items,
                                   int floats, HdError *error) {
-    enum { MOST_THREADS = 64 }; /* of a group, which has nothing to do together */
+    enum { MAX_THREADS = 64 }; /* of a group, which has nothing to do together */
     HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_FIRST_HITS);
     FirstHits own = {.floats = floats, .hits = &renderer->first_hits};
     const HdGpu *gpu = &renderer->gpu;
     int work = renderer->program.cache.shape.pixels_per_item * (tables->samples + 1);
     add_first_hits(&launch, &own);
-    launch.group_size = hd_min(launch.group_size, MOST_THREADS);
+    launch.group_size = hd_min(launch.group_size, MAX_THREADS);
     for (int done = 0; done < items; done += own.item_count) {
         if (done > 0) {
             HD_TRY(gpu->driver->wait_for_launch(gpu->handle, &renderer->first_hits_found, error));
             HD_TRY(check_wanted(tables, error));
         }
         own.first_item = done;
-        own.item_count =
-            hd_launch_size_items(&renderer->flights.size, items - done, work, launch.group_size);
+        own.item_count = hd_launch_size_items(&renderer->frames_in_flight.size, items - done, work,
+                                              launch.group_size);
         launch.groups = group_count(renderer, own.item_count, launch.group_size);
         HD_TRY(queue_launch(renderer, &launch, &renderer->first_hits_found, error));
     }

@@ -6,7 +6,7 @@
 
 #include "tables/table.h"
 
-enum { LEAST_TABLE_BYTES = 16 };
+enum { MIN_TABLE_BYTES = 16 };
 
 HdStatus hd_gpu_refuse(const HdGpu *gpu, HdGpuPlace place, size_t bytes, const char *what,
                        const HdGpuRefusal *refusal, HdError *error) {
@@ -21,7 +21,7 @@ HdStatus hd_gpu_refuse(const HdGpu *gpu, HdGpuPlace place, size_t bytes, const c
                        need, refusal->function, refusal->reason);
     return hd_fail(error, HD_FAILED, "the %s need %s; %s has %s free of its %s (%s: %s); %s", what,
                    need, gpu->name, is_free, all, refusal->function, refusal->reason,
-                   hd_room_advice);
+                   hd_budget_advice);
 }
 
 static HdStatus check_size(const HdGpu *gpu, size_t bytes, const char *what, HdError *error) {
@@ -56,11 +56,11 @@ HdStatus hd_gpu_reserve(const HdGpu *gpu, HdGpuMemory *memory, HdGpuPlace place,
 HdStatus hd_gpu_write_table(const HdGpu *gpu, HdGpuMemory *memory, const void *data, size_t bytes,
                             const char *what, HdError *error) {
     HdGpuRefusal refusal = {0};
-    size_t room = bytes < LEAST_TABLE_BYTES ? LEAST_TABLE_BYTES : bytes;
-    HdStatus status = hd_gpu_reserve(gpu, memory, HD_GPU_DEVICE, room, what, error);
+    size_t capacity = bytes < MIN_TABLE_BYTES ? MIN_TABLE_BYTES : bytes;
+    HdStatus status = hd_gpu_reserve(gpu, memory, HD_GPU_DEVICE, capacity, what, error);
     if (status == HD_OK && bytes > 0)
         status = gpu->driver->write(gpu->handle, memory, data, bytes, &refusal, error);
-    return refusal.lacks_memory ? hd_gpu_refuse(gpu, HD_GPU_DEVICE, room, what, &refusal, error)
+    return refusal.lacks_memory ? hd_gpu_refuse(gpu, HD_GPU_DEVICE, capacity, what, &refusal, error)
                                 : status;
 }
 
@@ -104,21 +104,21 @@ HdStatus hd_gpu_wave_queue_reserve(HdGpuWaveQueue *queue, const HdGpu *gpu, HdWa
 HdStatus hd_gpu_wave_queue_empty(HdGpuWaveQueue *queue, const HdGpu *gpu, HdError *error) {
     static const unsigned none[4] = {0};
     static const char what[] = "counter of the queue";
-    HD_TRY(hd_gpu_reserve(gpu, &queue->told, HD_GPU_HOST, sizeof none, what, error));
+    HD_TRY(hd_gpu_reserve(gpu, &queue->reported, HD_GPU_HOST, sizeof none, what, error));
     return hd_gpu_write_table(gpu, &queue->taken, none, sizeof none, what, error);
 }
 
 HdStatus hd_gpu_wave_queue_read(const HdGpuWaveQueue *queue, const HdGpu *gpu, unsigned *taken,
                                 HdError *error) {
     HdStatus status =
-        gpu->driver->read(gpu->handle, &queue->taken, queue->told.data, sizeof *taken, error);
+        gpu->driver->read(gpu->handle, &queue->taken, queue->reported.data, sizeof *taken, error);
     if (status == HD_OK)
-        memcpy(taken, queue->told.data, sizeof *taken);
+        memcpy(taken, queue->reported.data, sizeof *taken);
     return status;
 }
 
 void hd_gpu_wave_queue_release(HdGpuWaveQueue *queue, const HdGpu *gpu) {
     release_rays(queue, gpu);
     hd_gpu_release(gpu, &queue->taken);
-    hd_gpu_release(gpu, &queue->told);
+    hd_gpu_release(gpu, &queue->reported);
 }

@@ -11,7 +11,7 @@ enum { OPTIONS_LENGTH = 1024, VERSION_LENGTH = HD_KERNEL_KEY_LENGTH, MAKER_LENGT
 /* A kernel that needs many registers may allow smaller groups only. */
 static HdStatus limit_group_size(HdGpuProgram *program, const HdGpu *gpu, HdError *error) {
     size_t most = 0;
-    HD_TRY(gpu->driver->most_threads(gpu->handle, &most, error));
+    HD_TRY(gpu->driver->max_threads(gpu->handle, &most, error));
     if (program->cache.shape.group_size == 0)
         return HD_OK;
     program->group_size = program->cache.shape.group_size;
@@ -105,17 +105,17 @@ enum { PARTS = 8 };
 
 /* Few groups for each unit: the tuples are few. */
 static HdStatus launch_probe(const HdGpuProgram *program, const HdGpu *gpu,
-                             const HdGpuMemory room[PARTS], int count, HdError *error) {
+                             const HdGpuMemory capacity[PARTS], int count, HdError *error) {
     enum { TUPLES_PER_THREAD = 4 };
-    const Probe own = {.first = &room[0],
-                       .second = &room[1],
-                       .third = &room[2],
-                       .bits = &room[3],
+    const Probe own = {.first = &capacity[0],
+                       .second = &capacity[1],
+                       .third = &capacity[2],
+                       .bits = &capacity[3],
                        .count = count,
-                       .numbers = &room[4],
-                       .integers = &room[5],
-                       .sums = &room[6],
-                       .counters = &room[7]};
+                       .numbers = &capacity[4],
+                       .integers = &capacity[5],
+                       .sums = &capacity[6],
+                       .counters = &capacity[7]};
     HdGpuLaunch launch = {.kernel = HD_KERNEL_TRACE, .group_size = program->group_size};
     int per_group = TUPLES_PER_THREAD * program->cache.shape.lanes * program->group_size;
     launch.groups = (count + per_group - 1) / per_group;
@@ -143,21 +143,23 @@ HdStatus hd_gpu_run_probe(const HdGpuProgram *program, const HdGpu *gpu, const H
         {results->sums, results->sums, sizeof results->sums},
         {results->counters, results->counters, sizeof results->counters},
     };
-    HdGpuMemory room[PARTS] = {0};
+    HdGpuMemory capacity[PARTS] = {0};
     HdError later;
     HdStatus status = HD_OK;
     for (int i = 0; status == HD_OK && i < PARTS; i++)
-        status = parts[i].from != NULL
-                     ? hd_gpu_write_table(gpu, &room[i], parts[i].from, parts[i].bytes, what, error)
-                     : hd_gpu_reserve(gpu, &room[i], HD_GPU_DEVICE, parts[i].bytes, what, error);
+        status =
+            parts[i].from != NULL
+                ? hd_gpu_write_table(gpu, &capacity[i], parts[i].from, parts[i].bytes, what, error)
+                : hd_gpu_reserve(gpu, &capacity[i], HD_GPU_DEVICE, parts[i].bytes, what, error);
     if (status == HD_OK)
-        status = launch_probe(program, gpu, room, batch->count, error);
+        status = launch_probe(program, gpu, capacity, batch->count, error);
     if (status != HD_OK)
         gpu->driver->finish(gpu->handle, &later); /* copies may still read the operands */
     for (int i = 0; status == HD_OK && i < PARTS; i++)
         if (parts[i].to != NULL)
-            status = gpu->driver->read(gpu->handle, &room[i], parts[i].to, parts[i].bytes, error);
+            status =
+                gpu->driver->read(gpu->handle, &capacity[i], parts[i].to, parts[i].bytes, error);
     for (int i = 0; i < PARTS; i++)
-        hd_gpu_release(gpu, &room[i]);
+        hd_gpu_release(gpu, &capacity[i]);
     return status;
 }

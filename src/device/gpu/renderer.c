@@ -84,7 +84,7 @@ static void release_all(HdGpuRenderer *renderer) {
     gpu->driver->forget(gpu->handle, &renderer->first_hits_found);
     hd_gpu_release(gpu, &renderer->thresholds);
     hd_gpu_wave_queue_release(&renderer->queue, gpu);
-    hd_gpu_flights_close(renderer);
+    hd_gpu_frames_in_flight_close(renderer);
     gpu->driver->unload(gpu->handle);
 }
 
@@ -103,10 +103,10 @@ static void gpu_close(void *state) {
 static void place_table(HdGpuRenderer *renderer, HdGpuMemory *memory, const char *name) {
     const HdGpu *gpu = &renderer->gpu;
     HdGpuMemory constant = {0};
-    bool has_room = renderer->program.cache.shape.needs.small_tables &&
-                    gpu->driver->constant != NULL &&
-                    gpu->driver->constant(gpu->handle, name, &constant);
-    if (has_room || memory->is_constant) {
+    bool has_memory = renderer->program.cache.shape.needs.small_tables &&
+                      gpu->driver->constant != NULL &&
+                      gpu->driver->constant(gpu->handle, name, &constant);
+    if (has_memory || memory->is_constant) {
         hd_gpu_release(gpu, memory);
         *memory = constant;
     }
@@ -138,18 +138,18 @@ static HdStatus gpu_upload(void *state, const HdSceneTables *tables, HdError *er
     const double longest = hd_longest_launch(&renderer->device, &renderer->options);
     const int work = renderer->options.test.launch_work;
     HdKernelNeeds needs = hd_kernel_needs(tables);
-    const HdMemoryRoom room = {.name = gpu->name,
-                               .advice = hd_room_advice,
-                               .memory = (double)gpu->facts.memory,
-                               .at_once = (double)gpu->facts.at_once};
+    const HdMemoryBudget capacity = {.name = gpu->name,
+                                     .advice = hd_budget_advice,
+                                     .memory = (double)gpu->facts.memory,
+                                     .at_once = (double)gpu->facts.at_once};
     HdError later;
     renderer->depth = tables->depth;
-    renderer->flights.size = work > 0
-                                 ? hd_launch_size_fixed(work)
-                                 : hd_launch_size_start(renderer->device.compute_units, longest);
+    renderer->frames_in_flight.size =
+        work > 0 ? hd_launch_size_fixed(work)
+                 : hd_launch_size_start(renderer->device.compute_units, longest);
     needs.small_tables = needs.small_tables && gpu->driver->constant != NULL;
     HD_TRY(enter(renderer, error));
-    HD_TRY(hd_check_room(tables, &room, error));
+    HD_TRY(hd_check_budget(tables, &capacity, error));
     HD_TRY(hd_gpu_build(&renderer->program, gpu, &needs, error));
     place_tables(renderer);
     HdStatus status = write_scene(renderer, tables, error);
@@ -161,19 +161,19 @@ static HdStatus gpu_upload(void *state, const HdSceneTables *tables, HdError *er
 /* ---- frames ---- */
 
 /* CPUs have no bus to cross, and the host's conversion is as fast. */
-static HdStatus gpu_submit(void *state, const HdFrameTables *tables, const HdFrameWish *wish,
+static HdStatus gpu_submit(void *state, const HdFrameTables *tables, const HdFrameRequest *request,
                            HdError *error) {
     HdGpuRenderer *renderer = state;
-    HdGpuFlight *flight;
-    bool encodes = renderer->has_groups && !wish->radiance;
+    HdGpuFrameInFlight *in_flight;
+    bool encodes = renderer->has_groups && !request->radiance;
     int items = hd_kernel_item_count(tables->width, tables->height,
                                      renderer->program.cache.shape.pixels_per_item);
     HD_TRY(enter(renderer, error));
-    HdStatus status = hd_gpu_flight_begin(renderer, tables, items, encodes, &flight, error);
+    HdStatus status = hd_gpu_frame_begin(renderer, tables, items, encodes, &in_flight, error);
     if (status == HD_OK)
-        status = hd_gpu_launch_frame(renderer, flight, wish->curve, error);
+        status = hd_gpu_launch_frame(renderer, in_flight, request->curve, error);
     if (status == HD_OK)
-        status = hd_gpu_flight_send(renderer, flight, error);
+        status = hd_gpu_frame_send(renderer, in_flight, error);
     if (status != HD_OK) /* the next frame takes the flight's memory */
         renderer->gpu.driver->drain(renderer->gpu.handle);
     return status;
@@ -186,7 +186,7 @@ static HdStatus gpu_collect(void *state, const HdFrameTables *tables, HdFrame *f
     (void)tables;
     HdStatus status = enter(renderer, error);
     if (status == HD_OK)
-        status = hd_gpu_flight_collect(renderer, frame, error);
+        status = hd_gpu_frame_collect(renderer, frame, error);
     if (!renderer->has_groups)
         frame->longest_launch = -1.0;
     return status;
@@ -210,7 +210,7 @@ static void gpu_drop(void *state) {
     if (enter(renderer, &ignored) != HD_OK)
         return;
     renderer->gpu.driver->drain(renderer->gpu.handle);
-    renderer->flights.count = 0;
+    renderer->frames_in_flight.count = 0;
 }
 
 /* ---- the arithmetic probe ---- */
@@ -246,10 +246,10 @@ static void gpu_describe(const void *state, char *text, int capacity) {
     if (program->cache.shape.rounds_by_fma && length > 0 && length < capacity)
         length += snprintf(text + length, (size_t)(capacity - length), ", division by fma");
     if (renderer->queue.is_cut && length > 0 && length < capacity) {
-        char room[HD_BYTE_TEXT_SIZE];
-        hd_byte_text((double)renderer->queue.bytes, room);
+        char memory[HD_BYTE_TEXT_SIZE];
+        hd_byte_text((double)renderer->queue.bytes, memory);
         snprintf(text + length, (size_t)(capacity - length),
-                 ", the queue cut to %s, for more memory was refused", room);
+                 ", the queue cut to %s, for more memory was refused", memory);
     }
 }
 

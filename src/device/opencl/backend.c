@@ -183,7 +183,7 @@ static HdStatus fail_with_log(const Device *device, cl_int code, HdError *error)
     char *log = NULL;
     if (clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &size) ==
             CL_SUCCESS &&
-        size <= HD_OPENCL_MOST_BYTES)
+        size <= HD_OPENCL_MAX_BYTES)
         log = calloc(size + 1, 1);
     if (log)
         clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);
@@ -244,7 +244,7 @@ static unsigned char *read_binary(const void *state, size_t *size) {
     *size = 0;
     if (clGetProgramInfo(device->program, CL_PROGRAM_BINARY_SIZES, sizeof *size, size, NULL) !=
             CL_SUCCESS ||
-        *size == 0 || *size > HD_OPENCL_MOST_BYTES)
+        *size == 0 || *size > HD_OPENCL_MAX_BYTES)
         return NULL;
     unsigned char *binaries[1] = {malloc(*size)};
     if (binaries[0] && clGetProgramInfo(device->program, CL_PROGRAM_BINARIES, sizeof binaries,
@@ -254,7 +254,7 @@ static unsigned char *read_binary(const void *state, size_t *size) {
     return NULL;
 }
 
-static HdStatus query_most_threads(void *state, size_t *threads, HdError *error) {
+static HdStatus query_max_threads(void *state, size_t *threads, HdError *error) {
     const Device *device = state;
     return check(clGetKernelWorkGroupInfo(device->kernels[HD_KERNEL_TRACE], device->id,
                                           CL_KERNEL_WORK_GROUP_SIZE, sizeof *threads, threads,
@@ -264,18 +264,18 @@ static HdStatus query_most_threads(void *state, size_t *threads, HdError *error)
 
 /* ---- launches; a mark is the event of its last command ---- */
 
-static void forget(void *state, HdGpuMark *mark) {
+static void forget(void *state, HdGpuEvent *event) {
     (void)state;
-    if (mark->end)
-        clReleaseEvent(mark->end);
-    *mark = (HdGpuMark){0};
+    if (event->end)
+        clReleaseEvent(event->end);
+    *event = (HdGpuEvent){0};
 }
 
-static HdStatus launch(void *state, const HdGpuLaunch *launch, HdGpuMark *mark, HdError *error) {
+static HdStatus launch(void *state, const HdGpuLaunch *launch, HdGpuEvent *event, HdError *error) {
     Device *device = state;
     cl_kernel kernel = device->kernels[launch->kernel];
     size_t local = (size_t)launch->group_size, global = (size_t)launch->groups * local;
-    cl_event event = NULL;
+    cl_event command = NULL;
     cl_int code = CL_SUCCESS;
     for (int i = 0; code == CL_SUCCESS && i < launch->argument_count; i++)
         code = clSetKernelArg(kernel, (cl_uint)i, launch->arguments[i].bytes,
@@ -283,17 +283,17 @@ static HdStatus launch(void *state, const HdGpuLaunch *launch, HdGpuMark *mark, 
     if (code != CL_SUCCESS)
         return hd_opencl_fail(error, "clSetKernelArg", code);
     code = clEnqueueNDRangeKernel(device->queue, kernel, 1, NULL, &global, &local, 0, NULL,
-                                  mark != NULL ? &event : NULL);
-    if (mark != NULL) {
-        forget(state, mark);
-        mark->end = event;
+                                  event != NULL ? &command : NULL);
+    if (event != NULL) {
+        forget(state, event);
+        event->end = command;
     }
     return check(code, "clEnqueueNDRangeKernel", error);
 }
 
 /* What another queue waits for is to be flushed first. */
-static HdStatus copy_back(void *state, const HdGpuMark *after, const HdGpuCopy *copies, int count,
-                          HdGpuMark *done, HdError *error) {
+static HdStatus copy_back(void *state, const HdGpuEvent *after, const HdGpuCopy *copies, int count,
+                          HdGpuEvent *done, HdError *error) {
     Device *device = state;
     cl_event ready = after->end, event = NULL;
     HdStatus status = check(clFlush(device->queue), "clFlush", error);
@@ -312,12 +312,12 @@ static HdStatus finish(void *state, HdError *error) {
     return check(clFinish(device->queue), "clFinish", error);
 }
 
-static HdStatus wait_for_launch(void *state, const HdGpuMark *launched, HdError *error) {
+static HdStatus wait_for_launch(void *state, const HdGpuEvent *launched, HdError *error) {
     (void)launched;
     return finish(state, error);
 }
 
-static HdStatus wait_for_copies(void *state, const HdGpuMark *done, HdError *error) {
+static HdStatus wait_for_copies(void *state, const HdGpuEvent *done, HdError *error) {
     cl_event event = done->end;
     (void)state;
     return check(clWaitForEvents(1, &event), "clWaitForEvents", error);
@@ -330,7 +330,7 @@ static void drain(void *state) {
 }
 
 /* Nothing is told without a profile. */
-static HdStatus measure_seconds(void *state, const HdGpuMark *from, const HdGpuMark *to,
+static HdStatus measure_seconds(void *state, const HdGpuEvent *from, const HdGpuEvent *to,
                                 double *seconds, HdError *error) {
     cl_ulong start = 0, end = 0;
     (void)state, (void)error;
@@ -374,7 +374,7 @@ static const HdGpuDriver driver = {
     .load = load,
     .binary = read_binary,
     .unload = unload,
-    .most_threads = query_most_threads,
+    .max_threads = query_max_threads,
     .launch = launch,
     .copy_back = copy_back,
     .wait_for_launch = wait_for_launch,

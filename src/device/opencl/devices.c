@@ -149,7 +149,7 @@ static void query_text(Entry of, cl_uint what, char *text, size_t capacity) {
     text[0] = '\0';
     size_t size = 0;
     if (query_bytes(of, what, 0, NULL, &size) != CL_SUCCESS || size == 0 ||
-        size > HD_OPENCL_MOST_BYTES)
+        size > HD_OPENCL_MAX_BYTES)
         return;
     char *whole = calloc(size + 1, 1);
     if (whole && query_bytes(of, what, size, whole, NULL) == CL_SUCCESS) {
@@ -165,7 +165,7 @@ static void query_text(Entry of, cl_uint what, char *text, size_t capacity) {
 }
 
 /* Why no kernel of ours can run; empty: one can. */
-static void find_obstacles(cl_device_id device, char *reasons, size_t capacity) {
+static void find_unsupported(cl_device_id device, char *reasons, size_t capacity) {
     char version[64];
     int major = 0, minor = 0;
     query_text((Entry){.device = device}, CL_DEVICE_VERSION, version, sizeof version);
@@ -193,9 +193,9 @@ static bool has_extension(cl_device_id device, const char *name) {
 /* Only NVIDIA's driver tells. */
 static bool has_timeout(cl_device_id id) {
     enum { KERNEL_EXEC_TIMEOUT_NV = 0x4005 };
-    cl_bool told = CL_FALSE;
-    if (clGetDeviceInfo(id, KERNEL_EXEC_TIMEOUT_NV, sizeof told, &told, NULL) == CL_SUCCESS)
-        return told != CL_FALSE || hd_display_may_be_there(HD_DISPLAY_FOLDER);
+    cl_bool reported = CL_FALSE;
+    if (clGetDeviceInfo(id, KERNEL_EXEC_TIMEOUT_NV, sizeof reported, &reported, NULL) == CL_SUCCESS)
+        return reported != CL_FALSE || hd_display_may_be_there(HD_DISPLAY_FOLDER);
     return (query(id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) == 0;
 }
 
@@ -220,7 +220,7 @@ static void describe_device(HdDevice *device, Entry entry, int index) {
     device->has_double = query(entry.device, CL_DEVICE_DOUBLE_FP_CONFIG) != 0;
     device->has_wide_atomics = has_extension(entry.device, "cl_khr_int64_base_atomics");
     device->has_timeout = has_timeout(entry.device);
-    find_obstacles(entry.device, device->unusable, sizeof device->unusable);
+    find_unsupported(entry.device, device->unusable, sizeof device->unusable);
 }
 
 static HdStatus list_platforms(cl_platform_id platforms[MAX_PLATFORMS], cl_uint *count,

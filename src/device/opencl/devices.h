@@ -9,7 +9,7 @@
 #include "device/gpu/driver.h"
 
 /* Of what a driver says; one that claims more lies. */
-enum { HD_OPENCL_MOST_BYTES = 1 << 26 };
+enum { HD_OPENCL_MAX_BYTES = 1 << 26 };
 
 /* As HdBackend's; all devices of all platforms, in the order in which they are reported. */
 HdStatus hd_opencl_enumerate(HdDevice *devices, int capacity, int *count, HdError *error);

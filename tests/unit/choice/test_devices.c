@@ -140,11 +140,11 @@ static const char *told(HdStatus status, HdStatus expected) {
     return status == HD_OK ? names : error.message;
 }
 
-static const char *opened_by(HdDeviceWish wish, HdStatus expected) {
-    wish.options = &options;
-    wish.job = &job;
+static const char *opened_by(HdDeviceSelection selection, HdStatus expected) {
+    selection.options = &options;
+    selection.job = &job;
     hd_close_devices(&team);
-    const HdStatus status = hd_open_devices(&team, &wish, &error);
+    const HdStatus status = hd_open_devices(&team, &selection, &error);
     assert_true(status == HD_OK || team.count == 0);
     for (int i = 0; i < team.count; i++) {
         assert_non_null(team.list[i].renderer);
@@ -153,10 +153,10 @@ static const char *opened_by(HdDeviceWish wish, HdStatus expected) {
     return told(status, expected);
 }
 
-static const char *found_by(HdDeviceWish wish, HdStatus expected) {
-    wish.options = &options;
-    wish.job = &job;
-    const HdStatus status = hd_candidates_find(&candidates, &wish, &error);
+static const char *found_by(HdDeviceSelection selection, HdStatus expected) {
+    selection.options = &options;
+    selection.job = &job;
+    const HdStatus status = hd_candidates_find(&candidates, &selection, &error);
     for (int i = 0; i < candidates.count; i++)
         add_name(i, &candidates.list[i].device);
     return told(status, expected);
@@ -172,11 +172,11 @@ static const char *named(const char *backend, const char *device, HdStatus expec
 }
 
 #define expect_opened(expected, ...)                                                               \
-    assert_string_equal(opened_by((HdDeviceWish){__VA_ARGS__}, HD_OK), expected)
+    assert_string_equal(opened_by((HdDeviceSelection){__VA_ARGS__}, HD_OK), expected)
 #define expect_found(expected, ...)                                                                \
-    assert_string_equal(found_by((HdDeviceWish){__VA_ARGS__}, HD_OK), expected)
+    assert_string_equal(found_by((HdDeviceSelection){__VA_ARGS__}, HD_OK), expected)
 #define expect_failure(status, part, ...)                                                          \
-    expect_contains(opened_by((HdDeviceWish){__VA_ARGS__}, status), part)
+    expect_contains(opened_by((HdDeviceSelection){__VA_ARGS__}, status), part)
 
 /* ---- one ---- */
 
@@ -263,7 +263,7 @@ TEST(a_gpu_that_is_passed_over_is_told) {
     expect_found("c:0", .kind = HD_WANT_ANY);
     assert_string_equal(candidates.passed, "");
     options.lanes = 1;
-    assert_string_equal(found_by((HdDeviceWish){.backend = "far"}, HD_UNAVAILABLE),
+    assert_string_equal(found_by((HdDeviceSelection){.backend = "far"}, HD_UNAVAILABLE),
                         "no device can do this: Wrong: it computes wrongly: 1 + 1");
     assert_string_equal(candidates.passed, "");
     there[FAR].status = HD_FAILED;
@@ -297,22 +297,22 @@ TEST(a_list_names_each_once) {
 }
 
 TEST(more_devices_than_there_is_room_for) {
-    char list[8 * HD_MOST_TRACERS + 8] = "near:0";
+    char list[8 * HD_MAX_WORKERS + 8] = "near:0";
     near.needs_no_driver = far.needs_no_driver = true; /* there is no verdict to read */
     for (int i = 0; i < MOST; i++)
         add(NEAR, "Card", 1 + i % 20), add(FAR, "Chip", 1);
-    found_by((HdDeviceWish){.backend = "near"}, HD_OK);
+    found_by((HdDeviceSelection){.backend = "near"}, HD_OK);
     assert_int_equal(candidates.count, HD_MAX_CANDIDATES);
     for (int i = 0; i < HD_MAX_CANDIDATES; i++)
         assert_int_equal(candidates.list[i].device.index, 19 - i / 2 + (i % 2) * 20);
-    for (int i = 1; i < HD_MOST_TRACERS + 1; i++)
+    for (int i = 1; i < HD_MAX_WORKERS + 1; i++)
         snprintf(list + strlen(list), 9, ",%s:%d", i < MOST ? "near" : "far", i % MOST);
     expect_failure(HD_BAD_INPUT, "--device names more than 64 devices", .device = list);
     *strrchr(list, ',') = '\0';
-    opened_by((HdDeviceWish){.device = list}, HD_OK);
-    assert_int_equal(team.count, HD_MOST_TRACERS);
-    opened_by((HdDeviceWish){.device = "all"}, HD_OK);
-    assert_int_equal(team.count, HD_MOST_TRACERS);
+    opened_by((HdDeviceSelection){.device = list}, HD_OK);
+    assert_int_equal(team.count, HD_MAX_WORKERS);
+    opened_by((HdDeviceSelection){.device = "all"}, HD_OK);
+    assert_int_equal(team.count, HD_MAX_WORKERS);
 }
 
 TEST(all_are_those_that_can_do_it) {
@@ -345,7 +345,7 @@ TEST(plain_c_leaves_a_core_to_each_gpu) {
     for (int gpus = 0; gpus < 3; gpus++) {
         char text[256], expected[64];
         const int left = hd_processor_count() - gpus, threads = left > 1 ? left : 1;
-        opened_by((HdDeviceWish){.device = "all"}, HD_OK);
+        opened_by((HdDeviceSelection){.device = "all"}, HD_OK);
         assert_int_equal(team.count, gpus + 1);
         hd_renderer_describe(team.list[gpus].renderer, text, sizeof text);
         snprintf(expected, sizeof expected, "%d thread%s", threads, threads == 1 ? "" : "s");

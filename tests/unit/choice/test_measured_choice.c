@@ -51,7 +51,7 @@ static int begin(void **state) {
     device = fake_device();
     device.has_wide_atomics = true;
     device.compute_units = 10;
-    candidates = (HdCandidates){.wish = {.options = &options, .job = &job},
+    candidates = (HdCandidates){.selection = {.options = &options, .job = &job},
                                 .count = 2,
                                 .is_free = true,
                                 .compared = 2,
@@ -176,9 +176,9 @@ TEST(the_estimate_scales_with_the_picture) {
     assert_int_equal(hd_trial_open(&renderer, &candidates.list[C].device, &options, &job, &error),
                      HD_OK);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const HdTrialWish wish = hd_trial_estimates(cases[i].enough);
+        const HdTrialRequest selection = hd_trial_request(cases[i].enough);
         clock_step = cases[i].step;
-        assert_int_equal(hd_trial(renderer, &job, &wish, &trial, &error), HD_OK);
+        assert_int_equal(hd_trial(renderer, &job, &selection, &trial, &error), HD_OK);
         expect_near(trial.frame_seconds, cases[i].expected, 1e-6);
     }
     hd_renderer_close(renderer);
@@ -434,8 +434,8 @@ static double fall(const HdRenderOptions *asked) {
 }
 
 static HdStatus measure(HdRenderer *renderer, double share, int times, HdTrial *trial) {
-    const HdTrialWish wish = {.share = share, .times = times};
-    return hd_trial(renderer, &job, &wish, trial, &error);
+    const HdTrialRequest selection = {.share = share, .times = times};
+    return hd_trial(renderer, &job, &selection, trial, &error);
 }
 
 TEST(the_least_of_several_counts) {

@@ -15,7 +15,7 @@ static const HdDevice devices[] = {
     [GPU_WITHOUT_ATOMICS] = {.name = "a GPU"},
     [SHOWING_GPU] = {.has_timeout = true, .has_wide_atomics = true},
     [SHOWING_GPU_WITHOUT_ATOMICS] = {.has_timeout = true},
-    [CPU] = {.is_cpu = true, .has_double = true, .most_lanes = {16, 8}},
+    [CPU] = {.is_cpu = true, .has_double = true, .max_lanes = {16, 8}},
 };
 
 /* A display must not stand still for as long as a tree of hundreds of levels takes. */
@@ -52,8 +52,9 @@ TEST(pipelines_suit_devices_and_scenes) {
     assert_int_equal(hd_choose_pipeline(&devices[CPU], &(HdRenderOptions){0}, NULL), MEGA);
 }
 
-static void expect_obstacle(const HdDevice *device, HdRenderOptions options, const char *expected) {
-    const char *found = hd_device_obstacle(device, &options);
+static void expect_unsupported(const HdDevice *device, HdRenderOptions options,
+                               const char *expected) {
+    const char *found = hd_device_unsupported_reason(device, &options);
     if (expected == NULL)
         assert_null(found);
     else
@@ -65,32 +66,32 @@ TEST(a_wavefront_of_groups_needs_wide_atomics) {
                                "device lacks; --pipeline mega would take it";
     const HdRenderOptions waves = {.pipeline = HD_PIPELINE_WAVEFRONT};
     const HdDevice *lacking = &devices[GPU_WITHOUT_ATOMICS];
-    expect_obstacle(lacking, waves, lack);
-    expect_obstacle(lacking, (HdRenderOptions){.pipeline = HD_PIPELINE_WAVEFRONT_UNCOMPACTED},
-                    lack);
-    expect_obstacle(lacking, (HdRenderOptions){.pipeline = HD_PIPELINE_AUTO}, NULL);
-    expect_obstacle(&devices[GPU], waves, NULL);
-    expect_obstacle(&devices[CPU], waves, NULL);
+    expect_unsupported(lacking, waves, lack);
+    expect_unsupported(lacking, (HdRenderOptions){.pipeline = HD_PIPELINE_WAVEFRONT_UNCOMPACTED},
+                       lack);
+    expect_unsupported(lacking, (HdRenderOptions){.pipeline = HD_PIPELINE_AUTO}, NULL);
+    expect_unsupported(&devices[GPU], waves, NULL);
+    expect_unsupported(&devices[CPU], waves, NULL);
 }
 
 TEST(more_lanes_than_registers_are_refused) {
     static const struct {
         int most;
-        const char *obstacle; /* to 16 lanes */
+        const char *unsupported_reason; /* to 16 lanes */
     } cases[] = {{8, "the processor has registers for 1, 4 or 8 lanes in this precision"},
                  {4, "the processor has registers for 1 or 4 lanes in this precision"},
                  {1, "the processor has registers for 1 lane in this precision"},
                  {0, NULL}}; /* none is known */
     HdDevice cpu = devices[CPU];
     HdRenderOptions options = {.lanes = 16};
-    expect_obstacle(&cpu, options, NULL);
+    expect_unsupported(&cpu, options, NULL);
     options.precision = HD_PRECISION_DOUBLE;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        cpu.most_lanes[HD_PRECISION_DOUBLE] = cases[i].most;
-        expect_obstacle(&cpu, options, cases[i].obstacle);
+        cpu.max_lanes[HD_PRECISION_DOUBLE] = cases[i].most;
+        expect_unsupported(&cpu, options, cases[i].unsupported_reason);
     }
-    cpu.most_lanes[HD_PRECISION_DOUBLE] = options.lanes = 8;
-    expect_obstacle(&cpu, options, NULL);
+    cpu.max_lanes[HD_PRECISION_DOUBLE] = options.lanes = 8;
+    expect_unsupported(&cpu, options, NULL);
 }
 
 TEST(launches_last_as_long_as_they_may) {

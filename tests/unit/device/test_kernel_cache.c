@@ -136,7 +136,7 @@ TEST(the_wavefront_takes_over_unless_it_is_wrong_too) {
 }
 
 TEST(what_is_wrong_is_refused_and_frames_under_way_are_dropped) {
-    static const HdFrameWish radiance = {.radiance = true};
+    static const HdFrameRequest radiance = {.radiance = true};
     static const HdRenderOptions impossible = {.block = 33};
     HdFrame small = {.width = 1, .height = 1, .floats = HD_RADIANCE_FLOATS};
     HdRenderer *renderer;

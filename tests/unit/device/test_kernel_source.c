@@ -47,7 +47,7 @@ TEST(each_shape_has_its_kernels) {
         {{.wavefront = true, .first_hits = true},
          "hedron_render_by_waves - hedron_sum_counts - hedron_first_hits "},
         {{.wavefront = true, .group_size = 1},
-         "hedron_trace_take hedron_store_batch hedron_sum_counts hedron_encode - "},
+         "hedron_trace_chunk hedron_store_batch hedron_sum_counts hedron_encode - "},
         {{.first_hits = true, .group_size = 1},
          "hedron_render - hedron_sum_counts hedron_encode hedron_first_hits "},
         {{.first_hits = true, .group_size = 1, .is_probe = true}, "hedron_probe - - - - "},
@@ -63,9 +63,9 @@ TEST(each_shape_has_its_kernels) {
 }
 
 TEST(scenes_of_similar_size_need_the_same) {
-    HdSceneTables tables = {.plane_count = 20, .depth = 9, .surveyed = true};
+    HdSceneTables tables = {.plane_count = 20, .depth = 9, .bounded = true};
     const HdKernelNeeds plain = hd_kernel_needs(&tables);
-    const HdKernelNeeds expected = {.plane_bound = 32, .depth_bound = 16, .surveyed = true};
+    const HdKernelNeeds expected = {.plane_bound = 32, .depth_bound = 16, .bounded = true};
     assert_true(hd_kernel_needs_equal(&plain, &expected));
     tables.node_stack = 1;
     assert_int_equal(hd_kernel_needs(&tables).node_stack_bound, 32);
@@ -82,7 +82,7 @@ TEST(scenes_of_similar_size_need_the_same) {
         other.node_stack_bound += i == 2;
         other.refracts ^= i == 3;
         other.lit_from_behind ^= i == 4;
-        other.surveyed ^= i == 5;
+        other.bounded ^= i == 5;
         other.many_lights ^= i == 6;
         other.small_tables ^= i == 7;
         assert_false(hd_kernel_needs_equal(&expected, &other));
@@ -95,7 +95,7 @@ TEST(needs_are_told_in_words) {
     hd_kernel_needs_describe(&needs, text, sizeof text);
     assert_string_equal(text, "built for up to 8 planes and depth 16, without refraction, no faces "
                               "lit from behind, no meshes");
-    needs.refracts = needs.lit_from_behind = needs.many_lights = needs.surveyed = true;
+    needs.refracts = needs.lit_from_behind = needs.many_lights = needs.bounded = true;
     needs.node_stack_bound = 32;
     hd_kernel_needs_describe(&needs, text, sizeof text);
     expect_contains(text, "16, with refraction, faces lit from behind, meshes, many lights, with "
@@ -123,7 +123,7 @@ TEST(whatever_a_shape_has_is_defined) {
                               " -DHD_GROUP_SIZE=96 -DHD_WAVEFRONT=1 -DHD_FIRST_HITS=0"
                               " -DHD_PLANE_BOUND=8 -DHD_DEPTH_BOUND=16 -DHD_NODE_STACK=32"
                               " -DHD_WIDE_STACK=128 -DHD_REFRACTS=1 -DHD_LIT_FROM_BEHIND=0"
-                              " -DHD_MANY_LIGHTS=1 -DHD_SURVEYED=0 -DHD_SMALL_TABLES=1"
+                              " -DHD_MANY_LIGHTS=1 -DHD_BOUNDED=0 -DHD_SMALL_TABLES=1"
                               " -DHD_STRICT=0 -DHD_ROUNDED_BY_FMA=1 -DHD_PROBE=0");
 }
 

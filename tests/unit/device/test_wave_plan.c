@@ -25,36 +25,36 @@ typedef struct Account {
 } Account;
 
 static int rays_going_on(const Account *account, const HdWaveStep *step) {
-    int grain = account->frame->grain, groups = (step->take.count + grain - 1) / grain;
-    if (step->take.level >= account->frame->depth)
+    int grain = account->frame->grain, groups = (step->chunk.count + grain - 1) / grain;
+    if (step->chunk.level >= account->frame->depth)
         return 0;
     if (account->children < 0)
-        return step->take.level < 4 ? step->take.count / 2 * 3 : step->take.count / 20 * 19;
+        return step->chunk.level < 4 ? step->chunk.count / 2 * 3 : step->chunk.count / 20 * 19;
     return account->children * groups * grain;
 }
 
 static void trace(Account *account, const HdWaveStep *step) {
-    assert_true(step->take.count > 0);
+    assert_true(step->chunk.count > 0);
     assert_int_equal(step->taken_before, account->taken);
     assert_int_equal(step->is_first, account->steps == 0);
-    assert_in_range(step->take.level, 0, account->frame->depth);
-    if (step->take.level == 0) {
+    assert_in_range(step->chunk.level, 0, account->frame->depth);
+    if (step->chunk.level == 0) {
         assert_int_equal(step->first_item, account->next_item);
-        account->batch_samples += step->take.count;
-        assert_true(step->take.first + step->take.count <= account->plan->sum_stride);
+        account->batch_samples += step->chunk.count;
+        assert_true(step->chunk.first + step->chunk.count <= account->plan->sum_stride);
     }
     int going_on = rays_going_on(account, step);
-    assert_true(step->take.to + going_on <= account->plan->queue_stride);
-    for (int i = step->take.to; i < step->take.to + going_on; i++) {
+    assert_true(step->chunk.to + going_on <= account->plan->queue_stride);
+    for (int i = step->chunk.to; i < step->chunk.to + going_on; i++) {
         assert_false(account->waits[i]); /* nor is it one of those that are being read */
         account->waits[i] = 1;
     }
-    for (int i = step->take.first; step->take.level > 0 && i < step->take.first + step->take.count;
-         i++) {
+    for (int i = step->chunk.first;
+         step->chunk.level > 0 && i < step->chunk.first + step->chunk.count; i++) {
         assert_true(account->waits[i]);
         account->waits[i] = 0;
     }
-    account->traced += step->take.count;
+    account->traced += step->chunk.count;
     account->steps++;
     account->taken += (unsigned)going_on;
 }
@@ -69,7 +69,7 @@ static void store(Account *account, const HdWaveStep *step) {
 }
 
 /* What one launch may have. */
-static int launch_rays = HD_MOST_LAUNCH_WORK;
+static int launch_rays = HD_MAX_LAUNCH_WORK;
 
 static int64_t steps; /* of the last frame */
 
@@ -103,7 +103,7 @@ static int64_t run(size_t bytes, const HdWaveRun *frame, int children) {
 /* The account tells rays that overlap; it rounds up to groups only where they are split, so that
    it counts those of whole groups on each level. */
 TEST(all_rays_are_traced_in_any_memory_by_launches_of_any_size) {
-    static const int sizes[] = {1, 5, 32, 40, 150, HD_MOST_LAUNCH_WORK};
+    static const int sizes[] = {1, 5, 32, 40, 150, HD_MAX_LAUNCH_WORK};
     static const size_t budgets[] = {1, 3000, 5000, 20000, 50000, 100000, 1 << 20, 1 << 28};
     for (size_t i = 0; i < 6 * 8 * 7 * 3; i++) {
         const int depth = (int)(i / 3 % 7), children = (int)(i % 3);
@@ -132,7 +132,7 @@ TEST(room_decides_how_many_steps_there_are) {
     launch_rays = 64;
     run(1 << 24, &frame, 1);
     assert_int_equal(steps, 4 * 6);
-    launch_rays = HD_MOST_LAUNCH_WORK;
+    launch_rays = HD_MAX_LAUNCH_WORK;
     const HdWaveRun deep = {.items = 20000, .samples_per_item = 4, .depth = 500, .grain = 128};
     run((1 << 25) / 13 * 12, &deep, -1);
     assert_in_range(steps, 9 * 100, 9 * 110); /* nine batches, which live for 103 levels */
@@ -144,9 +144,9 @@ TEST(rays_go_below_those_that_made_them) {
                            {.level = 1, .first = 0, .waiting = 8},
                            {.level = 2, .first = 100, .waiting = 8}};
     int top = 2;
-    const WaveTake take = wave_take(stack, &top, 3, 1000, 4, WAVE_NO_LIMIT);
-    assert_int_equal(take.count, 8);
-    assert_int_equal(take.to, 8);
+    const WaveChunk chunk = wave_take_chunk(stack, &top, 3, 1000, 4, WAVE_NO_LIMIT);
+    assert_int_equal(chunk.count, 8);
+    assert_int_equal(chunk.to, 8);
     assert_int_equal(top, 1);
 }
 
@@ -155,7 +155,7 @@ TEST(plans_keep_to_their_budget) {
         .bytes = 1 << 28, .depth = 4, .grain = 32, .samples = 1000, .samples_at_once = 10};
     assert_int_equal(hd_wave_plan(&few).sum_stride, 1000);
     for (int levels = 1; levels <= 40; levels++)
-        assert_int_equal(wave_fitting(wave_least_capacity(levels, 4), levels, 4), 4);
+        assert_int_equal(wave_fitting(wave_min_capacity(levels, 4), levels, 4), 4);
     for (int depth = 1; depth <= 1000; depth = depth * 3 + 1)
         for (size_t bytes = 1 << 26; bytes <= (size_t)1 << 30; bytes *= 4) {
             HdWaveNeeds needs = {.bytes = bytes,
@@ -173,14 +173,14 @@ TEST(plans_keep_to_their_budget) {
             assert_true(plan.bytes[1] >= sizeof(int32_t) * WAVE_INTS * queue);
             assert_true(plan.bytes[2] >= sizeof(int64_t) * WAVE_SUMS * sums);
             assert_int_equal(plan.sum_stride % 16, 0);
-            assert_true(plan.queue_stride >= wave_least_capacity(depth, 128));
+            assert_true(plan.queue_stride >= wave_min_capacity(depth, 128));
         }
 }
 
 /* A device that refuses memory is asked for less, until it is as little as the least. */
 TEST(a_refused_queue_is_halved) {
     HdWaveNeeds needs = {.bytes = 9 << 20};
-    static const size_t expected[] = {9 << 19, 9 << 18, 9 << 17, HD_WAVE_LEAST_BYTES};
+    static const size_t expected[] = {9 << 19, 9 << 18, 9 << 17, HD_WAVE_MIN_BYTES};
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
         assert_true(hd_wave_halve(&needs));
         assert_int_equal(needs.bytes, expected[i]);

@@ -173,7 +173,7 @@ static Below check_leaf(Check *check, int32_t child) {
         return below;
     }
     assert_int_equal(first, check->next_item);
-    assert_true(count <= check->kind->options.most_in_leaf);
+    assert_true(count <= check->kind->options.max_in_leaf);
     check->next_item += count;
     for (int i = first; i < first + count; i++) {
         const int item = check->hierarchy->order[i];
@@ -214,7 +214,7 @@ static Below check_node(Check *check, int number) {
     all.depth++;
     all.cost += (double)check->kind->options.node_cost * half_area(&all.box);
     /* Otherwise it should have been a leaf; as far as floats tell. */
-    if (number > 0 && all.items <= check->kind->options.most_in_leaf && all.depth < 60)
+    if (number > 0 && all.items <= check->kind->options.max_in_leaf && all.depth < 60)
         assert_true(all.cost <= half_area(&all.box) * all.items * (1.0 + 1e-5) + 1e-30);
     return all;
 }
@@ -239,8 +239,8 @@ typedef struct WideCheck {
 
 /* What a wide node merged. */
 typedef struct Merged {
-    int number, count, binary[16];     /* the binary nodes that its children come from */
-    double least_opened, largest_left; /* areas */
+    int number, count, binary[16];   /* the binary nodes that its children come from */
+    double min_opened, largest_left; /* areas */
 } Merged;
 
 /* Goes through the binary nodes that were merged, in the order of their items. */
@@ -253,7 +253,7 @@ static void check_merged(const WideCheck *check, int node, Merged *merged) {
             continue;
         const double area = half_area(&binary->box[side]);
         if (child >= 0 && wide->root_of[child] < 0) {
-            merged->least_opened = fmin(merged->least_opened, area);
+            merged->min_opened = fmin(merged->min_opened, area);
             check_merged(check, child, merged);
             continue;
         }
@@ -271,12 +271,12 @@ static void check_merged(const WideCheck *check, int node, Merged *merged) {
 /* Compares the wide node of a binary one with what it comes from, and all below. */
 static void check_wide(WideCheck *check, int node, int depth) {
     const HdWideHierarchy *wide = check->wide;
-    Merged merged = {.number = wide->root_of[node], .least_opened = HUGE_VAL, .largest_left = -1.0};
+    Merged merged = {.number = wide->root_of[node], .min_opened = HUGE_VAL, .largest_left = -1.0};
     assert_int_equal(merged.number, check->next_node++);
     check->depth = depth > check->depth ? depth : check->depth;
     check_merged(check, node, &merged);
     /* The largest were opened, as long as there was room. */
-    assert_true(merged.least_opened >= merged.largest_left);
+    assert_true(merged.min_opened >= merged.largest_left);
     assert_true(merged.count == wide->width || merged.largest_left < 0.0);
     for (int i = merged.count; i < wide->width; i++) {
         const HdBox box = box_of(wide, merged.number, i);
@@ -332,8 +332,8 @@ TEST(boxes_of_every_kind_are_divided) {
     enum { DEEPEST = HD_MAX_HIERARCHY_DEPTH };
     static const struct {
         Kind kind;
-        int least_nodes, most_nodes, least_depth, most_depth;
-        double most_cost; /* as tried out */
+        int min_nodes, max_nodes, min_depth, max_depth;
+        double max_cost; /* as tried out */
     } cases[] = {
         {{small, COUNT, {0.0F, 15}, 0, false}, COUNT - 1, COUNT - 1, 1, 30, 0.0577},
         {{small, COUNT, {1.0F, 4}, 1, false}, 1, COUNT, 1, 30, 38.9},
@@ -349,9 +349,9 @@ TEST(boxes_of_every_kind_are_divided) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         double cost;
         HdHierarchy hierarchy = build(&cases[i].kind, &cost);
-        assert_in_range(hierarchy.node_count, cases[i].least_nodes, cases[i].most_nodes);
-        assert_in_range(hierarchy.depth, cases[i].least_depth, cases[i].most_depth);
-        if (cost > cases[i].most_cost)
+        assert_in_range(hierarchy.node_count, cases[i].min_nodes, cases[i].max_nodes);
+        assert_in_range(hierarchy.depth, cases[i].min_depth, cases[i].max_depth);
+        if (cost > cases[i].max_cost)
             fail_msg("the cost of case %zu is %g", i, cost);
         hd_hierarchy_free(&hierarchy);
     }

@@ -32,7 +32,7 @@ static HdStatus note_stored(void *context, const HdStoredFrame *stored, HdError 
     assert_null(context);
     hd_output_file(&outputs.list[0], stored->number, name, failure);
     told.is_as_expected &= stored->number == FIRST + told.calls && stored->done == told.calls + 1 &&
-                           (stored->was_finished || stored->tracer == told.calls % 3) &&
+                           (stored->was_finished || stored->worker == told.calls % 3) &&
                            access(name, R_OK) == 0 && stored->frame->width == WIDTH;
     told.finished += stored->was_finished;
     told.last = stored->times;
@@ -56,15 +56,15 @@ static HdStatus start(const char *first, const char *second, int fails_at, bool 
                               .resume = &resume,
                               .width = WIDTH,
                               .height = HEIGHT,
-                              .tracers = 1,
+                              .workers = 1,
                               .start = hd_monotonic_seconds(),
                               .stored = note_stored};
     return hd_frame_store_start(&store, &plan, &error);
 }
 
 static int take(void) {
-    const HdTaker taker = {.ahead = 2};
-    return hd_stages_take(hd_frame_store_stages(store), &taker, true);
+    const HdClaimer claimer = {.ahead = 2};
+    return hd_stages_claim(hd_frame_store_stages(store), &claimer, true);
 }
 
 /* Gives the frame once it has room, or until nobody wants it any more. */
@@ -77,7 +77,7 @@ static void give(int place) {
     for (int value = 0; value < WIDTH * HEIGHT * 3; value++)
         frame->rgb[value] = (float)place / FRAMES;
     times->trace = (HdSpan){hd_monotonic_seconds() - plan.start, 0.0};
-    hd_stages_give(hd_frame_store_stages(store), place);
+    hd_stages_submit(hd_frame_store_stages(store), place);
 }
 
 /* Stores frames until there are no more or the store wants no more. */

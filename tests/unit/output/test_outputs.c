@@ -49,18 +49,18 @@ TEST(layers_are_for_outputs_that_hold_them) {
     const unsigned alpha = HD_LAYER_BIT(HD_LAYER_ALPHA), depth = HD_LAYER_BIT(HD_LAYER_DEPTH),
                    bound = HD_LAYER_BIT(HD_LAYER_BOUND);
     assert_int_equal(settle("a.png", "a.pfm", 8, 1), HD_OK);
-    assert_int_equal(plan.wish.layers, 0);
+    assert_int_equal(plan.request.layers, 0);
     assert_int_equal(hd_outputs_add_layers(&plan, 0, false, &error), HD_OK);
     assert_int_equal(hd_outputs_add_layers(&plan, depth, true, &error), HD_BAD_INPUT);
     expect_contains(error.message, "--layers is for OpenEXR: expected an output that ends in .exr");
     assert_int_equal(settle("a.png", "a.exr", 8, 1), HD_OK);
-    assert_int_equal(plan.wish.layers, alpha);
+    assert_int_equal(plan.request.layers, alpha);
     assert_int_equal(hd_outputs_add_layers(&plan, bound | depth, false, &error), HD_BAD_INPUT);
     expect_contains(error.message, "--max-error, --aa adaptive or --reference");
     assert_int_equal(hd_outputs_add_layers(&plan, depth, false, &error), HD_OK);
-    assert_int_equal(plan.wish.layers, alpha | depth);
+    assert_int_equal(plan.request.layers, alpha | depth);
     assert_int_equal(hd_outputs_add_layers(&plan, bound, true, &error), HD_OK);
-    assert_int_equal(plan.wish.layers, alpha | depth | bound);
+    assert_int_equal(plan.request.layers, alpha | depth | bound);
 }
 
 TEST(a_plan_says_what_frames_must_hold) {
@@ -76,7 +76,7 @@ TEST(a_plan_says_what_frames_must_hold) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         assert_int_equal(settle(cases[i].first, cases[i].second, cases[i].bits, 2), HD_OK);
         assert_int_equal(plan.film_count, cases[i].films);
-        assert_int_equal(plan.wish.radiance, cases[i].radiance);
+        assert_int_equal(plan.request.radiance, cases[i].radiance);
         assert_int_equal(plan.can_resume, cases[i].can_resume);
         assert_int_equal(plan.bears_fingerprints, cases[i].bears);
         assert_false(plan.has_fingerprint);

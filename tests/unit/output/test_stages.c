@@ -52,7 +52,7 @@ static Probe probes[4];
 static const int threads[4] = {1, 1, 3, 1};
 static const unsigned after[4] = {0, 1, 0, 7};
 static HdStages *stages;
-static int room;
+static int capacity;
 static const bool none_ready[ITEMS];
 
 /* Faults may be put into the probes afterwards, before items are given. */
@@ -65,19 +65,19 @@ static void start(const bool *ready, int room_of_stages) {
     }
     probes[1].before = &probes[0];
     probes[3].before = &probes[2];
-    room = room_of_stages;
-    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, ready, room, &error), HD_OK);
+    capacity = room_of_stages;
+    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, ready, capacity, &error), HD_OK);
 }
 
-static const HdTaker anybody = {.wants = NULL};
+static const HdClaimer anybody = {.wants = NULL};
 
 /* Gives items from that one on until all are given or one failed; returns how many are. */
 static int give_items_from(int first) {
     int given = first, item;
-    while ((item = hd_stages_take(stages, &anybody, true)) >= 0) {
+    while ((item = hd_stages_claim(stages, &anybody, true)) >= 0) {
         assert_int_equal(item, given);
-        assert_true(item - probes[3].ended < room);
-        hd_stages_give(stages, item);
+        assert_true(item - probes[3].ended < capacity);
+        hd_stages_submit(stages, item);
         given++;
     }
     return given;
@@ -111,10 +111,10 @@ TEST(every_item_goes_through_every_stage) {
         for (int i = 0; i < ITEMS; i++)
             ready[i] = k >= 6 || (k >= 3 && (i % 3 == 0 || i > ITEMS / 2));
         start(ready, rooms[k % 3]);
-        while ((item = hd_stages_take(stages, &anybody, true)) >= 0) {
-            assert_true(item > before && !ready[item] && item - probes[3].ended < room);
+        while ((item = hd_stages_claim(stages, &anybody, true)) >= 0) {
+            assert_true(item > before && !ready[item] && item - probes[3].ended < capacity);
             assert_true(hd_stages_wait(stages, item));
-            hd_stages_give(stages, item);
+            hd_stages_submit(stages, item);
             before = item;
         }
         expect_end(HD_OK, ITEMS);
@@ -130,7 +130,7 @@ TEST(a_failure_of_any_stage_leaves_the_items_before_it) {
         probes[i % 4].fails_at = item;
         assert_true(give_items_from(0) <= item + ROOM);
         assert_false(hd_stages_wait(stages, item));
-        assert_int_equal(hd_stages_take(stages, &anybody, false), -1);
+        assert_int_equal(hd_stages_claim(stages, &anybody, false), -1);
         expect_end(HD_FAILED, item);
         snprintf(expected, sizeof expected, "item %d failed", item);
         assert_string_equal(error.message, expected);
@@ -148,7 +148,7 @@ TEST(a_failure_of_any_stage_leaves_the_items_before_it) {
 
 static void take_in_order(int first, int count) {
     for (int i = first; i < first + count; i++)
-        assert_int_equal(hd_stages_take(stages, &anybody, false), i);
+        assert_int_equal(hd_stages_claim(stages, &anybody, false), i);
 }
 
 /* The third stage has several threads that work side by side and keep no order: it does not wait
@@ -158,26 +158,26 @@ TEST(items_are_given_in_any_order) {
     probes[2].gathers = 3;
     take_in_order(0, 4);
     for (int i = 3; i > 0; i--)
-        hd_stages_give(stages, i);
+        hd_stages_submit(stages, i);
     while (!(probes[2].done[1] && probes[2].done[2] && probes[2].done[3]))
         nap(1);
     assert_int_equal(probes[0].begun + probes[1].begun + probes[3].begun, 0);
-    hd_stages_give(stages, 0);
+    hd_stages_submit(stages, 0);
     assert_int_equal(give_items_from(4), ITEMS);
     expect_end(HD_OK, ITEMS);
 }
 
 TEST(nobody_takes_what_has_no_room) {
-    const HdTaker alone = {.ahead = 2};
+    const HdClaimer singles = {.ahead = 2};
     start(none_ready, ROOM);
     take_in_order(0, ROOM);
-    assert_int_equal(hd_stages_take(stages, &anybody, false), -1);
-    assert_int_equal(hd_stages_take(stages, &alone, false), ROOM);
-    assert_int_equal(hd_stages_take(stages, &alone, false), ROOM + 1);
-    assert_int_equal(hd_stages_take(stages, &alone, false), -1);
-    hd_stages_give(stages, 0);
+    assert_int_equal(hd_stages_claim(stages, &anybody, false), -1);
+    assert_int_equal(hd_stages_claim(stages, &singles, false), ROOM);
+    assert_int_equal(hd_stages_claim(stages, &singles, false), ROOM + 1);
+    assert_int_equal(hd_stages_claim(stages, &singles, false), -1);
+    hd_stages_submit(stages, 0);
     assert_true(hd_stages_wait(stages, ROOM)); /* once the first one is gone */
-    assert_int_equal(hd_stages_take(stages, &alone, false), ROOM + 2);
+    assert_int_equal(hd_stages_claim(stages, &singles, false), ROOM + 2);
     expect_end(HD_OK, 1);
 }
 
@@ -197,8 +197,8 @@ static bool wants_now(void *context, int left) {
 
 static void *wait_for_item(void *context) {
     Waiting *waiting = context;
-    const HdTaker taker = {.wants = wants_now, .context = waiting};
-    waiting->item = hd_stages_take(stages, &taker, true);
+    const HdClaimer claimer = {.wants = wants_now, .context = waiting};
+    waiting->item = hd_stages_claim(stages, &claimer, true);
     return NULL;
 }
 
@@ -220,13 +220,13 @@ TEST(takers_that_wait_are_asked_again) {
     start(none_ready, ROOM);
     start_waiting(&waiting);
     waiting.wants = true;
-    hd_stages_ask_again(stages);
+    hd_stages_wake(stages);
     expect_waiting_gets(&waiting, 0);
     /* Something is given back. */
     start_waiting(&waiting);
     assert_int_equal(waiting.left, ROOM); /* items that it may choose from */
     waiting.wants = true;
-    hd_stages_give_back(stages, 0);
+    hd_stages_release(stages, 0);
     expect_waiting_gets(&waiting, 0);
     /* Nothing will come any more. */
     start_waiting(&waiting);
@@ -249,14 +249,14 @@ TEST(what_comes_before_a_failure_is_wanted) {
     hd_stages_fail(stages, 4, &failure);
     assert_false(hd_stages_wait(stages, 3));
     assert_true(hd_stages_wait(stages, 2));
-    assert_int_equal(hd_stages_take(stages, &anybody, false), -1);
-    hd_stages_give(stages, 0);
-    hd_stages_give(stages, 2);
-    hd_stages_give_back(stages, 4);
-    hd_stages_give_back(stages, 1);
+    assert_int_equal(hd_stages_claim(stages, &anybody, false), -1);
+    hd_stages_submit(stages, 0);
+    hd_stages_submit(stages, 2);
+    hd_stages_release(stages, 4);
+    hd_stages_release(stages, 1);
     start_waiting(&waiting);
     take_in_order(1, 1);
-    hd_stages_give(stages, 1);
+    hd_stages_submit(stages, 1);
     expect_waiting_gets(&waiting, -1);
     expect_end(HD_BAD_INPUT, 3);
     assert_string_equal(error.message, "item 3 cannot be");
@@ -268,6 +268,6 @@ TEST(a_gap_ends_it) {
     take_in_order(0, 5);
     for (int i = 0; i < 5; i++)
         if (i != 2)
-            hd_stages_give(stages, i);
+            hd_stages_submit(stages, i);
     expect_end(HD_OK, 2);
 }

@@ -69,15 +69,15 @@ static HdStatus tell(void *context, const HdStoredFrame *stored, HdError *failur
 }
 
 static void trace_all(HdFrameStore *store) {
-    const HdTaker taker = {.ahead = 2};
+    const HdClaimer claimer = {.ahead = 2};
     HdStages *stages = hd_frame_store_stages(store);
     HdFrameTimes *times;
     int place;
-    while ((place = hd_stages_take(stages, &taker, true)) >= 0) {
+    while ((place = hd_stages_claim(stages, &claimer, true)) >= 0) {
         if (!hd_stages_wait(stages, place))
             continue;
         memset(hd_frame_store_frame(store, place, 0, &times)->rgb, 0, 6 * sizeof(float));
-        hd_stages_give(stages, place);
+        hd_stages_submit(stages, place);
     }
 }
 
@@ -102,7 +102,7 @@ static HdStatus store_frames(HdDurability durability) {
                                    .resume = &resume,
                                    .width = 2,
                                    .height = 1,
-                                   .tracers = 1,
+                                   .workers = 1,
                                    .start = hd_monotonic_seconds(),
                                    .stored = tell};
     assert_int_equal(hd_frame_store_start(&store, &plan, &error), HD_OK);

@@ -2,12 +2,12 @@
 #include <stdlib.h>
 
 #include "base/trigonometry.h"
-#include "render/survey.h"
+#include "render/bound_pass.h"
 #include "unit_test.h"
 
 static HdError error;
 
-/* Of hd_sample_set_dense (survey.h). */
+/* Of hd_sample_set_dense (mean.h). */
 #define REFERENCE_SAMPLE_ERROR 2.2
 
 static int compare(const void *a, const void *b) {

@@ -38,7 +38,7 @@ static void begin(Setup *setup, HdSampling sampling, double max_error) {
 static HdStatus render(Setup *setup) {
     const HdFrameMaker maker = {.renderer = setup->renderer,
                                 .scene = &setup->scene,
-                                .wish.curve = HD_CURVE_SRGB,
+                                .request.curve = HD_CURVE_SRGB,
                                 .watch = &setup->watch};
     return hd_frame_render(&maker, &setup->camera, &setup->frame, &error);
 }

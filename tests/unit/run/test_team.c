@@ -83,7 +83,7 @@ static HdStatus note_stored(void *context, const HdStoredFrame *stored, HdError 
     (void)failure;
     pthread_mutex_lock(&history.mutex);
     bool in_order = stored->number == frame_numbers[history.stored];
-    makers[history.stored++] = stored->tracer;
+    makers[history.stored++] = stored->worker;
     pthread_cond_broadcast(&history.changed);
     pthread_mutex_unlock(&history.mutex);
     return in_order ? HD_OK : hd_fail(failure, HD_FAILED, "frame %d is early", stored->number);
@@ -183,10 +183,10 @@ static void hold_all(void) {
 }
 
 TEST(devices_share_the_frames) {
-    for (int survey = 0; survey < 2; survey++) {
+    for (int mean = 0; mean < 2; mean++) {
         begin_again();
-        scene.sampling = (HdSampling)survey;
-        scene.max_error = survey;
+        scene.sampling = (HdSampling)mean;
+        scene.max_error = mean;
         hold_all();
         expect_all_made(DEVICES, 0);
         for (int i = 0; i < DEVICES; i++)
@@ -231,9 +231,9 @@ static void fail_second_after(int made) {
    than the store has room for, and is still needed. A device must not hold a later frame that waits
    for the one that it is to make now. */
 TEST(a_late_failure_stops_nobody) {
-    enum { MOST_ENCODERS = 16, SPARE = 12 }; /* which decide how much room there is */
+    enum { MAX_ENCODERS = 16, SPARE = 12 }; /* which decide how much room there is */
     const int processors = hd_processor_count();
-    const int room = (processors < MOST_ENCODERS ? processors : MOST_ENCODERS) + SPARE;
+    const int room = (processors < MAX_ENCODERS ? processors : MAX_ENCODERS) + SPARE;
     for (int k = 0; k < 2; k++) {
         begin_again();
         frames.count = k == 0 ? 8 : FRAMES;
@@ -284,9 +284,9 @@ static void expect_spoilt(int frame, int devices, int dropped) {
 }
 
 TEST(a_frame_that_cannot_be_ends_it_for_all) {
-    for (int survey = 0; survey < 2; survey++) {
+    for (int mean = 0; mean < 2; mean++) {
         begin_again();
-        scene.sampling = (HdSampling)survey;
+        scene.sampling = (HdSampling)mean;
         hold_all();
         expect_spoilt(7, DEVICES, 0);
     }

@@ -68,7 +68,7 @@ TEST(test_what_counts_as_touching) {
     }
 }
 
-TEST(test_beside_the_floor) {
+TEST(test_occlusion_masks_the_floor) {
     const double corner = 5.0 + sqrt(0.5), nearer = corner - 0.125;
     HdFloor floor = floor_at(0.0, 5.0);
     const struct {

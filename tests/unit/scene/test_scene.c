@@ -293,9 +293,9 @@ TEST(test_deep_trees) {
         scene = (HdScene){
             .depth = rows[i].depth, .cutoff = rows[i].cutoff, .max_error = rows[i].max_error};
         assert_int_equal(hd_scene_has_deep_trees(&scene), rows[i].is_deep);
-        assert_int_equal(hd_scene_is_surveyed(&scene), rows[i].max_error > 0.0);
-        hd_scene_drop_survey(&scene);
-        assert_false(hd_scene_is_surveyed(&scene));
+        assert_int_equal(hd_scene_has_error_bound(&scene), rows[i].max_error > 0.0);
+        hd_scene_drop_error_bound(&scene);
+        assert_false(hd_scene_has_error_bound(&scene));
         assert_int_equal(hd_scene_has_deep_trees(&scene), rows[i].is_deep && i == 1);
     }
 }

@@ -7,7 +7,7 @@
 #include "unit_test.h"
 
 /* Of what is drawn on a face, in circumradii. */
-static const double least_length = 1e-8;
+static const double min_length = 1e-8;
 
 /* In units of the circumradius. */
 typedef struct Pattern {
@@ -106,7 +106,7 @@ static void expect_on_faces(const HdMesh *mesh, const HdSolid *solid) {
     }
 }
 
-enum { MOST_MATERIALS = HD_SOLID_MATERIAL_DISCS + 2 * HD_MAX_EDGE_COLOURS };
+enum { MAX_MATERIALS = HD_SOLID_MATERIAL_DISCS + 2 * HD_MAX_EDGE_COLOURS };
 
 /* The share of a face that is nearer to an edge than the rim is wide. */
 static double rim_share(const HdPlatonic *shape, double width) {
@@ -125,7 +125,7 @@ static double surface_of(const HdPlatonic *shape) {
 
 static void expect_areas(const HdMesh *mesh, const HdSolid *solid, const Pattern *pattern) {
     HdPlatonic shape;
-    double areas[MOST_MATERIALS], all = 0.0, discs = 0.0, rim;
+    double areas[MAX_MATERIALS], all = 0.0, discs = 0.0, rim;
     hd_platonic(solid->kind, &shape);
     for (int m = 0; m < mesh->material_count; m++)
         areas[m] = 0.0;
@@ -140,11 +140,11 @@ static void expect_areas(const HdMesh *mesh, const HdSolid *solid, const Pattern
         rim += is_disc && mesh->materials[m].passes_as == HD_SOLID_MATERIAL_RIM ? areas[m] : 0.0;
     }
     expect_near(all, surface, 1e-12 * surface);
-    double width = pattern->rim_width > least_length ? pattern->rim_width : 0.0;
+    double width = pattern->rim_width > min_length ? pattern->rim_width : 0.0;
     expect_near(rim, surface * rim_share(&shape, width), 1e-12 * surface);
     if (pattern->disc_radius * 4.1 < shape.edge_length / (pattern->per_edge + 1e-9)) {
         double radius = pattern->disc_radius;
-        int count = radius > least_length ? shape.edge_count * pattern->per_edge : 0;
+        int count = radius > min_length ? shape.edge_count * pattern->per_edge : 0;
         expect_near(discs, unit * count * acos(-1.0) * radius * radius, 1e-12 * surface);
     }
 }
@@ -253,7 +253,7 @@ static void expect_sound(HdSolidKind kind, const Pattern *pattern, int disc_side
     expect_closed(&mesh);
     expect_on_faces(&mesh, &solid);
     expect_areas(&mesh, &solid, pattern);
-    expect_materials(&mesh, &solid, pattern->per_edge > 0 && pattern->disc_radius > least_length);
+    expect_materials(&mesh, &solid, pattern->per_edge > 0 && pattern->disc_radius > min_length);
     expect_rule(&mesh, &solid, disc_sides);
     hd_mesh_free(&mesh);
 }

@@ -15,7 +15,7 @@ static int answers[4]; /* to the next syncs, as errno has them; 0: done */
 static int calls;
 static char synced_names[1000]; /* of the folders below the test's, each with a space behind it */
 
-static void tell_name(int descriptor) {
+static void report_name(int descriptor) {
     char link[64], name[500];
     snprintf(link, sizeof link, "/proc/self/fd/%d", descriptor);
     const ssize_t length = readlink(link, name, sizeof name - 1);
@@ -27,7 +27,7 @@ static void tell_name(int descriptor) {
 }
 
 static int answer_sync(int descriptor) {
-    tell_name(descriptor);
+    report_name(descriptor);
     errno = calls < 4 ? answers[calls] : 0;
     calls++;
     return errno == 0 ? 0 : -1;

@@ -58,7 +58,7 @@ TEST(functions_and_its_file_are_found) {
 }
 
 static void expect_beside(const char *name) {
-    void *again = hd_library_open_beside(library, symbol, name);
+    void *again = hd_library_open_adjacent(library, symbol, name);
     assert_ptr_equal(again, library);
     hd_library_close(again);
 }
@@ -66,8 +66,8 @@ static void expect_beside(const char *name) {
 TEST(what_lies_beside_it_is_opened) {
     const char *name = strrchr(path, '/') + 1;
     expect_beside(name);
-    assert_null(hd_library_open_beside(library, symbol, "no_such.so"));
-    assert_null(hd_library_open_beside(library, "_no_such", name));
+    assert_null(hd_library_open_adjacent(library, symbol, "no_such.so"));
+    assert_null(hd_library_open_adjacent(library, "_no_such", name));
     assert_null(hd_library_open("no_such.so"));
     /* A name that is too long; cut, it would be that of the library. */
     char long_name[HD_MAX_PATH + 2] = "";
@@ -78,7 +78,7 @@ TEST(what_lies_beside_it_is_opened) {
     memcpy(long_name + cut - strlen(end), end, strlen(end));
     expect_beside(long_name);
     memcpy(long_name + cut, "xx", 3);
-    assert_null(hd_library_open_beside(library, symbol, long_name));
+    assert_null(hd_library_open_adjacent(library, symbol, long_name));
 }
 
 GROUP(find_library, leave_library)

@@ -64,7 +64,7 @@ static void wait_deaf(void) {
 
 static void leave_a_file(void) {
     write_bytes("left", "x", 1);
-    hd_leftovers_add_file("left");
+    hd_cleanup_add_file("left");
 }
 
 static void take_a_second_one(void) {
@@ -117,7 +117,7 @@ static void be(void (*act)(void), const int errors[2]) {
     dup2(errors[1], STDERR_FILENO);
     close(errors[0]);
     hd_interrupt_install();
-    if (hd_interrupt_read_patience(&error) != HD_OK)
+    if (hd_interrupt_read_timeout(&error) != HD_OK)
         _exit(99);
     act();
     _exit(98);
@@ -149,7 +149,7 @@ static const char too_late[] = "hedron: interrupted; what was at work did not en
 static const struct {
     const char *name;
     void (*act)(void);
-    const char *patience;
+    const char *timeout;
     int outcome;
     const char *said;
 } cases[] = {
@@ -168,7 +168,7 @@ static const struct {
 
 TEST(signals_end_it_as_they_should) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        setenv("HEDRON_STOP_PATIENCE", cases[i].patience, 1);
+        setenv("HEDRON_STOP_PATIENCE", cases[i].timeout, 1);
         number = cases[i].outcome;
         const int outcome = outcome_of(cases[i].act);
         if (outcome != cases[i].outcome || strcmp(said, cases[i].said) != 0 ||
@@ -182,14 +182,14 @@ TEST(the_patience_is_a_time) {
     static const struct {
         const char *text;
         bool is_good;
-    } patiences[] = {{"", true},       {"0.1", true}, {"86400", true}, {"0.0999", false},
-                     {"86401", false}, {"1s", false}, {"nan", false},  {"-1", false}};
-    for (size_t i = 0; i < sizeof patiences / sizeof *patiences; i++) {
-        setenv("HEDRON_STOP_PATIENCE", patiences[i].text, 1);
-        assert_int_equal(hd_interrupt_read_patience(&error),
-                         patiences[i].is_good ? HD_OK : HD_BAD_INPUT);
-        if (!patiences[i].is_good) {
-            expect_contains(error.message, patiences[i].text);
+    } timeouts[] = {{"", true},       {"0.1", true}, {"86400", true}, {"0.0999", false},
+                    {"86401", false}, {"1s", false}, {"nan", false},  {"-1", false}};
+    for (size_t i = 0; i < sizeof timeouts / sizeof *timeouts; i++) {
+        setenv("HEDRON_STOP_PATIENCE", timeouts[i].text, 1);
+        assert_int_equal(hd_interrupt_read_timeout(&error),
+                         timeouts[i].is_good ? HD_OK : HD_BAD_INPUT);
+        if (!timeouts[i].is_good) {
+            expect_contains(error.message, timeouts[i].text);
             expect_contains(error.message, "expected seconds from 0.1 to 86400");
         }
     }

@@ -38,10 +38,10 @@ static const Light *compile(int lanes) {
     return tables.table[HD_TABLE_lights].data;
 }
 
-/* Runs are of one group each. With one lane they are long enough, and within their spheres. With
+/* Runs are of one cluster each. With one lane they are long enough, and within their spheres. With
    several lanes all lights are in runs, which are as long as they can be and not judged by
    themselves. */
-TEST(runs_are_of_one_group_and_within_their_sphere) {
+TEST(runs_are_of_one_cluster_and_within_their_sphere) {
     for (int lanes = 1; lanes <= 8; lanes += 7) {
         const Light *lights = compile(lanes);
         const Vector *offset = tables.table[HD_TABLE_light_offsets].data;
@@ -53,7 +53,7 @@ TEST(runs_are_of_one_group_and_within_their_sphere) {
             run = lights[i].run;
             assert_true(i + run <= count && (lanes == 1 ? run == 0 || run >= 3 : run >= 1));
             for (int k = i; k < i + run; k++) {
-                assert_int_equal(lights[k].group, lights[i].group);
+                assert_int_equal(lights[k].cluster, lights[i].cluster);
                 assert_int_equal(lights[k].run, k == i ? run : 0);
                 for (int object = 0; object < objects * (lanes == 1); object++) {
                     const LightRun *own = &ball[object * count + i];
@@ -65,7 +65,7 @@ TEST(runs_are_of_one_group_and_within_their_sphere) {
                 }
             }
             if (lanes > 1 && i + run < count)
-                assert_int_not_equal(lights[i + run].group, lights[i].group);
+                assert_int_not_equal(lights[i + run].cluster, lights[i].cluster);
             longest = run > longest ? run : longest;
         }
         assert_true(longest >= 3);

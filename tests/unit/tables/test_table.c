@@ -12,16 +12,16 @@
 #include "unit_test.h"
 #include "wrapped.h"
 
-static size_t most_allowed = SIZE_MAX;
+static size_t max_allowed = SIZE_MAX;
 
 static void *allocate(size_t bytes) {
-    return bytes <= most_allowed ? real_hd_large_allocate(bytes) : NULL;
+    return bytes <= max_allowed ? real_hd_large_allocate(bytes) : NULL;
 }
 
 REPLACE(hd_large_allocate, allocate)
 
 static HdError error;
-static const HdMemoryRoom device = {
+static const HdMemoryBudget device = {
     .name = "Device", .advice = "do this", .memory = 4e9, .at_once = 1e9};
 
 TEST(bytes_are_told_shortly) {
@@ -37,19 +37,19 @@ TEST(bytes_are_told_shortly) {
     }
 }
 
-static void expect_room(size_t triangles, size_t nodes, const HdMemoryRoom *room,
+static void expect_room(size_t triangles, size_t nodes, const HdMemoryBudget *room,
                         const char *message) {
     HdSceneTables tables = {.table_count = HD_SCENE_TABLE_COUNT};
     tables.table[HD_TABLE_triangles].bytes = triangles;
     tables.table[HD_TABLE_mesh_nodes].bytes = nodes;
-    const HdStatus status = hd_check_room(&tables, room, &error);
+    const HdStatus status = hd_check_budget(&tables, room, &error);
     assert_int_equal(status, message == NULL ? HD_OK : HD_UNAVAILABLE);
     if (message != NULL)
         assert_string_equal(error.message, message);
 }
 
 TEST(tables_may_be_too_large) {
-    const HdMemoryRoom unknown = {.name = "Device", .advice = ""};
+    const HdMemoryBudget unknown = {.name = "Device", .advice = ""};
     expect_room(1000000000, 1000000000, &device, NULL);
     expect_room(SIZE_MAX / 2, 0, &unknown, NULL);
     expect_room(900000000, 1000000001, &device,
@@ -99,9 +99,9 @@ TEST(a_scene_may_be_too_large_for_the_machine) {
     const int triangles = own[1].triangle_count;
     scene.accel = HD_ACCEL_BRUTE;
     own[1].triangle_count = 20000000;
-    most_allowed = 900000000;
+    max_allowed = 900000000;
     const HdStatus status = hd_compile_scene(&tables, &scene, HD_PRECISION_FLOAT, 1, &error);
-    most_allowed = SIZE_MAX;
+    max_allowed = SIZE_MAX;
     own[1].triangle_count = triangles;
     hd_scene_free(&scene);
     assert_int_equal(status, HD_FAILED);
@@ -152,12 +152,12 @@ TEST(deeper_trees_leave_out_more) {
     HdScene scene = scene_with_meshes();
     scene.exposure = 1.0;
     scene.depth = 0;
-    const double flat = hd_most_left_out(&scene);
+    const double flat = hd_max_left_out(&scene);
     scene.depth = 1;
-    const double level = hd_most_left_out(&scene) - flat;
+    const double level = hd_max_left_out(&scene) - flat;
     assert_true(level > 0.0 && flat >= level);
     scene.depth = 10;
     scene.exposure = 4.0;
-    expect_near(hd_most_left_out(&scene), 4.0 * (flat + 10.0 * level), 1e-9 * flat);
+    expect_near(hd_max_left_out(&scene), 4.0 * (flat + 10.0 * level), 1e-9 * flat);
     hd_scene_free(&scene);
 }

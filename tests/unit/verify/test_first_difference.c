@@ -49,8 +49,8 @@ static const char *difference(const char *frame, void (*how)(const HdSceneTables
     assert_int_equal(hd_backend_enumerate(&hd_backend_c, &device, 1, &count, &error), HD_OK);
     device.backend = &backend;
     const HdRenderOptions options = {.pipeline = HD_PIPELINE_MEGA};
-    const HdDispute dispute = {&device, &options, &hd_golden_needs, build, hd_golden_find(frame)};
-    assert_int_equal(hd_first_difference(&dispute, text, sizeof text, &error), HD_OK);
+    const HdMismatch mismatch = {&device, &options, &hd_golden_needs, build, hd_golden_find(frame)};
+    assert_int_equal(hd_first_difference(&mismatch, text, sizeof text, &error), HD_OK);
     return text;
 }
 

@@ -49,7 +49,7 @@ static void spoil_tuple(const HdProbeBatch *batch, HdProbeResults *results, int 
         isnormal(*quotient))
         *quotient = nextafterf(*quotient, INFINITY);
     if (fault == CONTRACTED)
-        numbers[HD_PROBE_NUMBER_apart * batch->count] = fmaf(a, b, c);
+        numbers[HD_PROBE_NUMBER_unfused * batch->count] = fmaf(a, b, c);
     if (fault == ZERO_WITHOUT_SIGN && a == 0.0f)
         numbers[HD_PROBE_NUMBER_plus_zero * batch->count] = a;
     if (fault == FLUSHED_RESULTS)

@@ -86,7 +86,7 @@ TEST(printed_and_applied_cameras_read_back) {
     HdScene scene = {.frame_count = 240};
     hd_pose_apply(&pose, &scene);
     assert_int_equal(scene.frame_count, 1);
-    back = hd_pose_of_flight(&scene, 0);
+    back = hd_pose_on_path(&scene, 0);
     assert_memory_equal(&back, &pose, sizeof back);
 }
 

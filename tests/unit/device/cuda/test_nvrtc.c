@@ -69,11 +69,11 @@ static void put(const char *below, const char *name) {
 }
 
 static void expect_version(int arch, int driver_major, const char *path, int major, int minor) {
-    int told_major, told_minor;
+    int reported_major, reported_minor;
     assert_int_equal(hd_nvrtc_open(&nvrtc, "some device", arch, driver_major, path, &error), HD_OK);
-    assert_int_equal(nvrtc.functions.version(&told_major, &told_minor), 0);
+    assert_int_equal(nvrtc.functions.version(&reported_major, &reported_minor), 0);
     assert_true(nvrtc.major == major && nvrtc.minor == minor);
-    assert_true(told_major == major && told_minor == minor);
+    assert_true(reported_major == major && reported_minor == minor);
     hd_nvrtc_close(&nvrtc);
     assert_null(nvrtc.library);
 }

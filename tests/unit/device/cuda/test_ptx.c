@@ -35,7 +35,7 @@ TEST(what_does_all_is_found) {
         {{.rounds_by_fma = true, .is_probe = true}, -1},
         {{.precision = HD_PRECISION_DOUBLE}, -1},
         {{.math = HD_MATH_FAST}, -1},
-        {{.needs.surveyed = true}, -1},
+        {{.needs.bounded = true}, -1},
         {{.needs.plane_bound = 129}, -1},
         {{.needs.depth_bound = 65}, -1},
         {{.needs.node_stack_bound = 33}, -1},

@@ -103,7 +103,7 @@ static void fake_unload(void *of) {
     card.has_kernels = false;
 }
 
-static HdStatus fake_most_threads(void *of, size_t *threads, HdError *failure) {
+static HdStatus fake_max_threads(void *of, size_t *threads, HdError *failure) {
     (void)of, (void)failure;
     *threads = card.most;
     return HD_OK;
@@ -125,7 +125,7 @@ static const HdGpuDriver driver = {
     .load = fake_load,
     .binary = fake_binary,
     .unload = fake_unload,
-    .most_threads = fake_most_threads,
+    .max_threads = fake_max_threads,
 };
 
 static HdGpu gpu;
@@ -191,7 +191,7 @@ TEST(a_lack_of_memory_is_told) {
 
 /* ---- the queue ---- */
 
-static const HdWaveNeeds queue_needs = {.bytes = 4 * HD_WAVE_LEAST_BYTES,
+static const HdWaveNeeds queue_needs = {.bytes = 4 * HD_WAVE_MIN_BYTES,
                                         .depth = 4,
                                         .grain = 32,
                                         .samples = 1 << 20,
@@ -203,9 +203,9 @@ TEST(a_queue_is_cut_to_what_there_is) {
         size_t room;
         HdStatus status;
         size_t bytes;
-    } cases[] = {{10000000, HD_OK, 4 * HD_WAVE_LEAST_BYTES},
-                 {5 * HD_WAVE_LEAST_BYTES, HD_OK, 2 * HD_WAVE_LEAST_BYTES},
-                 {HD_WAVE_LEAST_BYTES, HD_FAILED, HD_WAVE_LEAST_BYTES}};
+    } cases[] = {{10000000, HD_OK, 4 * HD_WAVE_MIN_BYTES},
+                 {5 * HD_WAVE_MIN_BYTES, HD_OK, 2 * HD_WAVE_MIN_BYTES},
+                 {HD_WAVE_MIN_BYTES, HD_FAILED, HD_WAVE_MIN_BYTES}};
     for (int i = 0; i < 3; i++) {
         HdGpuWaveQueue queue = {0};
         HdWaveNeeds needs = queue_needs;

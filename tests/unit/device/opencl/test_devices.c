@@ -114,12 +114,13 @@ static HdError error;
 TEST(devices_and_obstacles_are_described) {
     static const char all[] = "it is not available, its driver has no compiler, it is older than "
                               "OpenCL 1.2, it is not little-endian";
-    static const char *const obstacles[COUNT] = {"", "", "it is older than OpenCL 1.2", "", all};
+    static const char *const unsupported_reasons[COUNT] = {"", "", "it is older than OpenCL 1.2",
+                                                           "", all};
     int count;
     assert_int_equal(hd_opencl_enumerate(devices, HD_MAX_DEVICES, &count, &error), HD_OK);
     assert_int_equal(count, COUNT);
     for (int i = 0; i < COUNT; i++)
-        assert_string_equal(devices[i].unusable, obstacles[i]);
+        assert_string_equal(devices[i].unusable, unsupported_reasons[i]);
     assert_string_equal(devices[0].name, "a GPU");
     assert_string_equal(devices[0].driver, "a platform, OpenCL 3.0 CUDA, driver 5.6");
     assert_int_equal(devices[0].nvidia_arch, 75);

@@ -118,7 +118,7 @@ TEST(lines_come_in_many_forms) {
 /* Comments and lines around the sizes of all buffers. */
 TEST(long_lines_and_comments_pass) {
     static char text[600000];
-    static const size_t sizes[] = {HD_OBJ_MOST_LINE, 65536, 131072, 262144};
+    static const size_t sizes[] = {HD_OBJ_MAX_LINE, 65536, 131072, 262144};
     size_t used;
     for (size_t i = 0; i < 4 * sizeof sizes / sizeof *sizes; i++) {
         used = sizes[i / 4] + i % 4 - 2;
@@ -129,7 +129,7 @@ TEST(long_lines_and_comments_pass) {
                              "a.obj: line 7: a face names vertex 9, and there are 3 vertices");
     }
     /* A long polygon, and one that is too long. */
-    const int most = HD_OBJ_MOST_LINE / 6;
+    const int most = HD_OBJ_MAX_LINE / 6;
     used = 0;
     for (int i = 0; i < 11000; i++)
         used += (size_t)sprintf(text + used, "v %.9f %.9f 0\n", cos(i * 5.7e-4), sin(i * 5.7e-4));
@@ -140,7 +140,7 @@ TEST(long_lines_and_comments_pass) {
     HdMesh mesh = read_bytes(text, used);
     assert_int_equal(mesh.triangle_count + mesh.degenerate_count, most - 3);
     hd_mesh_free(&mesh);
-    while (used <= before + HD_OBJ_MOST_LINE + 8)
+    while (used <= before + HD_OBJ_MAX_LINE + 8)
         used += (size_t)sprintf(text + used, " 1");
     expect_refused_bytes(text, used, "a.obj: line 11001: it is longer than 65000 bytes");
     memcpy(text + before + 5000, " \\\n ", 4);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Frames that are under way at the same time, and those that a device encodes by itself. */
-#ifndef HD_CONFORMANCE_FLIGHTS_H
-#define HD_CONFORMANCE_FLIGHTS_H
+#ifndef HD_CONFORMANCE_FRAMES_IN_FLIGHT_H
+#define HD_CONFORMANCE_FRAMES_IN_FLIGHT_H
 
 #include "render_scene.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "render/survey.h"
+#include "render/bound_pass.h"
 
 #include <stdint.h>
 #include <stdlib.h>
@@ -139,17 +139,17 @@ float hd_darkest(const float rgb[3]) {
 
 /* Entries of one submission, at most, in whole items; lists are worked off in parts, as few as can
    be, for a GPU waits for the longest tree of each. */
-enum { MOST_ENTRIES = HD_MAX_IMAGE_SIDE / HD_LISTED_WIDTH * HD_LISTED_WIDTH * HD_LISTED_WIDTH };
+enum { MAX_ENTRIES = HD_MAX_IMAGE_SIDE / HD_LISTED_WIDTH * HD_LISTED_WIDTH * HD_LISTED_WIDTH };
 
 /* Cut-offs, as parts of what a dark pixel may miss: the first one, the factor to the next one, and
    the last one, with which no sample can miss too much that has so many rays at most. */
 #define FIRST_CUTOFF (1.0 / 64.0)
 #define NEXT_CUTOFF  (1.0 / 8.0)
-#define LAST_CUTOFF  (1.0 / MOST_RAYS)
+#define LAST_CUTOFF  (1.0 / MAX_RAYS)
 
 /* Of a sample, on the mean of a pass: where there are more already, smaller cut-offs come to no
-   end. A bundle cannot be interrupted. */
-#define MOST_RAYS 1048576.0
+   end. A packet cannot be interrupted. */
+#define MAX_RAYS 1048576.0
 
 /* Small limits are approached from this one, so that each pass tells what the next one costs. */
 #define EASY_LIMIT 1.0
@@ -158,13 +158,13 @@ enum { MOST_ENTRIES = HD_MAX_IMAGE_SIDE / HD_LISTED_WIDTH * HD_LISTED_WIDTH * HD
    weight ended the rays. */
 #define PROGRESS 0.99F
 
-void hd_surveyor_free(HdSurveyor *surveyor) {
-    free(surveyor->entries);
-    free(surveyor->open);
-    hd_frame_free(&surveyor->frame);
+void hd_bound_passes_free(HdBoundPasses *passes) {
+    free(passes->entries);
+    free(passes->open);
+    hd_frame_free(&passes->frame);
 }
 
-void hd_survey_end_rays(HdScene *scene) {
+void hd_bound_pass_end_rays(HdScene *scene) {
     /* sRGB is the stricter curve. */
     const double limit = hd_missing_allowed(HD_CURVE_SRGB, scene->max_error, 0.0);
     if (!(scene->max_error > 0.0))
@@ -173,25 +173,24 @@ void hd_survey_end_rays(HdScene *scene) {
     scene->cutoff = 0.0;
 }
 
-static HdStatus reserve_frame(HdSurveyor *surveyor, int rows, HdError *error) {
-    if (rows <= surveyor->frame_rows)
+static HdStatus reserve_frame(HdBoundPasses *passes, int rows, HdError *error) {
+    if (rows <= passes->frame_rows)
         return HD_OK;
-    hd_frame_free(&surveyor->frame);
+    hd_frame_free(&passes->frame);
     HdStatus status =
-        hd_frame_create_with(&surveyor->frame, HD_LISTED_WIDTH, rows, HD_SURVEY_FLOATS, error);
-    surveyor->frame_rows = status == HD_OK ? rows : 0;
+        hd_frame_create_with(&passes->frame, HD_LISTED_WIDTH, rows, HD_BOUNDED_FLOATS, error);
+    passes->frame_rows = status == HD_OK ? rows : 0;
     return status;
 }
 
-static HdStatus reserve(HdSurveyor *surveyor, int count, HdError *error) {
-    int at_once = hd_min(count, MOST_ENTRIES);
-    surveyor->entries = hd_reserved(surveyor->entries, 2 * sizeof *surveyor->entries, at_once,
-                                    &surveyor->entry_room);
-    surveyor->open =
-        hd_reserved(surveyor->open, sizeof *surveyor->open, count, &surveyor->open_room);
-    if (surveyor->entries == NULL || surveyor->open == NULL)
+static HdStatus reserve(HdBoundPasses *passes, int count, HdError *error) {
+    int at_once = hd_min(count, MAX_ENTRIES);
+    passes->entries =
+        hd_reserved(passes->entries, 2 * sizeof *passes->entries, at_once, &passes->entry_capacity);
+    passes->open = hd_reserved(passes->open, sizeof *passes->open, count, &passes->open_capacity);
+    if (passes->entries == NULL || passes->open == NULL)
         return HD_NO_ROOM(error, "a list of %d pixels", count);
-    return reserve_frame(surveyor, (at_once + HD_LISTED_WIDTH - 1) / HD_LISTED_WIDTH, error);
+    return reserve_frame(passes, (at_once + HD_LISTED_WIDTH - 1) / HD_LISTED_WIDTH, error);
 }
 
 static void add_counts(HdFrame *sums, const HdFrame *frame, int count, int samples) {
@@ -202,17 +201,17 @@ static void add_counts(HdFrame *sums, const HdFrame *frame, int count, int sampl
     sums->clamps += frame->clamps;
 }
 
-static bool is_within(const HdSurveyor *surveyor, const HdSurvey *survey) {
-    double limit = surveyor->scene->max_error;
+static bool is_within(const HdBoundPasses *passes, const HdBoundedMean *mean) {
+    double limit = passes->scene->max_error;
     return !(limit > 0.0) ||
-           (double)survey->bound <=
-               hd_missing_allowed(surveyor->curve, limit, (double)hd_darkest(survey->rgb));
+           (double)mean->bound <=
+               hd_missing_allowed(passes->curve, limit, (double)hd_darkest(mean->rgb));
 }
 
 /* Requests of one submission. */
 typedef struct Part {
-    HdSurveyor *surveyor;
-    const HdSurveyPass *pass;
+    HdBoundPasses *passes;
+    const HdBoundPass *pass;
     double cutoff;
     bool is_first; /* of several cut-offs */
     int *open;     /* numbers of the requests; at first they are from, from + 1, ... */
@@ -224,7 +223,7 @@ static int request_number(const Part *part, int i) {
 }
 
 /* Where request number i of `count` is in the list: items render their 64 entries in Z order, so
-   that requests next to each other share bundles only if they are listed so. The last ones, which
+   that requests next to each other share packets only if they are listed so. The last ones, which
    fill no item, are listed as they come. */
 static int place_of(int i, int count) {
     enum { ITEM = HD_LISTED_WIDTH * HD_LISTED_WIDTH };
@@ -235,73 +234,73 @@ static int place_of(int i, int count) {
 static void list_entries(void *context, int first, int end) {
     const Part *part = context;
     for (int i = first; i < end; i++) {
-        const HdSurveyRequest *request = &part->pass->requests[request_number(part, i)];
+        const HdBoundRequest *request = &part->pass->requests[request_number(part, i)];
         size_t place = (size_t)place_of(i, part->count);
-        part->surveyor->entries[2 * place] = request->pixel;
-        part->surveyor->entries[2 * place + 1] = request->first;
+        part->passes->entries[2 * place] = request->pixel;
+        part->passes->entries[2 * place + 1] = request->first;
     }
 }
 
 /* Chooses the requests that are not within the limit. */
-static int take_surveys(void *context, int first, int end, int *still_open) {
+static int store_means(void *context, int first, int end, int *still_open) {
     const Part *part = context;
-    const float *values = part->surveyor->frame.rgb;
+    const float *values = part->passes->frame.rgb;
     int left = 0;
     for (int i = first; i < end; i++) {
         int number = request_number(part, i);
-        HdSurvey *survey = &part->pass->surveys[number];
-        float before = survey->bound;
+        HdBoundedMean *mean = &part->pass->means[number];
+        float before = mean->bound;
         size_t place = (size_t)place_of(i, part->count);
-        memcpy(survey, values + HD_SURVEY_FLOATS * place, sizeof *survey);
-        bool goes_on = part->is_first || survey->bound < PROGRESS * before;
-        if (goes_on && !is_within(part->surveyor, survey))
+        memcpy(mean, values + HD_BOUNDED_FLOATS * place, sizeof *mean);
+        bool goes_on = part->is_first || mean->bound < PROGRESS * before;
+        if (goes_on && !is_within(part->passes, mean))
             still_open[left++] = number;
     }
     return left;
 }
 
 static HdStatus submit(const Part *part, HdWatched watched, HdError *error) {
-    HdSurveyor *surveyor = part->surveyor;
+    HdBoundPasses *passes = part->passes;
     HdFrameTables tables;
     const HdSampleList list = {
-        .entries = surveyor->entries,
+        .entries = passes->entries,
         .entry_count = part->count,
-        .places = surveyor->samples->places,
-        .place_count = surveyor->samples->count,
-        .grid_side = surveyor->samples->grid_side,
+        .places = passes->samples->places,
+        .place_count = passes->samples->count,
+        .grid_side = passes->samples->grid_side,
         .samples = part->pass->samples,
         .bound_cutoff = part->cutoff,
-        .most_left_out = surveyor->most_left_out,
+        .max_left_out = passes->max_left_out,
     };
-    HD_TRY(hd_compile_frame(&tables, surveyor->scene, surveyor->camera,
-                            hd_renderer_options(surveyor->renderer)->precision, &list, error));
+    HD_TRY(hd_compile_frame(&tables, passes->scene, passes->camera,
+                            hd_renderer_options(passes->renderer)->precision, &list, error));
     tables.watched = watched;
-    surveyor->frame.height = tables.height;
-    HdStatus status = hd_renderer_render(surveyor->renderer, &tables, &surveyor->frame, error);
+    passes->frame.height = tables.height;
+    HdStatus status = hd_renderer_render(passes->renderer, &tables, &passes->frame, error);
     hd_frame_tables_free(&tables);
     return status;
 }
 
 /* Surveys the requests of a part, of which those that are not within the limit stay, in place. */
-static HdStatus survey_part(Part *part, HdWatched watched, HdError *error) {
-    HdSurveyor *surveyor = part->surveyor;
-    hd_chunks_run(surveyor->threads, part->count, list_entries, part);
+static HdStatus bound_part(Part *part, HdWatched watched, HdError *error) {
+    HdBoundPasses *passes = part->passes;
+    hd_chunks_run(passes->threads, part->count, list_entries, part);
     HD_TRY(submit(part, watched, error));
-    add_counts(surveyor->sums, &surveyor->frame, part->count, part->pass->samples);
-    part->count = hd_chunks_choose(surveyor->threads, part->count, take_surveys, part, part->open);
+    add_counts(passes->sums, &passes->frame, part->count, part->pass->samples);
+    part->count = hd_chunks_choose(passes->threads, part->count, store_means, part, part->open);
     return HD_OK;
 }
 
 /* Of the requests that are open, at first all. */
-static HdStatus survey_open(HdSurveyor *surveyor, const HdSurveyPass *pass, double cutoff,
-                            bool is_first, HdWatched watched, int *open_count, HdError *error) {
+static HdStatus bound_open(HdBoundPasses *passes, const HdBoundPass *pass, double cutoff,
+                           bool is_first, HdWatched watched, int *open_count, HdError *error) {
     int left = 0;
-    for (int from = 0; from < *open_count; from += MOST_ENTRIES) {
-        int rest = *open_count - from, count = hd_min(rest, MOST_ENTRIES);
-        int *open = surveyor->open + from;
-        Part part = {surveyor, pass, cutoff, is_first, open, from, count};
-        HD_TRY(survey_part(&part, hd_watched_take(&watched, (double)count / rest), error));
-        memmove(surveyor->open + left, open, sizeof *open * (size_t)part.count);
+    for (int from = 0; from < *open_count; from += MAX_ENTRIES) {
+        int rest = *open_count - from, count = hd_min(rest, MAX_ENTRIES);
+        int *open = passes->open + from;
+        Part part = {passes, pass, cutoff, is_first, open, from, count};
+        HD_TRY(bound_part(&part, hd_watched_take(&watched, (double)count / rest), error));
+        memmove(passes->open + left, open, sizeof *open * (size_t)part.count);
         left += part.count;
     }
     *open_count = left;
@@ -310,22 +309,22 @@ static HdStatus survey_open(HdSurveyor *surveyor, const HdSurveyPass *pass, doub
 
 /* Smaller and smaller cut-offs, until no request is open. The first one is worth most of what is
    left, for few samples need another one; without a limit there is one. */
-HdStatus hd_survey_pass(HdSurveyor *surveyor, const HdSurveyPass *pass, HdError *error) {
-    double limit = surveyor->scene->max_error;
+HdStatus hd_bound_pass(HdBoundPasses *passes, const HdBoundPass *pass, HdError *error) {
+    double limit = passes->scene->max_error;
     double easy = limit > 0.0 && limit < EASY_LIMIT ? EASY_LIMIT : limit;
-    double cutoff = FIRST_CUTOFF * hd_missing_allowed(surveyor->curve, easy, 0.0);
-    double last = LAST_CUTOFF * hd_missing_allowed(surveyor->curve, limit, 0.0);
+    double cutoff = FIRST_CUTOFF * hd_missing_allowed(passes->curve, easy, 0.0);
+    double last = LAST_CUTOFF * hd_missing_allowed(passes->curve, limit, 0.0);
     bool is_first = true;
     int open = pass->count;
     HdWatched watched = pass->watched;
-    HD_TRY(reserve(surveyor, open, error));
+    HD_TRY(reserve(passes, open, error));
     while (open > 0) {
-        const double before = (double)hd_frame_rays(surveyor->sums),
+        const double before = (double)hd_frame_rays(passes->sums),
                      tried = (double)open * pass->samples;
         const HdWatched own = hd_watched_take(&watched, limit > 0.0 ? 0.875 : 1.0);
-        HD_TRY(survey_open(surveyor, pass, cutoff, is_first, own, &open, error));
+        HD_TRY(bound_open(passes, pass, cutoff, is_first, own, &open, error));
         if (cutoff <= last ||
-            (double)hd_frame_rays(surveyor->sums) - before > tried * MOST_RAYS * NEXT_CUTOFF)
+            (double)hd_frame_rays(passes->sums) - before > tried * MAX_RAYS * NEXT_CUTOFF)
             break;
         cutoff = cutoff * NEXT_CUTOFF > last ? cutoff * NEXT_CUTOFF : last;
         is_first = false;

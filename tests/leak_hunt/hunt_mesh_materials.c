@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "hunt_skins.h"
+#include "hunt_mesh_materials.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -120,31 +120,33 @@ static HdVec3 wedge_vertex(int n, int sheet, int i, int j) {
     return hd_vec3(3.0 * across - 1.5, 2.5 - away, sheet == FRONT ? height : -height);
 }
 
-static HdVec3 skin_vertex(HuntSkin skin, int side, int sheet, int i, int j, double height) {
+static HdVec3 material_vertex(HuntMeshMaterial mesh_material, int side, int sheet, int i, int j,
+                              double height) {
     int n = vertices_of_side(side);
     HdVec3 ray = vertex_ray(side, i, j);
-    if (skin == SKIN_WEDGE)
+    if (mesh_material == MATERIAL_WEDGE)
         return wedge_vertex(n, sheet, i, j);
-    if (skin == SKIN_SHEETS)
+    if (mesh_material == MATERIAL_SHEETS)
         return hd_scale(ray, depth_of_sheet(side, sheet, steps_to_rim(n, i, j), height));
     return sheet == FRONT ? hd_vec3(2.0 * ray.x, -1.0, 2.0 * ray.z)
                           : hd_scale(ray, 2.0 + height * 2.0 * HUNT_TANGENT / side);
 }
 
 /* Sheets have vertices in common where they meet; the others have walls between them. */
-void build_skin(HdMesh *mesh, HuntSkin skin, int side, double roughness, const HdMaterial *material,
-                uint64_t *random) {
+void build_mesh_material(HdMesh *mesh, HuntMeshMaterial mesh_material, int side, double roughness,
+                         const HdMaterial *material, uint64_t *random) {
     int n = vertices_of_side(side);
     make_room(mesh, 2 * n * n, 4 * (n - 1) * (n - 1) + 8 * (n - 1), material);
     for (int sheet = FRONT; sheet <= BACK; sheet++) {
         for (int j = 0; j < n; j++)
             for (int i = 0; i < n; i++) {
                 double height = random_between(random, -1.0, 1.0) * roughness;
-                mesh->vertices[mesh->vertex_count++] = skin_vertex(skin, side, sheet, i, j, height);
+                mesh->vertices[mesh->vertex_count++] =
+                    material_vertex(mesh_material, side, sheet, i, j, height);
             }
         add_sheet(mesh, n, sheet, random);
     }
-    if (skin != SKIN_SHEETS)
+    if (mesh_material != MATERIAL_SHEETS)
         add_walls(mesh, n);
 }
 

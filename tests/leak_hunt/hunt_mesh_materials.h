@@ -2,8 +2,8 @@
 /* The meshes of the hunt. All have one material and are not built yet; their coordinates are those
    of the eye, which looks along y with x to the right, and the eye's ray through a pixel is
    hunt_pixel_ray. */
-#ifndef HD_LEAK_HUNT_SKINS_H
-#define HD_LEAK_HUNT_SKINS_H
+#ifndef HD_LEAK_HUNT_MESH_MATERIALS_H
+#define HD_LEAK_HUNT_MESH_MATERIALS_H
 
 #include <stddef.h>
 #include <stdint.h>
@@ -22,15 +22,15 @@ HdVec3 hunt_pixel_ray(int side, int x, int y);
 /* Zeroed memory, or the end of the program. */
 void *hunt_allocate(size_t count, size_t size);
 
-typedef enum HuntSkin {
-    SKIN_SHEETS, /* two sheets, about y = 2 and y = 3, joined at y = 2.5 */
-    SKIN_ROOM,   /* a room about the eye, whose far wall is as rough and like the back sheet */
-    SKIN_WEDGE   /* a smooth one whose floor and ceiling meet at 10 degrees at y = 2.5 */
-} HuntSkin;
+typedef enum HuntMeshMaterial {
+    MATERIAL_SHEETS, /* two sheets, about y = 2 and y = 3, joined at y = 2.5 */
+    MATERIAL_ROOM,   /* a room about the eye, whose far wall is as rough and like the back sheet */
+    MATERIAL_WEDGE   /* a smooth one whose floor and ceiling meet at 10 degrees at y = 2.5 */
+} HuntMeshMaterial;
 
 /* `roughness` is in pixels. */
-void build_skin(HdMesh *mesh, HuntSkin skin, int side, double roughness, const HdMaterial *material,
-                uint64_t *random);
+void build_mesh_material(HdMesh *mesh, HuntMeshMaterial mesh_material, int side, double roughness,
+                         const HdMaterial *material, uint64_t *random);
 
 /* A small triangle at y = `depth` in the middle of each chosen pixel. */
 void build_spots(HdMesh *mesh, int side, const bool *chosen, double depth,

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Where the samples of a pixel are, and the surveys that render some of them, so often with a
    smaller cut-off that what was left out of each stays within bounds. */
-#ifndef HD_RENDER_SURVEY_H
-#define HD_RENDER_SURVEY_H
+#ifndef HD_RENDER_BOUND_PASS_H
+#define HD_RENDER_BOUND_PASS_H
 
 #include "device/renderer.h"
 #include "image/curve.h"
@@ -45,51 +45,51 @@ double hd_missing_steps(HdCurve curve, double missing, double radiance);
 float hd_darkest(const float rgb[3]);
 
 /* Samples of a pixel that follow each other in the set: their means. */
-typedef struct HdSurvey {
+typedef struct HdBoundedMean {
     float rgb[3]; /* radiance times exposure */
     float bound;  /* of what is missing from any channel */
-} HdSurvey;
+} HdBoundedMean;
 
-typedef struct HdSurveyRequest {
+typedef struct HdBoundRequest {
     int pixel; /* x | y << 16 */
     int first; /* sample in the set */
-} HdSurveyRequest;
+} HdBoundRequest;
 
-typedef struct HdSurveyor {
+typedef struct HdBoundPasses {
     const HdScene *scene; /* uploaded; surveyed */
     HdRenderer *renderer; /* no frame is under way */
     const HdSampleSet *samples;
     HdCurve curve;          /* of the picture whose errors are limited */
-    double most_left_out;   /* hd_most_left_out of the scene */
+    double max_left_out;    /* hd_max_left_out of the scene */
     HdThreadPool *threads;  /* for the host's work */
     const HdCamera *camera; /* of the passes */
     HdFrame *sums;          /* gets the counts of all passes added */
     int *entries, *open;    /* the surveyor's own from here on */
-    int entry_room, open_room;
+    int entry_capacity, open_capacity;
     HdFrame frame;
     int frame_rows; /* that it has room for */
-} HdSurveyor;
+} HdBoundPasses;
 
 /* Gives up what the surveyor owns itself. */
-void hd_surveyor_free(HdSurveyor *surveyor);
+void hd_bound_passes_free(HdBoundPasses *passes);
 
 /* Has nothing but the limit of a scene (HdScene.max_error), if there is one, end its rays: no
    cut-off, and a depth so large that what lies beyond is worth little of the limit. */
-void hd_survey_end_rays(HdScene *scene);
+void hd_bound_pass_end_rays(HdScene *scene);
 
 /* Samples that are asked for at a time. */
-typedef struct HdSurveyPass {
-    const HdSurveyRequest *requests;
-    int count;         /* of them, 1 or more */
-    int samples;       /* of each */
-    HdSurvey *surveys; /* what comes of each */
-    HdWatched watched; /* what all of it is worth */
-} HdSurveyPass;
+typedef struct HdBoundPass {
+    const HdBoundRequest *requests;
+    int count;            /* of them, 1 or more */
+    int samples;          /* of each */
+    HdBoundedMean *means; /* what comes of each */
+    HdWatched watched;    /* what all of it is worth */
+} HdBoundPass;
 
 /* Fills surveys[i] with the mean of the samples [first, first + samples) of request i. With a limit
    (HdScene.max_error) each bound is within it, unless depth or cut-off of the scene end rays
    before, or so many rays of a sample are needed that they come to no end: then it says by how
    much. */
-HdStatus hd_survey_pass(HdSurveyor *surveyor, const HdSurveyPass *pass, HdError *error);
+HdStatus hd_bound_pass(HdBoundPasses *passes, const HdBoundPass *pass, HdError *error);
 
 #endif

@@ -40,7 +40,7 @@ static void compile(void) {
     assert_int_equal(hd_compile_scene(&tables, &file.scene, HD_PRECISION_FLOAT, 8, &error), HD_OK);
     objects = tables.table[HD_TABLE_objects].data;
     planes = tables.table[HD_TABLE_planes].data;
-    ways = tables.table[HD_TABLE_light_ways].data;
+    ways = tables.table[HD_TABLE_occlusion_masks].data;
 }
 
 static int begin(void **state) {
@@ -111,44 +111,45 @@ static bool crosses(int object, HdVec3 from, HdVec3 to) {
     return first < last;
 }
 
-static bool is_beside(int from, int light, int object) {
+static bool cannot_occlude(int from, int light, int object) {
     return ways[from * (tables.light_count + 1) + 1 + light] >> object & 1;
 }
 
 /* Numbers of single lights, and before them one of all lights. */
 TEST(segments_miss_what_is_beside) {
-    int beside = 0, others = 0, crossed = 0;
+    int nonoccluders = 0, others = 0, crossed = 0;
     for (int from = 0; from < OBJECTS; from++)
         for (int object = 0; object < OBJECTS; object++) {
             bool all = true;
             for (int light = 0; light < tables.light_count; light++) {
-                all = all && is_beside(from, light, object);
+                all = all && cannot_occlude(from, light, object);
                 if (object == from)
                     continue;
-                bool missed = is_beside(from, light, object), is_crossed = false;
+                bool missed = cannot_occlude(from, light, object), is_crossed = false;
                 HdVec3 move = offset(HD_TABLE_object_offsets, from * OBJECTS + object);
                 HdVec3 to = offset(HD_TABLE_light_offsets, object * tables.light_count + light);
                 for (int i = 0; i < POINTS && !is_crossed; i++)
                     is_crossed = crosses(object, hd_add(point_on(from), move), to);
                 assert_false(missed && is_crossed);
-                beside += missed;
+                nonoccluders += missed;
                 others += !missed;
                 crossed += is_crossed;
             }
-            assert_int_equal(is_beside(from, -1, object), all);
+            assert_int_equal(cannot_occlude(from, -1, object), all);
         }
     /* Of what is not beside most is crossed: the hulls are not much too wide. */
-    assert_true(beside > others);
+    assert_true(nonoccluders > others);
     assert_true(2 * crossed > others);
 }
 
 /* The dodecahedron and the cube overlap, the icosahedron is in the floor. The first light is in the
    tetrahedron, the second one is not. */
 TEST(solids_that_others_reach_into_are_not_apart) {
-    static const int apart[OBJECTS] = {1, 1, 0, 0, 0, 0};
+    static const int isolated[OBJECTS] = {1, 1, 0, 0, 0, 0};
     for (int i = 0; i < OBJECTS; i++)
-        assert_int_equal(objects[i].apart, apart[i]);
-    assert_true(is_beside(0, 0, 0) && is_beside(FLOOR, 0, FLOOR) && !is_beside(0, 1, 0));
+        assert_int_equal(objects[i].isolated, isolated[i]);
+    assert_true(cannot_occlude(0, 0, 0) && cannot_occlude(FLOOR, 0, FLOOR) &&
+                !cannot_occlude(0, 1, 0));
 }
 
 /* Where rays come from far away rounding puts points off the solids, so that nothing is known: the
@@ -157,10 +158,10 @@ TEST(nothing_is_known_where_points_are_off) {
     file.scene.eye.point.x = 1e7;
     compile();
     for (int from = 0; from < SOLIDS; from++) {
-        assert_false(objects[from].apart);
+        assert_false(objects[from].isolated);
         for (int light = 0; light < tables.light_count; light++)
             for (int object = 0; object < OBJECTS; object++)
-                assert_true(object == from || !is_beside(from, light, object));
+                assert_true(object == from || !cannot_occlude(from, light, object));
     }
 }
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* The walk of bundles through a mesh. Nodes are wide: the lanes are a node's children, which all
+/* The walk of packets through a mesh. Nodes are wide: the lanes are a node's children, which all
    rays of a walk are tested against at once; where few rays are left each walks by itself
    afterwards, and the lanes are a leaf's triangles too. */
-#ifndef HD_MESH_WALK_WIDE_H
-#define HD_MESH_WALK_WIDE_H
+#ifndef HD_MESH_TRAVERSAL_PACKET_H
+#define HD_MESH_TRAVERSAL_PACKET_H
 
-#include "mesh_walk.h"
+#include "mesh_traversal.h"
 
 #if HD_LANES > 1
 
@@ -26,8 +26,8 @@ FN void prefetch_place(SCENE_PARAMETERS int place) {
 }
 
 /* Where the bounds of an axis begin in a wide node, those of one side each. */
-FN int place_of_bounds(const int side[3], const Way *way, int axis) {
-    return (3 * side[axis] + way->axis[axis]) * HD_LANES;
+FN int place_of_bounds(const int side[3], const RayOctant *octant, int axis) {
+    return (3 * side[axis] + octant->axis[axis]) * HD_LANES;
 }
 
 /* ---- a ray by itself ---- */
@@ -71,13 +71,13 @@ FN Findings spread_findings(const Findings *found, int lane) {
     one.triangle = splat_int(lane_int(&found->triangle, lane));
     one.entering = spread_mask(lane_bits(found->entering), lane);
     for (int channel = 0; channel < 3; channel++)
-        one.octaves[channel] = one.rest[channel] = splat_int(0);
+        one.density[channel] = one.rest[channel] = splat_int(0);
     return one;
 }
 
 /* Triangles that lie at `number` in the table, one for each lane. */
 FN TriangleLanes triangles_at(GLOBAL const Triangle *triangles, vint number, int count,
-                              const int axis[3], int first_face, int first_skin) {
+                              const int axis[3], int first_face, int first_mesh_material) {
     GLOBAL const real *table = (GLOBAL const real *)triangles;
     vint place = number * TRIANGLE_STRIDE;
     FourReals a = load_rows(table, place, count);
@@ -87,31 +87,31 @@ FN TriangleLanes triangles_at(GLOBAL const Triangle *triangles, vint number, int
     lanes.a = vec3(a.number[axis[0]], a.number[axis[1]], a.number[axis[2]]);
     lanes.b = vec3(b.number[axis[0]], b.number[axis[1]], b.number[axis[2]]);
     lanes.c = vec3(c.number[axis[0]], c.number[axis[1]], c.number[axis[2]]);
-    name_triangles(&lanes, number, to_int(a.number[3]), first_face, first_skin);
+    name_triangles(&lanes, number, to_int(a.number[3]), first_face, first_mesh_material);
     return lanes;
 }
 
 /* Puts a leaf's triangles beside the `count` that are there; returns how many they are then. */
 FN int add_leaf(vint *number, int count, int leaf) {
     int first = ~leaf >> HD_LEAF_ITEM_BITS, more = ~leaf & HD_LEAF_ITEM_MASK;
-    vint added = least_int(lane_numbers() + (first - count), splat_int(first + more - 1));
-    *number = pick_int(lt_int(lane_numbers(), splat_int(count)), *number, added);
+    vint added = min_int(lane_numbers() + (first - count), splat_int(first + more - 1));
+    *number = vselect_int(lt_int(lane_numbers(), splat_int(count)), *number, added);
     return count + more;
 }
 
 /* Tries `count` triangles side by side. What is found in the lanes is brought together, so that all
    of them hold it. Returns whether anything is met. */
-FN int try_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, const Way *way,
+FN int try_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, const RayOctant *octant,
                    vint number, int count) {
     vmask m = lanes_below(count);
     TriangleCrossing crossing;
-    TriangleLanes triangle =
-        triangles_at(triangles, number, count, way->axis, ray->first_face, ray->first_skin);
+    TriangleLanes triangle = triangles_at(triangles, number, count, octant->axis, ray->first_face,
+                                          ray->first_mesh_material);
     vmask met = meet_triangles(ray, &triangle, found->limit, m, &crossing);
     if (!any_lane(met))
         return 0;
     if (ray->is_shadow) {
-        keep_filter(skins, found, ray, &triangle, met, &crossing);
+        keep_filter(mesh_materials, found, ray, &triangle, met, &crossing);
         if (any_lane(~found->alive))
             found->alive = mask_none();
         return 1;
@@ -136,25 +136,25 @@ FN int try_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, const 
 /* ---- rays that walk alone, in turns ---- */
 
 /* Nodes that a lane's ray may put off at most. */
-enum { MOST_PUT_OFF = 24 };
+enum { MAX_SINGLES = 24 };
 
 /* What rays have left to walk through alone: `room` entries for each lane, the nearest one last. */
 typedef struct {
     int waiting[HD_LANES];
-    Way way[HD_LANES];
+    RayOctant octant[HD_LANES];
     int *stack;
     real *stack_near;
     int room;
     uint lanes; /* that have any */
-} Alone;
+} SingleRays;
 
 /* What is put off comes in the order in which the ray meets it. */
-FN void put_off(Alone *alone, const Way *way, int lane, int node, real near) {
-    int *stack = alone->stack + lane * alone->room;
-    real *stack_near = alone->stack_near + lane * alone->room;
-    int i = alone->waiting[lane]++;
-    alone->way[lane] = *way;
-    alone->lanes |= 1u << lane;
+FN void queue_single(SingleRays *singles, const RayOctant *octant, int lane, int node, real near) {
+    int *stack = singles->stack + lane * singles->room;
+    real *stack_near = singles->stack_near + lane * singles->room;
+    int i = singles->waiting[lane]++;
+    singles->octant[lane] = *octant;
+    singles->lanes |= 1u << lane;
     for (; i > 0; i--) {
         stack[i] = stack[i - 1];
         stack_near[i] = stack_near[i - 1];
@@ -163,9 +163,9 @@ FN void put_off(Alone *alone, const Way *way, int lane, int node, real near) {
     stack_near[0] = near;
 }
 
-FN int can_put_off(const Alone *alone, uint bits) {
+FN int can_queue_single(const SingleRays *singles, uint bits) {
     for (; bits; bits &= bits - 1)
-        if (alone->waiting[lowest_bit(bits)] == MOST_PUT_OFF)
+        if (singles->waiting[lowest_bit(bits)] == MAX_SINGLES)
             return 0;
     return 1;
 }
@@ -177,24 +177,24 @@ FN void take_over(Findings *found, const Findings *one, int is_shadow, int lane)
         for (int channel = 0; channel < 3; channel++) {
             int sum = 0, rest = 0;
             for (int i = 0; i < HD_LANES; i++) {
-                sum += lane_int(&one->octaves[channel], i);
-                sum = sum < HD_OPAQUE_OCTAVES ? sum : HD_OPAQUE_OCTAVES;
+                sum += lane_int(&one->density[channel], i);
+                sum = sum < HD_OPAQUE_DENSITY ? sum : HD_OPAQUE_DENSITY;
                 rest += lane_int(&one->rest[channel], i);
             }
             rest += lane_int(&found->rest[channel], lane);
-            sum += lane_int(&found->octaves[channel], lane) + (rest >> HD_OCTAVE_BITS);
-            sum = sum < HD_OPAQUE_OCTAVES ? sum : HD_OPAQUE_OCTAVES;
-            rest &= HD_OCTAVE - 1;
-            found->octaves[channel] = pick_int(m, splat_int(sum), found->octaves[channel]);
-            found->rest[channel] = pick_int(m, splat_int(rest), found->rest[channel]);
+            sum += lane_int(&found->density[channel], lane) + (rest >> HD_DENSITY_BITS);
+            sum = sum < HD_OPAQUE_DENSITY ? sum : HD_OPAQUE_DENSITY;
+            rest &= HD_DENSITY_ONE - 1;
+            found->density[channel] = vselect_int(m, splat_int(sum), found->density[channel]);
+            found->rest[channel] = vselect_int(m, splat_int(rest), found->rest[channel]);
         }
         found->alive = found->alive & (~m | one->alive);
         return;
     }
-    found->limit = pick(m, one->limit, found->limit);
-    found->object = pick_int(m, one->object, found->object);
-    found->triangle = pick_int(m, one->triangle, found->triangle);
-    found->entering = pick_mask(m, one->entering, found->entering);
+    found->limit = vselect(m, one->limit, found->limit);
+    found->object = vselect_int(m, one->object, found->object);
+    found->triangle = vselect_int(m, one->triangle, found->triangle);
+    found->entering = vselect_mask(m, one->entering, found->entering);
 }
 
 /* What one lane's ray has left to walk through. */
@@ -224,36 +224,36 @@ FN int take_leaves(Pile *pile, real limit, vint *number) {
 }
 
 /* Returns whether the ray goes on. */
-FN int try_leaves(SCENE_PARAMETERS Findings *found, const MeshRays *rays, const Way *way,
+FN int try_leaves(SCENE_PARAMETERS Findings *found, const MeshRays *rays, const RayOctant *octant,
                   Pile *pile, real limit, int lane) {
     vint number = splat_int(0);
     int count = take_leaves(pile, limit, &number);
     MeshRays ray = spread_rays(rays, lane);
     Findings one = spread_findings(found, lane);
-    if (!try_at_once(SCENE_ARGUMENTS & one, &ray, way, number, count))
+    if (!try_at_once(SCENE_ARGUMENTS & one, &ray, octant, number, count))
         return 1;
     take_over(found, &one, rays->is_shadow, lane);
     return !ray.is_shadow || any_lane(one.alive);
 }
 
 /* The children of a node whose boxes one lane's ray meets, and where it enters them. */
-FN vmask meet_children(const Slabs *slabs, const Way *way, GLOBAL const real *bounds, real limit,
-                       int lane, vreal *entry) {
+FN vmask meet_children(const Slabs *slabs, const RayOctant *octant, GLOBAL const real *bounds,
+                       real limit, int lane, vreal *entry) {
     int lower[3], upper[3];
     for (int axis = 0; axis < 3; axis++) {
-        lower[axis] = place_of_bounds(way->entry, way, axis);
-        upper[axis] = place_of_bounds(way->exit, way, axis);
+        lower[axis] = place_of_bounds(octant->entry, octant, axis);
+        upper[axis] = place_of_bounds(octant->exit, octant, axis);
     }
     Vec3 inverse = spread_vector(slabs->inverse, lane);
     Vec3 early = spread_vector(slabs->near, lane), late = spread_vector(slabs->far, lane);
     vreal near = multiply_add(load_reals(bounds + lower[0]), inverse.x, early.x);
     vreal far = multiply_add(load_reals(bounds + upper[0]), inverse.x, late.x);
-    near = greater(near, multiply_add(load_reals(bounds + lower[1]), inverse.y, early.y));
-    far = lesser(far, multiply_add(load_reals(bounds + upper[1]), inverse.y, late.y));
-    near = greater(near, multiply_add(load_reals(bounds + lower[2]), inverse.z, early.z));
-    far = lesser(far, multiply_add(load_reals(bounds + upper[2]), inverse.z, late.z));
-    near = greater(near, splat(R(0.0)));
-    far = lesser(far, splat(limit));
+    near = vmax(near, multiply_add(load_reals(bounds + lower[1]), inverse.y, early.y));
+    far = vmin(far, multiply_add(load_reals(bounds + upper[1]), inverse.y, late.y));
+    near = vmax(near, multiply_add(load_reals(bounds + lower[2]), inverse.z, early.z));
+    far = vmin(far, multiply_add(load_reals(bounds + upper[2]), inverse.z, late.z));
+    near = vmax(near, splat(R(0.0)));
+    far = vmin(far, splat(limit));
     *entry = near;
     return le(near, far);
 }
@@ -280,13 +280,14 @@ FN void put_children(SCENE_PARAMETERS Pile *pile, int parent, vmask met, vreal e
 
 /* The next step of a lane's ray: leaves that wait next to each other, or a node. Returns how many
    entries wait then. */
-FN int step_alone(SCENE_PARAMETERS Findings *found, const MeshRays *rays, Alone *alone, int lane) {
+FN int step_single(SCENE_PARAMETERS Findings *found, const MeshRays *rays, SingleRays *singles,
+                   int lane) {
     Pile pile;
-    pile.node = alone->stack + lane * alone->room;
-    pile.near = alone->stack_near + lane * alone->room;
-    pile.waiting = alone->waiting[lane];
+    pile.node = singles->stack + lane * singles->room;
+    pile.near = singles->stack_near + lane * singles->room;
+    pile.waiting = singles->waiting[lane];
     real limit = lane_real(&found->limit, lane);
-    const Way *way = &alone->way[lane];
+    const RayOctant *octant = &singles->octant[lane];
     do {
         if (pile.waiting == 0)
             return 0;
@@ -294,25 +295,26 @@ FN int step_alone(SCENE_PARAMETERS Findings *found, const MeshRays *rays, Alone 
     } while (limit < pile.near[pile.waiting]);
     int current = pile.node[pile.waiting];
     if (current < 0) {
-        if (!try_leaves(SCENE_ARGUMENTS found, rays, way, &pile, limit, lane))
+        if (!try_leaves(SCENE_ARGUMENTS found, rays, octant, &pile, limit, lane))
             return 0;
     } else {
         vreal entry;
-        vmask met = meet_children(&rays->slabs, way, wide_bounds + (uint64)current * WIDE_STRIDE,
+        vmask met = meet_children(&rays->slabs, octant, wide_bounds + (uint64)current * WIDE_STRIDE,
                                   limit, lane, &entry);
         put_children(SCENE_ARGUMENTS & pile, current, met, entry);
     }
-    alone->waiting[lane] = pile.waiting;
+    singles->waiting[lane] = pile.waiting;
     return pile.waiting;
 }
 
 /* Each ray takes a step in its turn: what it has asked memory for comes while others work. */
-FN void walk_in_turns(SCENE_PARAMETERS Findings *found, const MeshRays *rays, Alone *alone) {
-    uint lanes = alone->lanes & lane_bits(found->alive);
+FN void traverse_singles_interleaved(SCENE_PARAMETERS Findings *found, const MeshRays *rays,
+                                     SingleRays *singles) {
+    uint lanes = singles->lanes & lane_bits(found->alive);
     while (lanes)
         for (uint left = lanes; left; left &= left - 1) {
             int lane = lowest_bit(left);
-            if (!step_alone(SCENE_ARGUMENTS found, rays, alone, lane))
+            if (!step_single(SCENE_ARGUMENTS found, rays, singles, lane))
                 lanes &= ~(1u << lane);
         }
 }
@@ -323,7 +325,7 @@ FN void walk_in_turns(SCENE_PARAMETERS Findings *found, const MeshRays *rays, Al
    they find there may spare them the rest. */
 enum { FEW_RAYS = HD_LANES / 8 + 1 };
 
-/* What holds for all rays of a bundle, whose directions have the same signs: between which origins
+/* What holds for all rays of a packet, whose directions have the same signs: between which origins
    they begin, for where they enter and leave a box, and the least and greatest inverse of their
    directions. */
 typedef struct {
@@ -332,39 +334,39 @@ typedef struct {
     int entry[3], exit[3]; /* where the bounds begin in a node that they enter and leave by */
 } Beam;
 
-FN void bound_axis(Beam *beam, int axis, vreal origin, vreal inverse, vmask m, const Way *way,
-                   real slack) {
-    real least = least_lane(origin, m), greatest = greatest_lane(origin, m);
-    int negative = way->entry[axis];
+FN void bound_axis(Beam *beam, int axis, vreal origin, vreal inverse, vmask m,
+                   const RayOctant *octant, real slack) {
+    real least = min_lane(origin, m), greatest = max_lane(origin, m);
+    int negative = octant->entry[axis];
     beam->first[axis] = splat(negative ? least - slack : greatest + slack);
     beam->last[axis] = splat(negative ? greatest + slack : least - slack);
-    beam->least[axis] = splat(least_lane(inverse, m));
-    beam->greatest[axis] = splat(greatest_lane(inverse, m));
-    beam->entry[axis] = place_of_bounds(way->entry, way, axis);
-    beam->exit[axis] = place_of_bounds(way->exit, way, axis);
+    beam->least[axis] = splat(min_lane(inverse, m));
+    beam->greatest[axis] = splat(max_lane(inverse, m));
+    beam->entry[axis] = place_of_bounds(octant->entry, octant, axis);
+    beam->exit[axis] = place_of_bounds(octant->exit, octant, axis);
 }
 
-FN Beam beam_of(const MeshRays *rays, vmask m, const Way *way) {
+FN Beam beam_of(const MeshRays *rays, vmask m, const RayOctant *octant) {
     Vec3 origin = rays->frame.origin, inverse = rays->slabs.inverse;
-    real far_out = greatest_lane(
-        greater(absolute(origin.x), greater(absolute(origin.y), absolute(origin.z))), m);
+    real far_out =
+        max_lane(vmax(absolute(origin.x), vmax(absolute(origin.y), absolute(origin.z))), m);
     /* Twice what ray_slabs allows for each ray, since this rounds otherwise. */
     real slack = (far_out + R(1.0)) * (R(2.0) * ROUNDING_MARGIN);
     Beam beam;
-    bound_axis(&beam, 0, origin.x, inverse.x, m, way, slack);
-    bound_axis(&beam, 1, origin.y, inverse.y, m, way, slack);
-    bound_axis(&beam, 2, origin.z, inverse.z, m, way, slack);
+    bound_axis(&beam, 0, origin.x, inverse.x, m, octant, slack);
+    bound_axis(&beam, 1, origin.y, inverse.y, m, octant, slack);
+    bound_axis(&beam, 2, origin.z, inverse.z, m, octant, slack);
     return beam;
 }
 
 /* No ray of the beam meets the children's bounds of an axis earlier, or later. */
 FN vreal beam_entry(const Beam *beam, GLOBAL const real *bounds, int axis) {
-    vreal way = load_reals(bounds + beam->entry[axis]) - beam->first[axis];
-    return lesser(way * beam->least[axis], way * beam->greatest[axis]);
+    vreal octant = load_reals(bounds + beam->entry[axis]) - beam->first[axis];
+    return vmin(octant * beam->least[axis], octant * beam->greatest[axis]);
 }
 FN vreal beam_exit(const Beam *beam, GLOBAL const real *bounds, int axis) {
-    vreal way = load_reals(bounds + beam->exit[axis]) - beam->last[axis];
-    return greater(way * beam->least[axis], way * beam->greatest[axis]);
+    vreal octant = load_reals(bounds + beam->exit[axis]) - beam->last[axis];
+    return vmax(octant * beam->least[axis], octant * beam->greatest[axis]);
 }
 
 /* Where each ray enters the box of a child, and leaves it. */
@@ -372,23 +374,23 @@ FN vreal ray_entry(const Beam *beam, GLOBAL const real *bounds, const Slabs *sla
     vreal x = multiply_add(splat(bounds[beam->entry[0]]), slabs->inverse.x, slabs->near.x);
     vreal y = multiply_add(splat(bounds[beam->entry[1]]), slabs->inverse.y, slabs->near.y);
     vreal z = multiply_add(splat(bounds[beam->entry[2]]), slabs->inverse.z, slabs->near.z);
-    return greater(greater(x, y), greater(z, splat(R(0.0))));
+    return vmax(vmax(x, y), vmax(z, splat(R(0.0))));
 }
 FN vreal ray_exit(const Beam *beam, GLOBAL const real *bounds, const Slabs *slabs) {
     vreal x = multiply_add(splat(bounds[beam->exit[0]]), slabs->inverse.x, slabs->far.x);
     vreal y = multiply_add(splat(bounds[beam->exit[1]]), slabs->inverse.y, slabs->far.y);
     vreal z = multiply_add(splat(bounds[beam->exit[2]]), slabs->inverse.z, slabs->far.z);
-    return lesser(lesser(x, y), z);
+    return vmin(vmin(x, y), z);
 }
 
 /* The rays of `m`, which all run that way; what they have to walk through alone is put off. */
-FN void walk_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m, const Way *way,
-                  int root, Alone *alone) {
+FN void traverse_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
+                      const RayOctant *octant, int root, SingleRays *singles) {
     int stack[WIDE_STACK(header)];
     vreal stack_near[WIDE_STACK(header)]; /* beyond every limit in lanes that miss */
     real stack_key[WIDE_STACK(header)];
-    Beam beam = beam_of(rays, m, way);
-    vreal furthest = splat(greatest_lane(found->limit, m));
+    Beam beam = beam_of(rays, m, octant);
+    vreal furthest = splat(max_lane(found->limit, m));
     int waiting = 1;
     stack[0] = root;
     stack_near[0] = splat(R(0.0));
@@ -401,29 +403,30 @@ FN void walk_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask 
         if (!bits)
             continue;
         if (FEW_RAYS > 1 && current >= 0 &&
-            (count_bits(bits) < FEW_RAYS || !(bits & ~alone->lanes)) && can_put_off(alone, bits)) {
+            (count_bits(bits) < FEW_RAYS || !(bits & ~singles->lanes)) &&
+            can_queue_single(singles, bits)) {
             for (; bits; bits &= bits - 1) {
                 int lane = lowest_bit(bits);
-                put_off(alone, way, lane, current, lane_real(&stack_near[waiting], lane));
+                queue_single(singles, octant, lane, current, lane_real(&stack_near[waiting], lane));
             }
             continue;
         }
         if (current < 0) {
-            try_triangles(SCENE_ARGUMENTS found, rays, alive, way, ~current >> HD_LEAF_ITEM_BITS,
+            try_triangles(SCENE_ARGUMENTS found, rays, alive, octant, ~current >> HD_LEAF_ITEM_BITS,
                           ~current & HD_LEAF_ITEM_MASK);
-            furthest = splat(greatest_lane(found->limit, m));
+            furthest = splat(max_lane(found->limit, m));
             continue;
         }
         GLOBAL const real *bounds = wide_bounds + (uint64)current * WIDE_STRIDE;
-        vreal entry = greater(beam_entry(&beam, bounds, 0), beam_entry(&beam, bounds, 1));
-        entry = greater(entry, greater(beam_entry(&beam, bounds, 2), splat(R(0.0))));
-        vreal leave = lesser(beam_exit(&beam, bounds, 0), beam_exit(&beam, bounds, 1));
-        leave = lesser(leave, lesser(beam_exit(&beam, bounds, 2), furthest));
+        vreal entry = vmax(beam_entry(&beam, bounds, 0), beam_entry(&beam, bounds, 1));
+        entry = vmax(entry, vmax(beam_entry(&beam, bounds, 2), splat(R(0.0))));
+        vreal leave = vmin(beam_exit(&beam, bounds, 0), beam_exit(&beam, bounds, 1));
+        leave = vmin(leave, vmin(beam_exit(&beam, bounds, 2), furthest));
         int bottom = waiting;
         for (uint left = lane_bits(le(entry, leave)); left; left &= left - 1) {
             int child = lowest_bit(left);
             vreal near = ray_entry(&beam, bounds + child, &rays->slabs);
-            vreal far = lesser(ray_exit(&beam, bounds + child, &rays->slabs), found->limit);
+            vreal far = vmin(ray_exit(&beam, bounds + child, &rays->slabs), found->limit);
             vmask meets = alive & le(near, far);
             if (!any_lane(meets))
                 continue;
@@ -437,7 +440,7 @@ FN void walk_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask 
             }
             stack[place] = wide_children[(uint64)current * HD_LANES + (uint64)child];
             prefetch_place(SCENE_ARGUMENTS stack[place]);
-            stack_near[place] = pick(meets, near, splat(REAL_LARGE * R(2.0)));
+            stack_near[place] = vselect(meets, near, splat(REAL_LARGE * R(2.0)));
             stack_key[place] = key;
             waiting++;
         }
@@ -446,24 +449,24 @@ FN void walk_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask 
 
 FN void search_hierarchy(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
                          int root) {
-    int stack[HD_LANES * (WIDE_STACK(header) + MOST_PUT_OFF)];
-    real stack_near[HD_LANES * (WIDE_STACK(header) + MOST_PUT_OFF)];
-    Alone alone;
-    alone.lanes = 0;
+    int stack[HD_LANES * (WIDE_STACK(header) + MAX_SINGLES)];
+    real stack_near[HD_LANES * (WIDE_STACK(header) + MAX_SINGLES)];
+    SingleRays singles;
+    singles.lanes = 0;
     for (int lane = 0; lane < HD_LANES; lane++)
-        alone.waiting[lane] = 0;
-    alone.room = WIDE_STACK(header) + MOST_PUT_OFF;
-    alone.stack = stack;
-    alone.stack_near = stack_near;
+        singles.waiting[lane] = 0;
+    singles.room = WIDE_STACK(header) + MAX_SINGLES;
+    singles.stack = stack;
+    singles.stack_near = stack_near;
     vmask left = m;
     while (any_lane(left)) {
-        Way way;
-        vmask same = same_way(&rays->slabs, rays->last, left, &way);
+        RayOctant octant;
+        vmask same = same_octant(&rays->slabs, rays->last, left, &octant);
         left = left & ~same;
-        walk_mesh(SCENE_ARGUMENTS found, rays, same, &way, root, &alone);
+        traverse_mesh(SCENE_ARGUMENTS found, rays, same, &octant, root, &singles);
     }
     if (FEW_RAYS > 1)
-        walk_in_turns(SCENE_ARGUMENTS found, rays, &alone);
+        traverse_singles_interleaved(SCENE_ARGUMENTS found, rays, &singles);
 }
 
 /* Tries all triangles of a mesh with rays that run any way. */
@@ -472,7 +475,7 @@ FN void try_all(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
     const int axis[3] = {0, 1, 2};
     for (int i = first; i < first + count; i++) {
         TriangleLanes triangle =
-            same_triangle(triangles, i, axis, rays->first_face, rays->first_skin);
+            same_triangle(triangles, i, axis, rays->first_face, rays->first_mesh_material);
         triangle.a = turn(rays->last, triangle.a);
         triangle.b = turn(rays->last, triangle.b);
         triangle.c = turn(rays->last, triangle.c);

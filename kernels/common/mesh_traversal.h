@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Triangles tried with rays of one mesh: which count as met, and what is kept of those: the closest
    hit, or all that filters light. Then what all walks through hierarchies share, and the walk of a
-   single lane; that of bundles is in mesh_walk_wide.h. */
-#ifndef HD_MESH_WALK_H
-#define HD_MESH_WALK_H
+   single lane; that of packets is in mesh_traversal_packet.h. */
+#ifndef HD_MESH_TRAVERSAL_H
+#define HD_MESH_TRAVERSAL_H
 
 #include "triangle.h"
 
@@ -14,19 +14,19 @@ typedef struct {
                               the light */
     vint object, triangle; /* the closest hit's */
     vmask entering;
-    vint octaves[3], rest[3]; /* what filters light, added up (Skin.filter) */
+    vint density[3], rest[3]; /* what filters light, added up (MeshMaterial.filter) */
 } Findings;
 
 /* The rays in a mesh's own coordinates. */
 typedef struct {
-    LastAxis last; /* origins and directions are turned by it (triangle.h) */
+    DominantAxis last; /* origins and directions are turned by it (triangle.h) */
     RayFrame frame;
     Slabs slabs;
     vmask own;     /* leaves this very mesh, */
     vint own_face; /* this face of it, or -1, */
     vmask inside;  /* and on its inner side */
     int object;    /* number of the mesh among the objects */
-    int first_face, first_skin;
+    int first_face, first_mesh_material;
     int is_shadow;     /* all that filters light is looked for, not the closest hit */
     int light_face[2]; /* a light's own faces are not in its way; -1: none */
     real contact_squared;
@@ -63,7 +63,7 @@ FN vmask meet_triangles(const MeshRays *rays, const TriangleLanes *triangle, vre
         met = leave_face(rays, triangle, met, crossing->entering);
     if (!rays->is_shadow) {
         vmask wrong = met & ~(crossing->entering ^ (rays->own & rays->inside));
-        crossing->t = pick(wrong, crossing->t + crossing->slack, crossing->t);
+        crossing->t = vselect(wrong, crossing->t + crossing->slack, crossing->t);
     }
     return met;
 }
@@ -82,38 +82,41 @@ FN vmask is_closer(const Findings *found, vreal t, int object, vint triangle) {
 FN void keep_closest(Findings *found, const MeshRays *rays, const TriangleLanes *triangle,
                      vmask met, const TriangleCrossing *crossing) {
     vmask closer = met & is_closer(found, crossing->t, rays->object, triangle->number);
-    found->limit = pick(closer, crossing->t, found->limit);
-    found->object = pick_int(closer, splat_int(rays->object), found->object);
-    found->triangle = pick_int(closer, triangle->number, found->triangle);
-    found->entering = pick_mask(closer, crossing->entering, found->entering);
+    found->limit = vselect(closer, crossing->t, found->limit);
+    found->object = vselect_int(closer, splat_int(rays->object), found->object);
+    found->triangle = vselect_int(closer, triangle->number, found->triangle);
+    found->entering = vselect_mask(closer, crossing->entering, found->entering);
 }
 
 /* ---- what filters light ---- */
 
-FN void keep_filter(GLOBAL const Skin *skins, Findings *found, const MeshRays *rays,
-                    const TriangleLanes *triangle, vmask met, const TriangleCrossing *crossing) {
+FN void keep_filter(GLOBAL const MeshMaterial *mesh_materials, Findings *found,
+                    const MeshRays *rays, const TriangleLanes *triangle, vmask met,
+                    const TriangleCrossing *crossing) {
     met = met & lt(crossing->t, found->limit) & found->alive;
     met = met & ~(eq_int(triangle->face, splat_int(rays->light_face[0])) |
                   eq_int(triangle->face, splat_int(rays->light_face[1])));
-    vint most = splat_int(HD_OPAQUE_OCTAVES);
+    vint most = splat_int(HD_OPAQUE_DENSITY);
     while (any_lane(met)) {
-        int number = lane_int(&triangle->skin, first_lane(met));
-        GLOBAL const Skin *skin = skins + number;
-        vmask m = met & eq_int(triangle->skin, splat_int(number));
+        int number = lane_int(&triangle->mesh_material, first_lane(met));
+        GLOBAL const MeshMaterial *mesh_material = mesh_materials + number;
+        vmask m = met & eq_int(triangle->mesh_material, splat_int(number));
         met = lanes_after(met, m);
         for (int channel = 0; channel < 3; channel++) {
-            vint more = pick_int(crossing->entering, splat_int(skin->filter[0][channel]),
-                                 splat_int(skin->filter[1][channel]));
-            vint rest = pick_int(crossing->entering, splat_int(skin->filter_rest[0][channel]),
-                                 splat_int(skin->filter_rest[1][channel]));
-            rest = found->rest[channel] + pick_int(m, rest, splat_int(0));
-            vint sum = found->octaves[channel] + pick_int(m, more, splat_int(0)) +
-                       (rest >> HD_OCTAVE_BITS);
-            found->octaves[channel] = pick_int(lt_int(sum, most), sum, most);
-            found->rest[channel] = rest & (HD_OCTAVE - 1);
+            vint more =
+                vselect_int(crossing->entering, splat_int(mesh_material->filter[0][channel]),
+                            splat_int(mesh_material->filter[1][channel]));
+            vint rest =
+                vselect_int(crossing->entering, splat_int(mesh_material->filter_rest[0][channel]),
+                            splat_int(mesh_material->filter_rest[1][channel]));
+            rest = found->rest[channel] + vselect_int(m, rest, splat_int(0));
+            vint sum = found->density[channel] + vselect_int(m, more, splat_int(0)) +
+                       (rest >> HD_DENSITY_BITS);
+            found->density[channel] = vselect_int(lt_int(sum, most), sum, most);
+            found->rest[channel] = rest & (HD_DENSITY_ONE - 1);
         }
-        vint opaque = pick_int(crossing->entering, splat_int(skin->filter[0][3]),
-                               splat_int(skin->filter[1][3]));
+        vint opaque = vselect_int(crossing->entering, splat_int(mesh_material->filter[0][3]),
+                                  splat_int(mesh_material->filter[1][3]));
         found->alive = found->alive & ~(m & lt_int(splat_int(0), opaque));
     }
 }
@@ -127,45 +130,45 @@ FN void keep_crossing(SCENE_PARAMETERS Findings *found, const MeshRays *rays,
     if (!any_lane(met))
         return;
     if (rays->is_shadow)
-        keep_filter(skins, found, rays, triangle, met, &crossing);
+        keep_filter(mesh_materials, found, rays, triangle, met, &crossing);
     else
         keep_closest(found, rays, triangle, met, &crossing);
 }
 
 /* ---- which way rays run ---- */
 
-/* Which way rays run: what bundles have in common that share a walk. */
+/* Which way rays run: what packets have in common that share a walk. */
 typedef struct {
     int axis[3];           /* of the mesh, the one nearest to the rays last */
     int entry[3], exit[3]; /* of a box they enter by the lower (0) or the upper bound of each */
     int backward;          /* a bit for each axis of the mesh: they run against it */
-} Way;
+} RayOctant;
 
 /* The lanes of `m` whose rays run the same way as the first one's. */
-FN vmask same_way(const Slabs *slabs, LastAxis last, vmask m, Way *way) {
+FN vmask same_octant(const Slabs *slabs, DominantAxis last, vmask m, RayOctant *octant) {
     int lane = first_lane(m);
     int x = (int)(lane_bits(last.x) >> lane & 1), y = (int)(lane_bits(last.y) >> lane & 1);
     m = m & (x ? last.x : ~last.x) & (y ? last.y : ~last.y);
-    way->backward = 0;
+    octant->backward = 0;
     for (int i = 0; i < 3; i++) {
         vmask against = slabs->negative[i];
         int negative = (int)(lane_bits(against) >> lane & 1);
         m = m & (negative ? against : ~against);
-        way->axis[i] = (i + (x ? 1 : y ? 2 : 0)) % 3;
-        way->entry[i] = negative;
-        way->exit[i] = !negative;
-        way->backward |= negative << way->axis[i];
+        octant->axis[i] = (i + (x ? 1 : y ? 2 : 0)) % 3;
+        octant->entry[i] = negative;
+        octant->exit[i] = !negative;
+        octant->backward |= negative << octant->axis[i];
     }
     return m;
 }
 
 /* Tries `count` triangles, one at least, with rays that run one way. */
 FN void try_triangles(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
-                      const Way *way, int first, int count) {
+                      const RayOctant *octant, int first, int count) {
     int i = first;
     do {
         TriangleLanes triangle =
-            same_triangle(triangles, i, way->axis, rays->first_face, rays->first_skin);
+            same_triangle(triangles, i, octant->axis, rays->first_face, rays->first_mesh_material);
         keep_crossing(SCENE_ARGUMENTS found, rays, &triangle, m);
         i++;
     } while (i < first + count);
@@ -173,24 +176,25 @@ FN void try_triangles(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vm
 
 /* ---- nodes of two children ---- */
 
-FN vreal entry_of_child(GLOBAL const MeshNode *node, const Slabs *slabs, const Way *way,
+FN vreal entry_of_child(GLOBAL const MeshNode *node, const Slabs *slabs, const RayOctant *octant,
                         int child) {
-    real x = node->bounds[way->axis[0]][way->entry[0]][child];
-    real y = node->bounds[way->axis[1]][way->entry[1]][child];
-    real z = node->bounds[way->axis[2]][way->entry[2]][child];
+    real x = node->bounds[octant->axis[0]][octant->entry[0]][child];
+    real y = node->bounds[octant->axis[1]][octant->entry[1]][child];
+    real z = node->bounds[octant->axis[2]][octant->entry[2]][child];
     vreal near = multiply_add(splat(x), slabs->inverse.x, slabs->near.x);
-    near = greater(near, multiply_add(splat(y), slabs->inverse.y, slabs->near.y));
-    near = greater(near, multiply_add(splat(z), slabs->inverse.z, slabs->near.z));
-    return greater(near, splat(R(0.0)));
+    near = vmax(near, multiply_add(splat(y), slabs->inverse.y, slabs->near.y));
+    near = vmax(near, multiply_add(splat(z), slabs->inverse.z, slabs->near.z));
+    return vmax(near, splat(R(0.0)));
 }
 
-FN vreal exit_of_child(GLOBAL const MeshNode *node, const Slabs *slabs, const Way *way, int child) {
-    real x = node->bounds[way->axis[0]][way->exit[0]][child];
-    real y = node->bounds[way->axis[1]][way->exit[1]][child];
-    real z = node->bounds[way->axis[2]][way->exit[2]][child];
+FN vreal exit_of_child(GLOBAL const MeshNode *node, const Slabs *slabs, const RayOctant *octant,
+                       int child) {
+    real x = node->bounds[octant->axis[0]][octant->exit[0]][child];
+    real y = node->bounds[octant->axis[1]][octant->exit[1]][child];
+    real z = node->bounds[octant->axis[2]][octant->exit[2]][child];
     vreal far = multiply_add(splat(x), slabs->inverse.x, slabs->far.x);
-    far = lesser(far, multiply_add(splat(y), slabs->inverse.y, slabs->far.y));
-    return lesser(far, multiply_add(splat(z), slabs->inverse.z, slabs->far.z));
+    far = vmin(far, multiply_add(splat(y), slabs->inverse.y, slabs->far.y));
+    return vmin(far, multiply_add(splat(z), slabs->inverse.z, slabs->far.z));
 }
 
 #if HD_LANES == 1
@@ -206,8 +210,8 @@ FN void search_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmas
     int stack[NODE_STACK(header)];
     vreal stack_near[NODE_STACK(header)];
     int waiting = 0, current = instance->root >= 0 ? instance->root : WHOLE_MESH;
-    Way way;
-    m = same_way(&rays->slabs, rays->last, m, &way);
+    RayOctant octant;
+    m = same_octant(&rays->slabs, rays->last, m, &octant);
     do {
         do {
             if (current == NO_NODE) {
@@ -217,14 +221,14 @@ FN void search_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmas
             }
             if (current >= 0) {
                 GLOBAL const MeshNode *node = mesh_nodes + current;
-                vreal near0 = entry_of_child(node, &rays->slabs, &way, 0);
-                vreal near1 = entry_of_child(node, &rays->slabs, &way, 1);
-                vreal far0 = lesser(exit_of_child(node, &rays->slabs, &way, 0), found->limit);
-                vreal far1 = lesser(exit_of_child(node, &rays->slabs, &way, 1), found->limit);
+                vreal near0 = entry_of_child(node, &rays->slabs, &octant, 0);
+                vreal near1 = entry_of_child(node, &rays->slabs, &octant, 1);
+                vreal far0 = vmin(exit_of_child(node, &rays->slabs, &octant, 0), found->limit);
+                vreal far1 = vmin(exit_of_child(node, &rays->slabs, &octant, 1), found->limit);
                 vmask alive = m & found->alive;
                 int meets0 = any_lane(alive & le(near0, far0));
                 int meets1 = any_lane(alive & le(near1, far1));
-                int last = way.backward >> node->axis & 1 ? 0 : 1; /* further along the rays */
+                int last = octant.backward >> node->axis & 1 ? 0 : 1; /* further along the rays */
                 if (meets0 && meets1) {
                     stack[waiting] = node->child[last];
                     stack_near[waiting] = last ? near1 : near0;
@@ -240,7 +244,7 @@ FN void search_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmas
             count = instance->triangle_count;
         }
         if (current != NO_NODE)
-            try_triangles(SCENE_ARGUMENTS found, rays, m & found->alive, &way, first, count);
+            try_triangles(SCENE_ARGUMENTS found, rays, m & found->alive, &octant, first, count);
         current = NO_NODE;
         waiting = any_lane(m & found->alive) ? waiting : 0;
     } while (waiting > 0);

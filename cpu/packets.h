@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Bundles of several lanes in C, by the vector extension of GCC and Clang, and by intrinsics where
+/* Packets of several lanes in C, by the vector extension of GCC and Clang, and by intrinsics where
    they fill a register of the machine. */
-#ifndef HD_CPU_BUNDLES_H
-#define HD_CPU_BUNDLES_H
+#ifndef HD_CPU_PACKETS_H
+#define HD_CPU_PACKETS_H
 
 #include "kernels/host/shared.h"
 
-/* Whether a bundle fills a register, and what its instructions begin with. */
+/* Whether a packet fills a register, and what its instructions begin with. */
 #if defined(__AVX512DQ__) && HD_LANES * (HD_DOUBLE + 1) == 16
 #define HD_INTRINSIC(name) _mm512_##name
 #define HD_OWN_MASKS
@@ -86,7 +86,7 @@ FN vint load_ints(const int *from) {
 
 #ifdef HD_INTRINSIC
 
-/* ---- bundles that fill a register ---- */
+/* ---- packets that fill a register ---- */
 
 #if HD_DOUBLE
 #define HD_REALS(name) HD_INTRINSIC(name##_pd)
@@ -102,10 +102,10 @@ FN vreal built_in_root(vreal a) {
 }
 
 #define HD_OWN_LESSER
-FN vreal lesser(vreal a, vreal b) {
+FN vreal vmin(vreal a, vreal b) {
     return HD_REALS(min)(a, b);
 }
-FN vreal greater(vreal a, vreal b) {
+FN vreal vmax(vreal a, vreal b) {
     return HD_REALS(max)(a, b);
 }
 
@@ -137,10 +137,10 @@ FN vmask eq_int(vint a, vint b) {
 FN vmask lt_int(vint a, vint b) {
     return HD_COMPARE_INTS(cmplt)((__m512i)a, (__m512i)b);
 }
-FN vreal pick(vmask m, vreal a, vreal b) {
+FN vreal vselect(vmask m, vreal a, vreal b) {
     return HD_REALS(mask_blend)(HD_MASK(m), b, a);
 }
-FN vint pick_int(vmask m, vint a, vint b) {
+FN vint vselect_int(vmask m, vint a, vint b) {
     return (vint)HD_INTS(mask_blend)(HD_MASK(m), (__m512i)b, (__m512i)a);
 }
 FN vmask mask_none(void) {
@@ -160,11 +160,11 @@ FN int any_lane(vmask m) {
     return HD_MASK(m) != 0;
 }
 
-#define HD_OWN_LEAST_LANE
-FN real least_lane(vreal a, vmask m) {
+#define HD_OWN_MIN_LANE
+FN real min_lane(vreal a, vmask m) {
     return HD_REALS(mask_reduce_min)(HD_MASK(m), a);
 }
-FN real greatest_lane(vreal a, vmask m) {
+FN real max_lane(vreal a, vmask m) {
     return HD_REALS(mask_reduce_max)(HD_MASK(m), a);
 }
 
@@ -194,10 +194,10 @@ FN uint lane_bits(vmask m) {
 FN int any_lane(vmask m) {
     return lane_bits(m) != 0;
 }
-FN vreal pick(vmask m, vreal a, vreal b) {
+FN vreal vselect(vmask m, vreal a, vreal b) {
     return HD_REALS(blendv)(b, a, (vreal)m);
 }
-FN vint pick_int(vmask m, vint a, vint b) {
+FN vint vselect_int(vmask m, vint a, vint b) {
     return (vint)HD_REALS(blendv)((vreal)b, (vreal)a, (vreal)m);
 }
 
@@ -308,10 +308,10 @@ FN int any_lane(vmask m) {
         joined |= m[lane];
     return joined != 0;
 }
-FN vreal pick(vmask m, vreal a, vreal b) {
+FN vreal vselect(vmask m, vreal a, vreal b) {
     return (vreal)((m & (vmask)a) | (~m & (vmask)b));
 }
-FN vint pick_int(vmask m, vint a, vint b) {
+FN vint vselect_int(vmask m, vint a, vint b) {
     return (m & a) | (~m & b);
 }
 

@@ -21,23 +21,23 @@ static char *name_of(int i) {
 
 static void add(int i) {
     write_bytes(name_of(i), "x", 1);
-    hd_leftovers_add_file(name_of(i));
+    hd_cleanup_add_file(name_of(i));
 }
 
 TEST(all_others_are_removed_once) {
     for (int i = 0; i < FILES; i++)
         add(i);
     for (int i = 1; i < FILES; i += 2) {
-        hd_leftovers_forget_file(name_of(i));
-        hd_leftovers_forget_file("none");
+        hd_cleanup_forget_file(name_of(i));
+        hd_cleanup_forget_file("none");
     }
     for (int i = FILES; i < FILES + FILES / 2; i++) /* which take the free places */
         add(i);
-    hd_leftovers_remove();
+    hd_cleanup_remove();
     assert_int_equal(count_entries("."), FILES / 2);
     assert_int_equal(access("1.tmp", F_OK), 0);
     write_bytes("0.tmp", "another's", 9);
-    hd_leftovers_remove();
+    hd_cleanup_remove();
     assert_int_equal(access("0.tmp", F_OK), 0);
 }
 
@@ -47,12 +47,12 @@ TEST(names_without_room_are_not_remembered) {
     memcpy(path, ".", 1);
     memcpy(path + HD_MAX_PATH - 4, "long", 5);
     write_bytes("long", "x", 1);
-    hd_leftovers_add_file(path);
-    hd_leftovers_remove();
+    hd_cleanup_add_file(path);
+    hd_cleanup_remove();
     assert_int_equal(access("long", F_OK), 0);
     memcpy(path + HD_MAX_PATH - 5, "long", 5);
-    hd_leftovers_add_file(path);
-    hd_leftovers_remove();
+    hd_cleanup_add_file(path);
+    hd_cleanup_remove();
     assert_int_not_equal(access("long", F_OK), 0);
 }
 
@@ -72,11 +72,11 @@ TEST(groups_are_killed_unless_they_are_forgotten) {
             for (;;)
                 pause();
         assert_int_equal(setpgid(groups[i], groups[i]), 0);
-        hd_leftovers_add_group(groups[i]);
+        hd_cleanup_add_group(groups[i]);
     }
-    hd_leftovers_forget_group(groups[GROUPS - 1]);
-    hd_leftovers_forget_group(groups[0]);
-    hd_leftovers_remove();
+    hd_cleanup_forget_group(groups[GROUPS - 1]);
+    hd_cleanup_forget_group(groups[0]);
+    hd_cleanup_remove();
     for (int i = 1; i < GROUPS - 1; i++)
         expect_killed(groups[i]);
     for (int i = 0; i < GROUPS; i += GROUPS - 1) {

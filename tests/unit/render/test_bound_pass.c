@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include <math.h>
 
-#include "render/survey.h"
+#include "render/bound_pass.h"
 #include "unit_test.h"
 
 static double srgb(double v) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "flights.h"
+#include "frames_in_flight.h"
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -11,7 +11,7 @@
 enum { ROUNDS = 5, VIEWS = 2 };
 
 static const char frame_name[] = "everything";
-static const HdFrameWish wishes[ROUNDS] = {
+static const HdFrameRequest requests[ROUNDS] = {
     {.curve = HD_CURVE_SRGB}, {.radiance = true},         {.curve = HD_CURVE_LINEAR},
     {.curve = HD_CURVE_SRGB}, {.curve = HD_CURVE_LINEAR},
 };
@@ -19,7 +19,7 @@ static const HdFrameWish wishes[ROUNDS] = {
 /* One scene seen in two ways, so that no frame can be taken for its neighbour. */
 typedef struct Views {
     HdFrameTables tables[VIEWS];
-    HdFrame alone[VIEWS];
+    HdFrame singles[VIEWS];
 } Views;
 
 static void open_views(Views *views, const Target *target) {
@@ -29,11 +29,11 @@ static void open_views(Views *views, const Target *target) {
     if (hd_golden_build(hd_golden_find(frame_name), &scene, &camera, &error) != HD_OK)
         fail(frame_name, &error);
     for (int i = 0; i < VIEWS; i++) {
-        views->alone[i] = render_scene(target, &scene, &camera, frame_name);
+        views->singles[i] = render_scene(target, &scene, &camera, frame_name);
         if (hd_compile_frame(&views->tables[i], &scene, &camera, target->precision, NULL, &error) !=
             HD_OK)
             fail(frame_name, &error);
-        if (hd_frame_add_rgba(&views->alone[i], &error) != HD_OK)
+        if (hd_frame_add_rgba(&views->singles[i], &error) != HD_OK)
             fail(frame_name, &error);
         camera.right = hd_scale(camera.right, -1.0);
         camera.up = hd_scale(camera.up, -1.0);
@@ -44,26 +44,27 @@ static void open_views(Views *views, const Target *target) {
 static void close_views(Views *views) {
     for (int i = 0; i < VIEWS; i++) {
         hd_frame_tables_free(&views->tables[i]);
-        hd_frame_free(&views->alone[i]);
+        hd_frame_free(&views->singles[i]);
     }
 }
 
 /* Of a frame that arrived as wished for. */
 static bool is_same(const Views *views, int round, HdFrame *frame) {
-    const HdFrame *alone = &views->alone[round % VIEWS];
+    const HdFrame *singles = &views->singles[round % VIEWS];
     size_t pixels = (size_t)frame->width * (size_t)frame->height;
     if (!frame->is_encoded)
-        return hd_frame_hash(frame) == hd_frame_hash(alone);
-    hd_frame_encode(alone, wishes[round].curve);
-    return !wishes[round].radiance && memcmp(frame->rgba, alone->rgba, 4 * pixels) == 0 &&
-           hd_frame_rays(frame) == hd_frame_rays(alone) &&
-           frame->shadow_tests == alone->shadow_tests && frame->clamps == alone->clamps;
+        return hd_frame_hash(frame) == hd_frame_hash(singles);
+    hd_frame_encode(singles, requests[round].curve);
+    return !requests[round].radiance && memcmp(frame->rgba, singles->rgba, 4 * pixels) == 0 &&
+           hd_frame_rays(frame) == hd_frame_rays(singles) &&
+           frame->shadow_tests == singles->shadow_tests && frame->clamps == singles->clamps;
 }
 
 static bool collect(Views *views, HdRenderer *renderer, int round) {
     HdFrame frame;
     HdError error;
-    if (hd_frame_create(&frame, views->alone[0].width, views->alone[0].height, &error) != HD_OK ||
+    if (hd_frame_create(&frame, views->singles[0].width, views->singles[0].height, &error) !=
+            HD_OK ||
         hd_frame_add_rgba(&frame, &error) != HD_OK)
         fail(frame_name, &error);
     if (hd_renderer_collect(renderer, &frame, &error) != HD_OK)
@@ -79,7 +80,7 @@ void check_flights(const Target *target, int *pictures, int *different) {
     HdError error;
     open_views(&views, target);
     for (int round = 0; round < ROUNDS; round++) {
-        if (hd_renderer_submit(target->renderer, &views.tables[round % VIEWS], &wishes[round],
+        if (hd_renderer_submit(target->renderer, &views.tables[round % VIEWS], &requests[round],
                                &error) != HD_OK)
             fail(frame_name, &error);
         if (round == 0)

@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+#include "run/frame_scheduler.h"
+
+#include <math.h>
+
+static bool awaits_gpu(const HdFrameScheduler *scheduler) {
+    for (const HdScheduledWorker *worker = scheduler->list;
+         worker < scheduler->list + scheduler->count; worker++)
+        if (!worker->is_gone && !worker->is_cpu && worker->seconds <= 0.0)
+            return true;
+    return false;
+}
+
+/* When a tracer has finished so many frames more. */
+static double end_of(const HdScheduledWorker *worker, int more, double now) {
+    return fmax(worker->busy_until, now) + more * worker->seconds;
+}
+
+/* Who finishes another frame first, if each has taken as many as `taken` says: -1: nobody. */
+static int first_to_finish(const HdScheduledWorker *list, const int *taken, int count, double now) {
+    int first = -1;
+    double least = 0.0;
+    for (int i = 0; i < count; i++) {
+        if (list[i].is_gone || list[i].seconds <= 0.0)
+            continue;
+        double end = end_of(&list[i], taken[i] + 1, now);
+        if (first < 0 || end < least) {
+            first = i;
+            least = end;
+        }
+    }
+    return first;
+}
+
+static bool is_turn_of(const HdFrameScheduler *scheduler, int number, int left, double now) {
+    const HdScheduledWorker *own = &scheduler->list[number];
+    int taken[HD_MAX_WORKERS] = {0};
+    if (scheduler->count == 1)
+        return true;
+    if (own->is_cpu && awaits_gpu(scheduler))
+        return false;
+    if (own->seconds <= 0.0)
+        return own->count_in_flight == 0;
+    for (int i = 0; i < left; i++) {
+        int first = first_to_finish(scheduler->list, taken, scheduler->count, now);
+        if (first == number)
+            return true;
+        taken[first]++;
+    }
+    return false;
+}
+
+bool hd_scheduler_wants(HdFrameScheduler *scheduler, int number, int left, double now) {
+    pthread_mutex_lock(&scheduler->mutex);
+    bool wanted = is_turn_of(scheduler, number, left, now);
+    pthread_mutex_unlock(&scheduler->mutex);
+    return wanted;
+}
+
+void hd_scheduler_estimate(HdFrameScheduler *scheduler, int number, double seconds) {
+    pthread_mutex_lock(&scheduler->mutex);
+    scheduler->list[number].seconds = seconds;
+    pthread_mutex_unlock(&scheduler->mutex);
+}
+
+void hd_scheduler_leave(HdFrameScheduler *scheduler, int number) {
+    pthread_mutex_lock(&scheduler->mutex);
+    scheduler->list[number].is_gone = true;
+    pthread_mutex_unlock(&scheduler->mutex);
+}
+
+void hd_scheduler_begun(HdFrameScheduler *scheduler, int number, double now) {
+    HdScheduledWorker *worker = &scheduler->list[number];
+    pthread_mutex_lock(&scheduler->mutex);
+    worker->busy_until = end_of(worker, 1, now);
+    worker->count_in_flight++;
+    pthread_mutex_unlock(&scheduler->mutex);
+}
+
+void hd_scheduler_ended(HdFrameScheduler *scheduler, int number, double seconds, double now) {
+    HdScheduledWorker *worker = &scheduler->list[number];
+    pthread_mutex_lock(&scheduler->mutex);
+    if (seconds > 0.0)
+        worker->seconds = worker->seconds > 0.0 ? 0.5 * (worker->seconds + seconds) : seconds;
+    worker->count_in_flight--;
+    worker->busy_until = now + worker->count_in_flight * worker->seconds;
+    pthread_mutex_unlock(&scheduler->mutex);
+}
