@@ -145,8 +145,8 @@ const char *hd_device_unsupported_reason(const HdDevice *device, const HdRenderO
 
 /* Returns the pipeline of `options`, and in place of HD_PIPELINE_AUTO the wavefront on a CPU for a
    scene whose shading has most of the time (docs/performance.md), on a GPU with 64-bit atomics
-   whose launches must be short for deep trees (docs/backends.md, Launches), and else the
-   megakernel. `scene` may be NULL: not known. */
+   whose launches must be short for deep trees (docs/development/backends.md, Pipelines), and else
+   the megakernel. `scene` may be NULL: not known. */
 HdPipeline hd_choose_pipeline(const HdDevice *device, const HdRenderOptions *options,
                               const HdScene *scene);
 

@@ -19,8 +19,8 @@ typedef struct HdNvrtc {
 /* Takes the newest library that compiles for sm_`arch`, one that is not newer than the driver
    (`driver_major`, 0: unknown) before one that is. Looks at the file `path`; if that is NULL, at
    the file that HEDRON_NVRTC names, or at none if it is "off"; else in the folders that
-   docs/backends.md lists. Otherwise the message says what was found and what to install for
-   `device`. */
+   docs/development/backends.md names. Otherwise the message says what was found and what to
+   install for `device`. */
 HdStatus hd_nvrtc_open(HdNvrtc *nvrtc, const char *device, int arch, int driver_major,
                        const char *path, HdError *error);
 void hd_nvrtc_close(HdNvrtc *nvrtc);
