@@ -84,7 +84,7 @@ static json_t *describe_begin(const HdSpan *span) {
     return span->began < 0.0 ? json_null() : json_real(span->began);
 }
 
-/* By the keys of docs/formats.md. */
+/* By the keys of docs/reference/statistics.md. */
 static json_t *describe_spans(const HdFrameTimes *times, json_t *(*describe)(const HdSpan *span)) {
     return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "prepare", describe(&times->prepare),
                      "trace", describe(&times->trace), "copy", describe(&times->copy), "convert",

@@ -14,7 +14,7 @@
    folder ("~", "~/..."; "~name" is a name like others) and not the embedded texture. */
 bool hd_texture_path_is_relative(const char *path);
 
-/* The default scene, JSON (docs/formats.md) of `*size` bytes. */
+/* The default scene, JSON (docs/reference/scene.md) of `*size` bytes. */
 const char *hd_default_scene_text(size_t *size);
 
 /* The scene that people start from, likewise, with comments. */

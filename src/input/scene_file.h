@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a scene file (docs/formats.md) tells, and how it is read. */
+/* What a scene file (docs/reference/scene.md) tells, and how it is read. */
 #ifndef HD_INPUT_SCENE_FILE_H
 #define HD_INPUT_SCENE_FILE_H
 

@@ -124,9 +124,9 @@ bool hd_polygon_cut(const HdVec3 *corners, int count, int32_t (*triangles)[3]);
 enum { HD_OBJ_MAX_LINE = 65000 };
 
 /* Reads the file at `path`, with the MTL files it names, which lie beside it or below. Polygons
-   become triangles. Materials become ours by the table in docs/formats.md: Kd colour (and what
-   passes), Ks specular, Ns shininess, Ka ambient, Ke emission, d or Tf transmission, Ni index of
-   refraction, illum 3 to 9 mirrors with the share Ks; map_Kd texture, whose path begins with the
+   become triangles. Materials become ours by the table in docs/reference/files.md: Kd colour (and
+   what passes), Ks specular, Ns shininess, Ka ambient, Ke emission, d or Tf transmission, Ni index
+   of refraction, illum 3 to 9 mirrors with the share Ks; map_Kd texture, whose path begins with the
    folder of `path`, or with "./"; nobody has looked whether it is there. Materials without
    triangles may be among them. What is not used is told in `notes`, in sentences that begin with a
    path: a library that is missing, wrong lines of libraries, maps of other kinds, values that had

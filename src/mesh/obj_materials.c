@@ -129,8 +129,8 @@ static double index_of(const Notes *notes, const Parameters *from, double transm
                   HD_MAX_INDEX_OF_REFRACTION);
 }
 
-/* Fills all of `material` but its name and its texture, by the table in docs/formats.md, and notes
-   values that it had to change to be legal. */
+/* Fills all of `material` but its name and its texture, by the table in docs/reference/files.md,
+   and notes values that it had to change to be legal. */
 static void make_material(const Parameters *from, HdMeshMaterial *material, const Notes *notes) {
     const HdVec3 diffuse = colour(notes, "Kd", from->Kd, 1.0);
     const HdVec3 specular = colour(notes, "Ks", from->Ks, 1.0);

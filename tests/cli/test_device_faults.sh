@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Devices, drivers and their compilers that fail or hang in the midst of a run (docs/faults.md): what is
+# Devices, drivers and their compilers that fail or hang in the midst of a run (docs/reference/faults.md): what is
 # said, the exit code, and that nothing half-done stays. The drivers are an OpenCL library with a layer
 # that makes its calls fail or tells no times, and the CUDA driver of the tests.
 # shellcheck disable=SC2317 # wait_for calls functions by their names

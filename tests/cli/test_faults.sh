@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# What goes wrong around a run (docs/faults.md): folders that go away, an FFmpeg that hangs, memory and
+# What goes wrong around a run (docs/reference/faults.md): folders that go away, an FFmpeg that hangs, memory and
 # threads that there are not, a signal while everything hangs. A clear sentence, the right exit code, and
 # nothing half-done; or less than was wanted, and a sentence that tells it.
 # shellcheck disable=SC2317 # wait_for calls functions by their names

@@ -76,13 +76,15 @@ else
     echo "not tested: what 'check --json' prints, for there is no jq"
 fi
 rm scenes/both.json
-# Those in the manual, which give no cause for a note either, and those that come with the program.
-awk -v folder="$PWD" '/^```json/ { name = folder "/manual" ++count ".json"; next } /^```/ { name = "" }
-    name != "" { print >name }' "$cli_folder/../../docs/formats.md"
+# Complete scenes in the documents, which give no cause for a note either, and those that come with the program.
+awk -v folder="$PWD" '/^```json/ { text = "\n"; next }
+    /^```/ { if (text ~ /"hedron": 1/) printf "%s", text >(folder "/manual" ++count ".json"); text = "" }
+    text != "" { text = text $0 "\n" }' "$cli_folder"/../../docs/*.md "$cli_folder"/../../docs/reference/*.md
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >teapot.obj # stands for one
 cp scenes/floor.data .
-expect_exit 0 "$hedron" check manual*.json
-expect_stdout_lines 4 'manual.\.json: fine, .*'
+manuals=(manual*.json)
+expect_exit 0 "$hedron" check "${manuals[@]}"
+expect_stdout_lines ${#manuals[@]} 'manual.*\.json: fine, .*'
 rm ./*.*
 ours=("$cli_folder"/../../scenes/*.json)
 expect_exit 0 "$hedron" check "${ours[@]}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""OBJ and MTL by docs/formats.md, smooth normals by docs/model.md; polygons are fans of a corner."""
+"""OBJ and MTL by docs/reference/files.md, smooth normals by docs/model.md; polygons are fans of a corner."""
 import math
 import struct
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Textures by docs/formats.md, of the data format, and their lookup by docs/model.md."""
+"""Textures by docs/reference/files.md, of the data format, and their lookup by docs/model.md."""
 import math
 import struct
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Renders a scene file to a PFM by docs/model.md and docs/formats.md alone: what hedron is compared with.
+"""Renders a scene file to a PFM by docs/model.md and docs/reference/ alone: what hedron is compared with.
 
 It is slow, in double, and knows nothing of how hedron computes. Textures are those of the data format.
 """
