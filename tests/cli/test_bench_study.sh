@@ -170,7 +170,7 @@ expect_stdout_contains ' slower, '
 mkdir results
 sed 's/Made & up/Elsewhere/; s/"date": "[^"]*"/"date": "2020-02-02"/' one/study.json >results/elsewhere.json
 fake_study 0 '' --report --out one --results results
-expect_in one/report.html Elsewhere 2020-02-02 'c:0 (Elsewhere)'
+expect_in one/report.html Elsewhere 2020-02-02 'c:0 of Elsewhere'
 expect_in one/study.csv 'Elsewhere,c:0,'
 cp one/study.json results/elsewhere.json
 fake_study 0 '' --report --out one --results results

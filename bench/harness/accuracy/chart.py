@@ -21,12 +21,13 @@ def error_axis(error):
 
 
 def caption(truth, points, error):
-    words = [f"{word}: {' '.join(point['options'])} ({number(point['ms'], 3)} ms)" for word, point in recommended(points)]
-    made = (f"The reference has {truth['samples']} x {truth['samples']} samples and misses at most "
-            f"{number(truth['missing']['largest'], 2)} of 255; one of a quarter of its samples is off by "
+    words = [f"{word.capitalize()}: {' '.join(point['options'])} takes {number(point['ms'], 3)} ms."
+             for word, point in recommended(points)]
+    words += ["These are the fastest settings at least as good as grids of 2 x 2, 4 x 4 and 8 x 8."] * bool(words)
+    made = (f"The reference has {truth['samples']} x {truth['samples']} samples and an error of at most "
+            f"{number(truth['missing']['largest'], 2)} of 255; a reference of a quarter of the samples differs by "
             f"{number(truth['to_quarter_of_samples'][error], 2)}.")
-    return " ".join([f"The fastest at least as good as grids of 2, 4 and 8: {'; '.join(words)}." if words else "",
-                     made, "Times are medians of frames next to the one that is judged."]).strip()
+    return " ".join([*words, made, "Times are medians of neighbouring frames."])
 
 
 def point_line(name, points, error, **named):
@@ -65,9 +66,9 @@ def fronts(memory):
 
 
 def fronts_caption(limit, drawn):
-    told = [f"{label} comes to {number(these[-1]['rmse'], 3)} in {number(these[-1]['ms'], 3)} ms ({these[-1]['name']})"
+    told = [f"{label} comes to {number(these[-1]['rmse'], 3)} in {number(these[-1]['ms'], 3)} ms ({these[-1]['name']})."
             for label, these in drawn.items()]
-    return (f"{'; '.join(told)}. The chart ends where the error is {ENOUGH_NEARER} times the reference's own, which is "
+    return (f"{' '.join(told)} The chart ends at {ENOUGH_NEARER} times the reference's own error of "
             f"{number(limit / ENOUGH_NEARER, 2)}.")
 
 

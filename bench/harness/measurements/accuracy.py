@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Error against time for many settings, and the targets of accuracy; the study has the chart of each device."""
 import argparse
-import html
 import re
 
 from harness.accuracy import chart, choices, front, settings
 from harness.accuracy.points import SCENE, Points, empty_memory, equal_error, recommended
 from harness.accuracy.targets import SceneTargets
 from harness.chart.lines import lines
+from harness.chart.rows import ms
 from harness.command.bench import Bench
 from harness.measure.numbers import number, spread_text
 from harness.measure.plan import Plan
@@ -202,34 +202,33 @@ def measure(study):
     return None
 
 
-LIMITS = (20, 10, 5, 2, 1)  # of errors for which a setting is told
-GUIDE = 5  # the one that is marked in the chart
-USUAL_GRID = "grid 4"
+LIMITS = (20, 10, 5, 2, 1)  # errors for which the page names a setting
+GUIDE = 5  # the error that the chart marks and the first screen has
 
 
 def panels(device, memory):
-    """The device's front, and its other settings."""
+    """Returns lines of the device's front, and of its other settings."""
     own = [point for point in memory["points"] if point["device"] == device.label and point["rmse"] > 0]
-    title = f"{device.short}, {memory['size'][0]} x {memory['size'][1]}"
+    title = f"{device.name}, {memory['size'][0]} x {memory['size'][1]}"
     others = [point for point in own if not point["on_front"]]
-    return [chart.device_front(own, "rmse", f"{device.title}, best settings", device.place, mark=device.place, panel=title),
+    return [chart.device_front(own, "rmse", "best settings", device.place, mark=device.place, panel=title),
             chart.point_line("other settings", others, "rmse", colour=device.place, mark=device.place + 1, panel=title,
                              joined=False)] if own else []
 
 
 def choice(points, limit):
-    """The fastest setting whose error is no greater; what hedron chooses by itself is none."""
+    """Returns the fastest setting whose error is no greater, without those that hedron chooses by itself."""
     return front.cheapest([point for point in points if point["family"] != settings.CHOSEN], limit)
 
 
-def choice_rows(memory):
-    """For each error the setting, by the fastest device, and what the same takes on each."""
+def choice_rows(memory, names):
+    """Yields for each error the setting that is fastest on any device, and its time on each."""
     labels = list(dict.fromkeys(point["device"] for point in memory["points"]))
-    yield ["RMSE at most", "setting", *(f"ms on {label}" for label in labels)]
+    yield ["RMSE at most", "setting", *(f"ms on {names[label]}" for label in labels)]
     for limit in LIMITS:
         best = choice(memory["points"], limit)
         if best is None:
-            yield [str(limit), "none that was tried", *["-"] * len(labels)]
+            yield [str(limit), "none of those tried", *["-"] * len(labels)]
             return
         same = {point["device"]: point for point in memory["points"] if point["options"] == best["options"]}
         yield [str(limit), " ".join(best["options"]), *(number(same[label]["ms"], 3) if label in same else "-" for label in labels)]
@@ -248,42 +247,43 @@ def fill(section):
                               for point in memory["points"] if point["device"] == device.label]
     for result in section.results:
         for memory in (result["accuracy"] or {}).values():
-            title = f"Which setting, on {result['machine']['name']}, {memory['size'][0]} x {memory['size'][1]}{dagger(result)}"
-            section.shown.append((title, list(choice_rows(memory))))
+            title = f"Fastest settings, {result['machine']['name']}, {memory['size'][0]} x {memory['size'][1]}{dagger(result)}"
+            names = {device.label: device.name for device in found if device.result is result}
+            section.shown.append((title, list(choice_rows(memory, names))))
     if drawn:
-        section.draw(lines, "built-in scene", "Error against time", "Draft, usual and fine are the fastest settings that are at "
-                     "least as good as a plain grid of 2 x 2, 4 x 4 and 8 x 8 samples. Further left is faster, further down is "
-                     "nearer to the truth.", chart.TIME, chart.error_axis("rmse"), drawn, guides={f"error {GUIDE}": GUIDE})
+        section.draw(lines, "built-in scene", "Error against time", f"{best_words(found)}Draft, usual and fine are the fastest "
+                     "settings at least as good as grids of 2 x 2, 4 x 4 and 8 x 8 samples. Further left is faster; further down "
+                     "is nearer to the reference.", chart.TIME, chart.error_axis("rmse"), drawn,
+                     guides={f"error {GUIDE}": GUIDE})
 
 
-def code(options):
-    return f"<code>{html.escape(' '.join(options))}</code>"
+def at_guide(device):
+    """Returns (size, the device's fastest setting at the error GUIDE, or None), or None if it was not measured."""
+    for memory in (device.result["accuracy"] or {}).values():
+        own = [point for point in memory["points"] if point["device"] == device.label]
+        if own:
+            return memory["size"], choice(own, GUIDE)
+    return None
 
 
-def answers(results):
-    """At the error of the chart's mark, and at the time of the usual grid."""
-    found = [(result, memory) for result in results for memory in (result["accuracy"] or {}).values() if memory["points"]]
-    if not found:
-        yield "Accuracy at equal time: <em>missing</em>, for it was measured on no machine here."
-    for result, memory in found:
-        best = choice(memory["points"], GUIDE)
-        if best is None:
-            continue
-        where = f"{answer.BACKENDS[best['device'].split(':')[0]]} of “{html.escape(result['machine']['name'])}”{dagger(result)}"
-        words = (f"For an error of {GUIDE} of 255 take {code(best['options'])}: "
-                 f"{answer.milliseconds('ms_at_error', best['ms'])} for {memory['size'][0]} x {memory['size'][1]} by {where}")
-        own = [point for point in memory["points"] if point["device"] == best["device"]]
-        grid = next((point for point in own if point["name"] == USUAL_GRID), None)
-        if grid:
-            rival = min((point for point in own if point["ms"] <= grid["ms"] and point["family"] != settings.CHOSEN),
-                        key=lambda point: point["rmse"])
-            words += (f"; in the time of a plain grid of 4 x 4, which is off by {answer.figure('rmse_grid', grid['rmse'])}, "
-                      + (f"{code(rival['options'])} is off by {answer.figure('rmse_best', rival['rmse'])}"
-                         if rival["rmse"] < grid["rmse"] else "no setting is nearer"))
-        yield f"{words}."
-        return
-    if found:
-        yield f"For an error of {GUIDE} of 255: <em>missing</em>, for no setting that was tried comes so near."
+def time_words(best, size):
+    return f"{ms(best['ms'])} at {size[0]} x {size[1]}"
+
+
+def best_words(found):
+    """Returns a sentence about the device that needs the least time for a pixel."""
+    told = [(best, size, device.name) for device in found for size, best in filter(None, [at_guide(device)]) if best]
+    if not told:
+        return f"No setting comes to an RMSE of {GUIDE}. "
+    best, size, name = min(told, key=lambda each: each[0]["ms"] / (each[1][0] * each[1][1]))
+    return f"An RMSE of {GUIDE} takes {time_words(best, size)} on {name}, by {' '.join(best['options'])}. "
+
+
+def cells(device):
+    size, best = at_guide(device) or (None, None)
+    absent = "none reaches it" if size else answer.ABSENT
+    yield f"setting for RMSE {GUIDE}", "rmse", best and best["rmse"], " ".join(best["options"]) if best else absent
+    yield "its time", "ms_at_error", best and best["ms"], time_words(best, size) if best else "-"
 
 
 def failures(result):
@@ -295,6 +295,6 @@ def failures(result):
     return found
 
 
-PART = Part(15, "Accuracy: error against time", "Root mean square error of many settings against a reference of dense samples in "
-            "double, by the time of a frame of the built-in scene; see bench/README.md, bench/study accuracy.", measure=measure,
-            fill=fill, failures=failures, answer=answers, lead=3)
+PART = Part(15, "Accuracy: error against time", "Root mean square error (RMSE) of many settings, in steps of 255, and the time of "
+            "a frame of the built-in scene. The reference has dense samples in double.", measure=measure, fill=fill,
+            failures=failures, cells=cells, lead=3)

@@ -33,9 +33,9 @@ def fill(section):
             section.table += [[result["machine"]["name"], label, words(each), number(each["ms"], 3), number(each["ratio"], 3)]
                               for each in measured]
             best = min(measured, key=lambda each: each["ms"])
-            section.notes.append(f"{result['machine']['name']}, {label}: the fastest is {words(best)}, in {number(best['ratio'], 3)} "
-                                 "times the time of what is chosen without tuning.")
+            section.notes.append(f"{words(best)} is the fastest on {label} of {result['machine']['name']}: it takes "
+                                 f"{number(best['ratio'], 3)} times the time of the default.")
 
 
-PART = Part(20, "Tuning", "Times of one frame of the built-in scene by every pipeline, number of lanes and size of groups that the "
-            "device can do; see hedron help tune.", measure=measure, fill=fill)
+PART = Part(20, "Tuning", "Times of a frame of the built-in scene by every pipeline, number of lanes and size of groups that the "
+            "device supports; see hedron help tune.", measure=measure, fill=fill)

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""A part of bench/study, and the section of its page: what all machines measured of the part."""
+"""Parts of bench/study, and their sections of its page: what all machines measured of a part."""
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from harness.chart.axes import Axis, axis_number
 from harness.chart.lines import Line, lines
-from harness.chart.sheet import device_title, plain
+from harness.chart.sheet import model, plain
 from harness.measure.numbers import number, spread_text
 from harness.store.result import machine_words
 
-NAME_LENGTH, MACHINE_LENGTH = 28, 24
-MOST_CLAUSES = 4
+MOST_SENTENCES = 4
+BACKENDS = {"c": "C", "cuda": "CUDA", "opencl": "OpenCL"}
 TOO_LITTLE = "Too little was measured to compare."
 MS = "milliseconds for each frame"
 TIME_AXIS = Axis(MS, True)
@@ -29,22 +29,21 @@ class Part:
     measure: Callable = None
     fill: Callable = None  # fills its section, from the results
     failures: Callable = lambda result: []
-    answer: Callable = None  # gives sentences of HTML for the page's first paragraph, from the results (page/answer.py)
-    lead: int = 9  # its place among those that answer, at the top of the page; the others follow in their order
+    cells: Callable = None  # cells of a device in the page's first table (page/answer.py)
+    answer: Callable = None  # sentences of HTML below that table, from the results
+    lead: int = 9  # place among those that answer, at the top of the page; the others follow in their order
 
 
 @dataclass(frozen=True)
 class Device:
-    """One of one machine, and what it measured of a part; `place` counts through all that differ and gives the colour."""
+    """Device of a machine, and what it measured of a part; `place` counts the different devices and gives the colour."""
     result: dict
     entry: dict
     place: int
     part: str
     label: str
-    title: str  # beside those of the same machine
-    short: str  # in sentences
-    name: str  # of the machine too, where there are several
-    machine: str  # where there are several
+    name: str  # short, and different from all others
+    machine: str  # name of its machine; empty if there is one only
 
     def entries(self, **wanted):
         """The measured ones."""
@@ -55,25 +54,28 @@ class Device:
     def line(self, name=None, points=None, **wanted):
         """Time against what the part varies."""
         points = points or sorted((each["x"], each["summary"]["trace_ms"]) for each in self.entries(**wanted))
-        return Line(name or self.title, points, self.place, 1, self.place, self.short, self.machine)
+        return Line(name or self.name, points, self.place, 1, self.place, self.name, self.machine)
 
 
-def all_devices(results, part):
+def short_name(result, device):
+    """Returns the model and the backend; of CPUs also the number of cores."""
+    backend = "PoCL" if "Portable Computing Language" in device["driver"] else BACKENDS[device["backend"]]
+    return f"{result['machine']['cores']}-core " * device["is_cpu"] + f"{model(device)} ({backend})"
+
+
+def all_devices(results, part=""):
     """`results` are in the order of the page; this machine's, if any, comes first."""
+    runnable = [(result, entry) for result in results for entry in result["devices"] if entry["reason"] is None]
+    names = [short_name(*each) for each in runnable]
     found, places = [], {}
-    for result in results:
-        machine = plain(result["machine"]["name"], MACHINE_LENGTH)
-        for entry in (entry for entry in result["devices"] if entry["reason"] is None):
-            title = device_title(entry)
-            if len(results) == 1:
-                title += dagger(result)
-                names = entry["label"] + dagger(result), title, ""
-            else:
-                names = (f"{entry['label']} ({machine}){dagger(result)}", f"{plain(title, NAME_LENGTH)}, {machine}{dagger(result)}",
-                         f"{machine}{dagger(result)}")
-            known = result["machine"]["cpu"], result["machine"]["cores"], entry["label"], entry["name"]
-            place = places.setdefault(known, len(places))
-            found.append(Device(result, entry, place, part, entry["label"], title, *names))
+    for (result, entry), name in zip(runnable, names):
+        machine = plain(result["machine"]["name"])
+        if names.count(name) > 1:
+            name += f", {entry['label']}" + f" of {machine}" * (len(results) > 1)
+        known = result["machine"]["cpu"], result["machine"]["cores"], entry["label"], entry["name"]
+        place = places.setdefault(known, len(places))
+        found.append(Device(result, entry, place, part, entry["label"], name + dagger(result),
+                            (machine + dagger(result)) * (len(results) > 1)))
     return found
 
 
@@ -190,29 +192,36 @@ def growth(line):
 
 
 def few(told):
-    """As many clauses as a sentence can have."""
-    more = len(told) - MOST_CLAUSES
-    return "; ".join(told[:MOST_CLAUSES]) + (f"; and {more} more in the figures below" if more > 0 else "")
+    """Returns a sentence for each of the first few."""
+    more = len(told) - MOST_SENTENCES
+    return " ".join(f"{sentence(each)}." for each in told[:MOST_SENTENCES]) + (
+        f" The figures below have {more} more." if more > 0 else "")
 
 
-def growth_words(drawn, what, words=axis_number):
-    """How each line grows from end to end."""
-    told = []
-    for line in drawn:
-        if len(line.points) > 1:
-            x, first, last_x, last = growth(line)
-            start = "" if told else f"From {words(x)} to {words(last_x)} {what} a frame takes "
-            told.append(f"{start}{ratio(last / first)} as long on {line.short}")
-    return few(told) + "." if told else "There is one point only."
+def range_words(told):
+    """Returns the least and the most of [(value, name of device)]."""
+    words = [f"{number(value, 3)} on {name}" for value, name in (min(told), max(told))]
+    return " up to ".join(words[:len(told)])
+
+
+def growth_words(drawn, what="", words=axis_number):
+    """Returns how the lines grow from end to end."""
+    grown = [(line, *growth(line)) for line in drawn if len(line.points) > 1]
+    if not grown:
+        return "There is one point only."
+    _, x, _, last_x, _ = grown[0]
+    told = range_words([(last / first, line.short) for line, _, first, _, last in grown])
+    ends = f"From {words(x)} to {words(last_x)} {what}".rstrip()
+    return f"{ends} the time of a frame grows by a factor of {told}."
 
 
 def best_words(drawn, words=axis_number):
-    """The fastest point of each line."""
+    """Returns the fastest point of each line, in sentences."""
     told = []
     for line in drawn:
         x, spread = min(line.points, key=lambda point: point[1]["median"])
         worst = max(each["median"] for _, each in line.points)
-        told.append(f"{words(x)} on {line.short} (the slowest takes {ratio(worst / spread['median'])} as long)")
+        told.append(f"{words(x)} is fastest on {line.short}: {ratio(worst / spread['median'])} as fast as the slowest")
     return few(told)
 
 

@@ -29,10 +29,10 @@ NAMES = {
     "normalised_epsilon_1e-4": "unit direction, epsilon 1e-4",
     "unnormalised": "whole segment, t < 1",
     "unnormalised_epsilon_1e-4": "whole segment, epsilon 1e-4 of it",
-    "ours_solids": "ours, half-spaces",
-    "ours_triangles": "ours, triangles",
-    "ours": "ours",
-    CHECK: "ours, in double",
+    "ours_solids": "hedron's half-spaces",
+    "ours_triangles": "hedron's triangles",
+    "ours": "hedron",
+    CHECK: "hedron in double",
 }
 
 # What counts as wrong, and of how many.

@@ -49,7 +49,7 @@ def ours_words(counts, study, cases, what):
         these = methods.select(counts, study, cases, method)
         if these:
             wrong, tried = methods.tally(these, what)
-            name = methods.NAMES[method].removeprefix("ours, ").replace("ours", "").strip()
+            name = methods.NAMES[method].removeprefix("hedron").removeprefix("'s ")
             said.append(f"{name + ' ' if name else ''}{wrong} of {tried}" + (f" ({percent(wrong / tried)})" if wrong else ""))
     return "; ".join(said) or "-"
 
