@@ -35,7 +35,7 @@ def point_line(name, points, error, **named):
 
 
 def chart(result, label, error):
-    """Every setting of a device by its family, the best front, and what is recommended."""
+    """Returns a chart of every setting of a device by its family, the best front, and recommended settings."""
     points = [{**point, error: max(point[error], LEAST)} for point in result["points"] if point["device"] == label]
     device = next(each for each in result["devices"] if each["label"] == label)
     title = f"{ERRORS[error].capitalize()} against time, {device_title(device)}"
@@ -47,7 +47,7 @@ def chart(result, label, error):
 
 
 def device_front(points, error, name, colour, **named):
-    """The best front of a device's points, on which what is recommended is named."""
+    """Returns the best front of a device's points, with labels at recommended settings."""
     words = {}
     for word, point in recommended(points):
         words.setdefault((point["ms"], point[error]), word)
@@ -58,7 +58,7 @@ def device_front(points, error, name, colour, **named):
 # ---- all devices
 
 def fronts(memory):
-    """(least error that is drawn, {device: its front}), of points so far from the truth that the reference can judge them."""
+    """Returns (least error drawn, {device: its front}), of points far enough from the truth for the reference to judge them."""
     limit = ENOUGH_NEARER * own_error(memory["truth"])
     points = [point for point in memory["points"] if point["rmse"] >= max(limit, LEAST)]
     labels = dict.fromkeys(point["device"] for point in points)
@@ -73,7 +73,7 @@ def fronts_caption(limit, drawn):
 
 
 def fronts_chart(about, memory):
-    """The front of each device of a machine, all of the same pictures; None: the reference can judge no point."""
+    """Returns a chart of the fronts of a machine's devices, or None if the reference can judge no point."""
     limit, drawn = fronts(memory)
     if not drawn:
         return None

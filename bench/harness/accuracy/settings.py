@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The settings that bench/study accuracy tries, in families: each goes on where the one before was affordable."""
+"""The settings that bench/study accuracy tries, in families: each continues if the one before was affordable."""
 from dataclasses import dataclass
 
 # So deep a grid without a cut-off can be afforded; deeper costs more still, so ratios to it are no

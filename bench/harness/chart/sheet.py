@@ -60,7 +60,7 @@ def mark_of(place):
 
 
 class Sheet:
-    """`y` is where it is filled so far."""
+    """`y` is the end of what is drawn so far."""
 
     def __init__(self, width):
         self.width, self.y, self.parts = width, 0.0, []
@@ -143,7 +143,7 @@ class Chart:
         return sheet.svg()
 
     def document(self):
-        """With title, scene, machine and caption, for itself."""
+        """Returns SVG with title, scene, machine and caption."""
         sheet = Sheet(WIDE)
         sheet.paragraph(self.title, "strong")
         sheet.paragraph(f"hedron {self.about['hedron']['version']}, {scene_words(self.about)}", "soft")

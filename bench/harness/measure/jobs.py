@@ -41,7 +41,7 @@ def counted_frames(entry):
 
 
 def chosen_runs(entry):
-    """Those that nothing disturbed; all, where there are none."""
+    """Returns the undisturbed runs, or all if there are none."""
     return [run for run in entry["runs"] if not run["noisy"]] or entry["runs"]
 
 
@@ -61,7 +61,7 @@ def summarize(entries):
 
 
 def failures(entries):
-    """What ended a run that should not have."""
+    """Returns reasons of failed runs."""
     return {f"{entry['device']}, {entry.get('part', entry['scene'])}, {' '.join(entry['options'])}: {entry['reason']}"
             for entry in entries if entry["failed"]}
 
@@ -94,8 +94,8 @@ def compare_pictures(entries, devices):
         if len(makers) > 1:
             who = " / ".join(", ".join(sorted(set(each))) for each in makers.values())
             return {"same": False, "compared": len(several),
-                    "sentence": f"THE PICTURES DIFFER, so these times are no result: {scene}, frame {number}: {who}."}
+                    "sentence": f"THE PICTURES DIFFER, so these times do not count: {scene}, frame {number}: {who}."}
     if not several:
-        return {"same": None, "compared": 0, "sentence": "No pictures were compared: none was made in two ways."}
+        return {"same": None, "compared": 0, "sentence": "No pictures were compared, because none was made in two ways."}
     return {"same": True, "compared": len(several),
             "sentence": f"The same bytes from every device and pipeline, in {len(several)} frames made in two ways or more."}

@@ -82,7 +82,7 @@ def run(program, scenes, seconds, rounds, counts=False, limit=None):
     by instruction, which a busy machine makes slow."""
     rates_program = program.beside("bench/hedron_kernel_rates")
     if counts and shutil.which("objdump") is None:
-        raise Problem(3, "there is no objdump to tell instructions apart; its package is binutils")
+        raise Problem(3, "objdump is not installed; its package is binutils")
     done = run_tool(rates_program, "--seconds", seconds, "--rounds", rounds, *(["--count"] if counts else []), *scenes,
                     limit=limit)
     return parse(rates_program, done.stdout)

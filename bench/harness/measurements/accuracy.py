@@ -62,10 +62,10 @@ def point_words(result):
 
 class Accuracy(Bench):
     name = "accuracy"
-    about = "Draw error against time for many settings, and measure the targets of accuracy."
+    about = "Chart error against time for many settings, and measure the targets of accuracy."
     codes = """exit codes: 0 done, 1 pictures differ, have values that are not finite, or a run failed,
 2 wrong usage or input, 3 no device can be timed, 130 interrupted (what was measured is kept)"""
-    quick, repeats = "few settings, small frames, a coarser reference; rough", (3, 1)
+    quick, repeats = "measure few settings with small frames and a coarse reference; figures are rough", (3, 1)
     own_options = (*Bench.own_options, "--size", "--samples", "--depth", "--cutoff", "--aa", "--max-error", "--reference",
                    "--crop", "--precision", "--math", "--geometry", "--pipeline", "--accel", "--divisions")
     parts = ("settings", "fronts", *ON_ALL_SCENES, "choices")
@@ -75,8 +75,8 @@ class Accuracy(Bench):
     def add_options(self, parser):
         super().add_options(parser)
         parser.add_argument("--size", type=size, metavar="WxH",
-                            help="of the frames of the settings (default: 128x96, with --quick 64x48, where all devices "
-                                 "are GPUs 640x360)")
+                            help="size of frames of the part settings, in pixels (default: 128x96; with --quick 64x48; "
+                                 "640x360 if all devices are GPUs)")
 
     def prepare(self):
         plan, scenes = self.plan, sorted((ROOT / "scenes").glob("*.json"))
@@ -115,7 +115,7 @@ class Accuracy(Bench):
                       device=label, **named)
 
     def add_fronts(self):
-        """Of each scene what its chart is made of."""
+        """Fills in the data of each scene's chart."""
         found = {scene: points.memory for scene, points in self.fronts.items() if points.truth.facts}
         for points in (self.fronts[scene] for scene in found):
             points.save()
@@ -144,7 +144,7 @@ class Accuracy(Bench):
             for label in self.runnable:
                 self.add_equal_error(
                     label, "equal_error", "time at equal RMSE, adaptive and bounded depth against grid and full depth",
-                    target=EQUAL_ERROR, note="full depth is 40 without a cut-off, and deeper would take longer still; the median "
+                    target=EQUAL_ERROR, note="full depth is 40 without a cut-off; more depth takes more time; the median "
                                              "over the errors that both have")
                 self.add_equal_error(label, "equal_error_sampling",
                                      "  of adaptive sampling alone, against the grid of the same depth", ("adaptive",), "grid")
@@ -185,7 +185,7 @@ SIZES = {"cpu": {True: (48, 36), False: (64, 48)}, "gpu": {True: (320, 180), Fal
 
 
 def measure(study):
-    """Fills `cpu` and `gpu`, for they render pictures of different sizes; an interrupted study goes on where it was."""
+    """Fills `cpu` and `gpu`, which render pictures of different sizes; an interrupted study continues."""
     arguments, judge = study.arguments, devices.judge(study.runnable.values())
     if judge is None:
         return "No device that is strict has double precision, so there is no reference."
@@ -279,7 +279,7 @@ def best_words(found):
     return f"An RMSE of {GUIDE} takes {time_words(best, size)} on {name}, by {' '.join(best['options'])}. "
 
 
-def cells(device):
+def opening_cells(device):
     size, best = at_guide(device) or (None, None)
     absent = "none reaches it" if size else answer.ABSENT
     yield f"setting for RMSE {GUIDE}", "rmse", best and best["rmse"], " ".join(best["options"]) if best else absent
@@ -297,4 +297,4 @@ def failures(result):
 
 PART = Part(15, "Accuracy: error against time", "Root mean square error (RMSE) of many settings, in steps of 255, and the time of "
             "a frame of the built-in scene. The reference has dense samples in double.", measure=measure, fill=fill,
-            failures=failures, cells=cells, lead=3)
+            failures=failures, cells=opening_cells, lead=3)

@@ -9,7 +9,7 @@ FOUND = (0, 1, 3)  # exit codes: all are right, one is wrong, none is there
 
 
 def measure(study):
-    """Raises Problem where the program fails."""
+    """Raises Problem if the program fails."""
     quick = ["--quick"] if study.arguments.quick else []
     study.news("selftest of every device")
     done = run_tool(study.program.path, "selftest", "--json", *quick, accepted=FOUND)

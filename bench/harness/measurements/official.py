@@ -72,7 +72,7 @@ def fastest(result, is_cpu):
     return min((pair for pair in found if pair[0]), key=lambda pair: pair[0], default=None)
 
 
-def cells(device):
+def opening_cells(device):
     found = frame_ms(device.result, device.label)
     yield "official frame", "frame_ms", found, ms(found) if found else answer.ABSENT
     for name, report in (("cpu", CPU), ("gtx_1050", GPU)):
@@ -120,4 +120,4 @@ def answers(results):
 
 
 PART = Part(1, "Speed: the mean time of a frame", "The official example, beside the figures of the report that defines it. The "
-            "time of a frame includes preparing, tracing and copying.", add, fill=fill, cells=cells, answer=answers, lead=2)
+            "time of a frame includes preparing, tracing and copying.", add, fill=fill, cells=opening_cells, answer=answers, lead=2)

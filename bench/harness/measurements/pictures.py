@@ -38,7 +38,7 @@ class Gallery:
         self.entries.append({"name": name, **more, "png": base64.b64encode(png.read_bytes()).decode("ascii")})
 
     def compare(self, title, name, with_name, **more):
-        """A map of where two pictures differ."""
+        """Adds a map of the differences of two pictures."""
         one, other = self.files[name], self.files[with_name]
         found, heat = pfm.compare(self.study.program, one, other), self.study.folder / "heat.png"
         run_tool(self.study.program.path, "compare", one, other, "--diff", heat)
@@ -69,7 +69,7 @@ class Gallery:
 
 
 def measure(study):
-    """Raises Problem where a run fails."""
+    """Raises Problem if a run fails."""
     judge = devices.judge(study.runnable.values())
     if judge is None:
         return "No device that is strict has double precision, so there is no reference."

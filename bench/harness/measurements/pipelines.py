@@ -26,8 +26,8 @@ def cells(each):
 
 class Pipelines(Bench):
     name = "pipelines"
-    about = "Measure the megakernel against the wavefront, and draw a chart."
-    quick = "few frames, rounds and samples; rough"
+    about = "Measure and chart the wavefront against the megakernel."
+    quick = "measure few frames, rounds and samples; figures are rough"
     own_options = (*Bench.own_options, "--pipeline")
     scene = f"scenes {', '.join(SCENES)}"
     chart_files = keys = ("pipelines",)

@@ -131,8 +131,8 @@ def beside_report(row):
                (False, True, True): "hedron is likely slower there than the report's program; the range has both",
                (False, False, True): "hedron is likely faster there than the report's program; the range has both",
                (False, False, False): "hedron is faster there than the report's program, over the whole range"}[slower]
-    return (f"{OFFICIAL}: the report's program took {number(1e3 * report, 3)} ms on its {GTX_1050['name']}; the model says {usual} times that, "
-            f"{low} to {high}: {verdict}")
+    return (f"{OFFICIAL}: the report's program took {number(1e3 * report, 3)} ms on its {GTX_1050['name']}, and the model predicts "
+            f"{usual} times that, {low} to {high}: {verdict}")
 
 
 class Predict(Command):
@@ -140,8 +140,8 @@ class Predict(Command):
     about = "Predict the frame times of a GTX 1050 from those of another GPU."
 
     def add_options(self, parser):
-        parser.add_argument("file", type=Path, metavar="speed.json", help="what bench/study speed wrote on a machine with a GPU")
-        parser.add_argument("--device", metavar="BACKEND:NUMBER", help="the GPU to start from (default: the first)")
+        parser.add_argument("file", type=Path, metavar="speed.json", help="result of bench/study speed on a machine with a GPU")
+        parser.add_argument("--device", metavar="BACKEND:NUMBER", help="GPU whose times the prediction uses (default: the first)")
 
     def run(self, arguments):
         result = read(arguments.file, "speed")

@@ -127,7 +127,7 @@ def displayed(value, curve):
 
 
 def render(program, folder, output, options, limit):
-    """False where it takes too long."""
+    """Returns False if it takes too long."""
     words = ["render", "scene.json", "--quiet", "--backend", "c", "--frames", "0", *map(str, options), "-o", output]
     try:
         done = subprocess.run([program.path, *words], cwd=folder, capture_output=True, text=True, stdin=subprocess.DEVNULL,
@@ -150,7 +150,7 @@ def write(program, folder, scene):
 
 
 def try_scene(program, folder, seed, options=()):
-    """What is stated of it and what is missing, in steps of 255; None where that took too long."""
+    """Returns the stated and the measured error, in steps of 255; None if that took too long."""
     scene, common, bounded = Maker(seed).make()
     common += options
     write(program, folder, scene)
@@ -184,7 +184,7 @@ class Promise(Bench):
     name = "promise"
     about = "Search random scenes for one whose error is larger than --max-error states."
     codes = "exit codes: 0 no such scene found, 1 one found or a run failed, 2 wrong usage or input, 130 interrupted"
-    quick, repeats = "100 scenes", None
+    quick, repeats = "try 100 scenes", None
     scene = "random scenes"
     keys = ("scenes",)
 
@@ -221,7 +221,7 @@ BENCH = Promise
 # ---- the study's part
 
 def measure(study):
-    """Raises Problem where a run fails."""
+    """Raises Problem if a run fails."""
     found = study.result["promise"] = study.result.get("promise") or []
     for seed in range(len(found) + 1, COUNTS[study.arguments.quick] + 1):
         study.news(f"promise, scene {seed}")
@@ -231,7 +231,7 @@ def measure(study):
 
 
 def fill(section):
-    """Of the first machine that has it: every number is the same everywhere."""
+    """Shows the first machine's that has it, because all give the same numbers."""
     found = next((result for result in section.results if result.get("promise")), None)
     if found is not None:
         lies = len(failures_of(found["promise"]))

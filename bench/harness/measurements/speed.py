@@ -32,7 +32,7 @@ class Speed(Bench):
     """`rates` and `counts` are what kernel_rates gives, or the reason why there is nothing; `film` what film.alone gives, for
     CPU devices or not."""
     name = "speed"
-    about = "Measure every target of speed on every device, and print figures and ratios."
+    about = "Measure every target of speed on every device."
     quick = "few frames and repeats; large pictures on CPUs are smaller, and their times scaled"
     parts = ("headline_film", "headline", "fullhd", "official", "pairs", "searches", "share", "pocl", "math", "pipelines",
              "stage", "model")
@@ -140,14 +140,14 @@ class Speed(Bench):
                     raise Missing(f"the view has no {name}")
                 return [1e-6 * value for value in self.rates["rates"][name]]
             self.plan.row("searches", words, "M/s", figure, device=device, **named)
-        row(f"{what}, bundles that meet a solid", "search:meeting", target=target,
+        row(f"{what}, packets that meet a solid", "search:meeting", target=target,
             note="the function alone; the target is for AVX-512")
         for count in LIGHT_VIEWS:
             row(f"  direct light alone, {count} lights, pairs a CPU-second", f"light:lights-{count}")
 
     def counted(self, name):
         if name not in known(self.counts)["counted"]:
-            raise Missing("the system lets no process be stepped through, so nothing was counted")
+            raise Missing("the system does not allow stepping through a process, so nothing was counted")
         return self.counts["counted"][name]
 
     def cpu_share(self, name, key):
@@ -174,7 +174,7 @@ class Speed(Bench):
                                     ("slots", "  share of the vector issue slots", None)):
                 if device is not None:
                     self.plan.row("share", f"{what}, {loop}", "%", lambda name=name, key=key: self.cpu_share(name, key),
-                                  device=device, target=goal, note="operations counted in the machine code, on the same bundles")
+                                  device=device, target=goal, note="operations counted in the machine code, of the same packets")
         for label in self.gpus():
             for scene in ("default", "lights-1000"):
                 job = self.job(label, scene, "0-3")

@@ -20,10 +20,10 @@ LEAK_RAYS = {True: 10 ** 5, False: 10 ** 8}
 
 class Triangles(Bench):
     name = "triangles"
-    about = "Measure every target of triangles, and draw time against their number."
+    about = "Measure every target of triangles, and chart time against their number."
     codes = """exit codes: 0 done, 1 pictures differ, rays leak, or a run failed,
 2 wrong usage or input, 3 no device can be timed, 130 interrupted (what was measured is kept)"""
-    quick = "few rounds and rays, and no more than 1 M triangles; rough"
+    quick = "measure few rounds and rays and at most 1 M triangles; figures are rough"
     own_options = (*Bench.own_options, "--accel")
     parts = ("sweep", "primary", "leaks")
     scene = "a mirrored, transparent sphere with bumps over a floor, two lights, depth 4"
@@ -33,7 +33,7 @@ class Triangles(Bench):
     def add_options(self, parser):
         super().add_options(parser)
         parser.add_argument("--most", type=whole_number, metavar="N",
-                            help="no object of more triangles (default: 10 M, with --quick 1 M)")
+                            help="triangles of the largest object (default: 10 M, with --quick 1 M)")
         parser.add_argument("--leak-rays", type=whole_number, metavar="N",
                             help="rays of the leak hunt for each backend and precision (default: 1e8, with --quick 1e5)")
 
@@ -80,7 +80,7 @@ class Triangles(Bench):
     # ---- the sweep
 
     def begin_sweep(self, made, brute_most):
-        """Brute force is added where it can be timed in reasonable time: each further count waits for the one before."""
+        """Adds brute force as far as its time allows: each further count waits for the one before."""
         self.triangles = made
         for label in self.runnable:
             for count in made:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What hedron tune finds to be the fastest on each device. It is measured after all else, for later runs take what it found."""
+"""The fastest settings of each device by hedron tune. It runs last, because later runs use what it finds."""
 import json
 
 from harness.measure.numbers import number
@@ -11,7 +11,7 @@ HOW = ("pipeline", "lanes", "block", "registers")
 
 
 def measure(study):
-    """Raises Problem where a run fails."""
+    """Raises Problem if a run fails."""
     found = study.result["tuning"] = study.result.get("tuning") or {}
     for label in study.runnable:
         if label not in found:

@@ -46,13 +46,13 @@ class Device:
     machine: str  # name of its machine; empty if there is one only
 
     def entries(self, **wanted):
-        """The measured ones."""
+        """Returns the measured ones."""
         wanted.update(part=self.part, device=self.label)
         return [entry for entry in self.result["measurements"]
                 if entry["summary"] and all(entry[key] == value for key, value in wanted.items())]
 
     def line(self, name=None, points=None, **wanted):
-        """Time against what the part varies."""
+        """Returns a line of time against what the part varies."""
         points = points or sorted((each["x"], each["summary"]["trace_ms"]) for each in self.entries(**wanted))
         return Line(name or self.name, points, self.place, 1, self.place, self.name, self.machine)
 
@@ -80,7 +80,7 @@ def all_devices(results, part=""):
 
 
 def dagger(result):
-    """Marks what other kernels than this program's measured."""
+    """Returns the mark of figures by other kernels than this program's."""
     return "" if result.get("same_kernels", True) else " \u2020"
 
 
@@ -105,7 +105,7 @@ class Section:
         return [entry for device in self.devices for entry in device.entries()]
 
     def draw(self, kind, scene, title, caption, *arguments, name=None, **named):
-        """A chart of this kind, whose head tells of all machines."""
+        """Draws a chart of this kind; its head names all machines."""
         machines = [(f"{result['machine']['name']}: " if result["machine"]["name"] != result["machine"]["cpu"] else "")
                     + machine_words(result) for result in self.results]
         about = {"hedron": {"version": ", ".join(dict.fromkeys(result["hedron"]["version"] for result in self.results))},
@@ -116,7 +116,7 @@ class Section:
         self.charts[f"study_{name}"] = chart, caption
 
     def tabulate(self, name, what="what"):
-        """A row for each measurement."""
+        """Makes the table, a row for each measurement."""
         self.table = [["device", "machine", what, "milliseconds [quartiles]", "times", "runs", "rejected", "options", "renderer"]]
         for device in self.devices:
             for entry in device.entries():
@@ -127,7 +127,7 @@ class Section:
 
     def sweep(self, title, x_axis, caption=None, *, scene=WHOLE_FRAME, points=lambda line: line, name=lambda x: f"{x:g}",
               bounds=None):
-        """A line for each device, and a table; `bounds` makes what cannot be undercut from the lines."""
+        """Draws a line for each device, and makes a table; `bounds` makes lower bounds from the lines."""
         drawn = [points(device.line()) for device in self.devices]
         words = caption(drawn) if caption else growth_words(drawn, x_axis.words)
         self.draw(lines, scene, title, words, replace(x_axis, ticks=ticks_of(drawn)),
@@ -139,11 +139,11 @@ class Section:
         for scale in sorted({entry["scale"] for entry in entries if entry["scale"] > 1}):
             devices = sorted({entry["device"] for entry in entries if entry["scale"] == scale})
             self.remarks.append(f"Times of {' and '.join(devices)} are those of a picture with 1/{scale} of the samples, "
-                              f"times {scale}, where the figures say so.")
+                              f"times {scale}, if the figures say so.")
 
 
 def sections(parts, results):
-    """One for each part that anybody measured or that has a reason why not."""
+    """Returns a section for each part that a machine measured or has a reason not to."""
     found = []
     for name, part in parts.items():
         section = Section(name, part.title, part.about, results)
@@ -177,7 +177,7 @@ def middle(entry):
 
 
 def relative(entry, base):
-    """A spread, in times of the other's median."""
+    """Returns a spread, in times of the other's median."""
     return {key: value / middle(base) for key, value in entry["summary"]["trace_ms"].items()}
 
 
@@ -186,7 +186,7 @@ def ticks_of(drawn):
 
 
 def growth(line):
-    """(x, y) of both ends of a line."""
+    """Returns (x, y) of both ends of a line."""
     (x, first), (last_x, last) = line.points[0], line.points[-1]
     return x, first["median"], last_x, last["median"]
 
@@ -226,7 +226,7 @@ def best_words(drawn, words=axis_number):
 
 
 def proportional(drawn):
-    """Bounds: as if twice as many took half as long, from the first point of each line."""
+    """Returns bounds: half the time for twice as many, from the first point of each line."""
     ends = [(line, *growth(line)[:2]) for line in drawn if len(line.points) > 1]
     return {"bounds": [[(each, first * x / each) for each, _ in line.points] for line, x, first in ends],
             "bound_name": "bound: in proportion to one"}

@@ -36,12 +36,12 @@ class Interrupted(KeyboardInterrupt):
 
 
 class Program:
-    """A run is disturbed where others took more than `limit`, a share of all usable processors' time."""
+    """Hedron; a run is disturbed if others took more than `limit`, a share of all usable processors' time."""
 
     def __init__(self, path, limit=NEVER):
         self.path, self.limit = path.resolve(), limit
         if not self.path.is_file():
-            raise Problem(2, f"there is no program {path}: build it with ./dev build, or name it with --hedron")
+            raise Problem(2, f"the program {path} does not exist: build it with ./dev build, or name it with --hedron")
         self.version = self._ask("--version").removeprefix("hedron ").strip()
 
     def _ask(self, *words):
@@ -55,7 +55,7 @@ class Program:
 
     @functools.cached_property
     def listed(self):
-        """What `hedron devices --json` prints."""
+        """Returns what `hedron devices --json` prints."""
         try:
             found = json.loads(self._ask("devices", "--json"))
             return {"kernels": found.get("kernels"), "backends": found["backends"]}
@@ -66,7 +66,7 @@ class Program:
         return self.listed["backends"]
 
     def kernels(self):
-        """The hash of its kernels; None: it does not tell."""
+        """Returns the hash of its kernels, or None if it reports none."""
         return self.listed["kernels"]
 
     def beside(self, name):

@@ -10,7 +10,7 @@ EDGES = ("edges", "corners")
 
 
 def power(value):
-    """A power of ten, short enough for many columns."""
+    """Returns a power of ten, short enough for many columns."""
     exponents = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"
     if value in (0, 1):
         return f"{value:g}"
@@ -19,7 +19,7 @@ def power(value):
 
 
 def shares(counts, what, key, places):
-    """Of failures at each of them, the cases together; None where nothing was tried."""
+    """Returns shares of failures at each place, all cases together; None if nothing was tried."""
     return [methods.share([each for each in counts if each[key] == place], what) for place in places]
 
 
@@ -28,7 +28,7 @@ def places_of(counts, key):
 
 
 def blocks(result, study, cases, what, title, words, told):
-    """A chart: a row for each method, columns for sizes at the origin and for distances of what has size 1."""
+    """Returns a chart: a row for each method, columns for sizes at the origin and for distances at size 1."""
     counts = methods.select(result["counts"], study, cases)
     sides = [("scale", [each for each in counts if methods.is_at_origin(each)]),
              ("offset", [each for each in counts if each["scale"] == 1])]
@@ -74,7 +74,7 @@ PANELS = {
 
 
 def precision(result):
-    """A chart: pixels that are off, for each scene."""
+    """Returns a chart of the pixels that differ, for each scene."""
     entries = [each for each in result["precision"] if each["what"] == pictures.FLOAT]
     near, pixels = pictures.total(entries, pictures.FLOAT)
     order = {scene: 1 - pictures.share([each for each in entries if each["scene"] == scene])

@@ -130,7 +130,7 @@ def textures(folder):
 # ---- the default scene, larger and smaller, and elsewhere
 
 def point(place):
-    """Where it is, or where a path begins."""
+    """Position, or begin of a path."""
     if isinstance(place, list):
         return place
     radius, height = [place.get(f"{name}0", 0) + place.get(f"{name}_amplitude", 0) * math.sin(place.get(f"{name}_phase", 0))

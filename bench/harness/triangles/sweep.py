@@ -58,7 +58,7 @@ def caption(points, labels):
         if crossover(*both):
             crossed.append(f"{crossover(*both)} triangles on {label}")
     if crossed:
-        sentences.append(f"Brute force and the hierarchy cross {', '.join(crossed)}.")
+        sentences.append(f"Brute force and the hierarchy take equal time {', '.join(crossed)}.")
     return " ".join([*sentences, "Points are medians; the first frame of each run does not count."])
 
 
