@@ -21,7 +21,7 @@ class Row:
     colour: object = 0  # a device's number, or a name
     bound: float = None  # a mark, such as what cannot be undercut
     group: str = ""  # a heading of rows
-    variant: str = ""  # tells dots of a line apart
+    variant: str = ""  # distinguishes dots of a line
 
 
 def one_value(value):

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from harness.store.result import machine_words, scene_words
 
 WIDE, NARROW, MARGIN = 960, 368, 16  # the margin of charts in files of their own
-LETTER = 0.56  # its width by its height, for no browser is asked
+LETTER = 0.56  # width of a letter by its height, an estimate without a browser
 VENDOR_WORDS = re.compile(r"NVIDIA|AMD|Intel|Processor|CPU|\d+GB|HBM\w*|\d+-Core|@|\d[.\d]*GHz")  # of names of devices
 MARKS = ("circle", "square", "diamond", "triangle", "cross", "down", "plus")
-# Of devices: told apart by everyone, light on dark and dark on light.
+# Colours of devices, distinct for the colour-blind too, on light and on dark paper.
 LIGHT = ("#0072b2", "#c24e00", "#007a5a", "#a3397a", "#5a46b8", "#8a6100", "#5b6570", "#b3202c")
 DARK = ("#5ab4f0", "#ff9350", "#2ccb9a", "#f09ac8", "#a99dff", "#e2b443", "#aeb8c2", "#ff7b80")
 COLOURS = len(LIGHT)

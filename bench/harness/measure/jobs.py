@@ -21,7 +21,7 @@ def job(device, scene, frames, options=(), *, output=PICTURES, warm_up=True, sca
 
 def kept_run(entry, repeat, run):
     """As it is written."""
-    several = len(run["frames"]) > 1 or run["code"] is None  # where it was interrupted there were to be more
+    several = len(run["frames"]) > 1 or run["code"] is None  # an interrupted run would have had more
     frames = [{**{key: frame[key] for key in FRAME_KEYS if key in frame},
                "warm_up": entry["warm_up"] and place == 0 and several,
                "picture": run["digests"].get(frame["frame"])} for place, frame in enumerate(run["frames"])]

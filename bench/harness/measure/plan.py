@@ -170,8 +170,8 @@ class Plan(Rows):
                 and sum(each["repeat"] == repeat for each in (*job["runs"], *job["rejected"])) == tries)
 
     def run_all(self, repeats, is_good=lambda: True):
-        """Every job once a round, so that a slow minute of the machine meets all of them; what was disturbed again at the
-        round's end. Ends where the rounds so far are not good, and tells whether all are."""
+        """Runs every job once a round, so that a slow minute of the machine meets all of them, and disturbed jobs again at
+        the end of the round. Stops if the rounds so far are not good; returns whether all are."""
         for repeat in range(repeats):
             words = f"round {repeat + 1} of {repeats}"
             self.turn(repeat, repeats, words, lambda job: self.is_wanted(job, repeat))

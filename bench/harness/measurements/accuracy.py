@@ -21,7 +21,7 @@ EQUAL_ERROR = Target(1 / 3, 1 / 10, False)
 # GPUs have all of the scene's pixels; smaller frames are too short to be timed there.
 SIZE, SIZE_OF_GPUS = {False: (128, 96), True: (64, 48)}, (640, 360)
 ON_ALL_SCENES = ("arithmetic", "truncation", "adaptive")
-# With the built-in one; of several frames each, for the neighbours of the first give the time.
+# With the built-in one; of several frames each, because the neighbours of the first give the time.
 FRONT_SCENES, FRONT_FAMILIES = ("five", "official", "starter"), ("grid", "adaptive", "fine", "deep", "promise")
 HEAD = ["setting", "device", "ms [q1..q3]", "RMSE", "largest", "M rays", "front", "recommended"]
 

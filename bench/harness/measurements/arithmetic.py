@@ -32,4 +32,4 @@ def fill(section):
     section.tabulate(lambda entry: ", ".join(ARITHMETIC[int(entry["x"])]))
 
 
-PART = Part(12, "Arithmetic", "--math strict and fast, --precision float and double.", add, fill=fill)
+PART = Part(12, "Arithmetic", "Options --math strict and fast, --precision float and double.", add, fill=fill)

@@ -12,8 +12,8 @@ HEAD = ["devices", "frames/s", "least", "most", "times one"]
 
 
 def steady_rate(frames):
-    """Frames a second, as the sum of what each device does between the end of its first frame and that of its last:
-    neither the compiling of kernels nor the wait of the last device for the others is in it. 0 where a device made
+    """Returns frames a second, as the sum of what each device does between the end of its first frame and that of its last:
+    it includes neither the compiling of kernels nor the wait of the last device for the others. 0 if a device made
     fewer than two frames."""
     ends = {}
     for frame in frames:

@@ -37,7 +37,7 @@ def fill(section):
         caption += f" That is {speed_words(middle(base) / middle(entry), 'one thread of the C backend')}."
         plain = next((each for _, each in found if each["series"] == ONE_LANE and each["device"] == base["device"]), None)
         if plain:
-            caption += f" One thread is {speed_words(middle(plain) / middle(base), 'the same that traces ray by ray')}."
+            caption += f" One thread is {speed_words(middle(plain) / middle(base), 'with one lane')}."
     section.draw(rows, "official example, 640 x 480, 4 x 4 samples, depth 10", "One thread against everything else",
                  f"{caption} Factors beside times are against one thread.", MS, drawn, bounds.NAME)
     section.tabulate(lambda entry: entry["series"])

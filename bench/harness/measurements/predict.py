@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Predicts the frame times of a GTX 1050 from those of a GPU that bench/study speed wrote.
 
-A frame is taken for the sum of a fixed time and of work in proportion to the device's lanes times clock:
+The time of a frame is the sum of a fixed time and of work in proportion to the device's lanes times clock:
 
     t = fixed + (a rays x planes + b rays x lights + c shadow tests) / lane rate
 
 The coefficients, none of them negative, are fitted on every other scene by least squares of the relative
-error. The scenes in between tell the error. What the other GPU has less of per lane (caches) or more
-(integer lanes) is not in it, nor are meshes, and pictures of so few samples that a GPU only waits for the deepest tree of
-rays: such scenes are left out."""
+error. The scenes in between show the error. The model has no caches and no ratio of integer to float lanes. It
+excludes meshes, and pictures of so few samples that a GPU only waits for the deepest tree of rays."""
 import math
 from pathlib import Path
 from statistics import median

@@ -48,7 +48,7 @@ def table(parts, results):
     rows = [(device, row(parts, device)) for device in all_devices(results)]
     if not rows:
         return ""
-    rows.sort(key=lambda each: next((value for value, _ in each[1].values() if value is not None), float("inf")))
+    rows.sort(key=lambda each: [*each[1].values(), (None, "")][0][0] or float("inf"))
     columns = [*rows[0][1], FAILS]
     lines = ["<tr>" + "".join(f"<th>{html.escape(column)}</th>" for column in ["device", *columns]) + "</tr>"]
     cells = [(device.name, [*(words for _, words in found.values()), html.escape(failing(device))]) for device, found in rows]

@@ -229,4 +229,4 @@ def proportional(drawn):
     """Returns bounds: half the time for twice as many, from the first point of each line."""
     ends = [(line, *growth(line)[:2]) for line in drawn if len(line.points) > 1]
     return {"bounds": [[(each, first * x / each) for each, _ in line.points] for line, x, first in ends],
-            "bound_name": "bound: in proportion to one"}
+            "bound_name": "bound: half the time for twice as many"}
