@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Measures the switches that are prepared for GPUs, by turns in one process: every switch renders
-   the scene's first frame once a round, and the bytes must be those of the first switch.
+/* Measures the switches prepared for GPUs, interleaved in one process: every switch renders the
+   scene's first frame once a round, and the bytes must be those of the first switch.
 
        hedron_gpu_switches [--backend NAME] [--device NUMBER] [--double] [--rounds N] [--seconds S]
                            [--only NAME,...] [--without NAME,...] [--threads N] SCENE [CHANGE...]
@@ -9,11 +9,11 @@
 
      scene NAME WIDTH HEIGHT RAYS
      time SWITCH MEDIAN Q1 Q3 RATIO      ms of tracing; times that of the first switch
-     kernels SWITCH SECONDS DESCRIPTION  until they were there
+     kernels SWITCH SECONDS DESCRIPTION  time of compiling
      skip SWITCH REASON
 
-   and ends with 0, 1 where bytes differ or something failed, 2 where it is called wrongly, 77 where
-   there is no such device. No round begins after S seconds of rendering (120). */
+   Exit codes: 0 done, 1 bytes differ or something failed, 2 wrong usage, 77 no such device. No
+   round begins after S seconds of rendering (120). */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -8,7 +8,7 @@
      step NAME OFFSET TIMES                  an instruction of SYMBOL, as far from its first one
      uncounted NAME                          the system does not let a process be stepped
 
-   Ends with 0, 1 where a scene cannot be read, 2 where it is called wrongly. */
+   Exit codes: 0 done, 1 a scene cannot be read, 2 wrong usage. */
 #define _GNU_SOURCE
 #include <signal.h>
 #include <stddef.h>
@@ -223,8 +223,8 @@ static double rate_of(const HdMeasure *measure, double seconds) {
 
 /* ---- all measures ---- */
 
-/* The build for this processor, with the lanes that it takes by itself or with one; where there is
-   none, the program ends with a sentence. */
+/* Returns the build for this processor, with its usual lanes or with one lane; ends the program
+   with a message if there is none. */
 static const HdLoops *find_build(bool one_lane) {
     static const HdLoops *const builds[] = {
 #define X(build) &build,
@@ -237,7 +237,7 @@ static const HdLoops *find_build(bool one_lane) {
     for (size_t i = 0; i < sizeof builds / sizeof *builds; i++)
         if (strcmp(builds[i]->instruction_set, best) == 0 && (!one_lane || builds[i]->lanes == 1))
             return builds[i];
-    fprintf(stderr, "the kernels were built for another processor than one with %s\n", best);
+    fprintf(stderr, "no kernels were built for a processor with %s\n", best);
     exit(1);
 }
 

@@ -143,8 +143,8 @@ def test_what_ours_may_never_do_is_a_failure():
           methods.tally(methods.select(good, "paths"), "paths"),
           methods.tally(methods.select(good, "shadows", method="ours_double"), "shadows")), ([], 8 / 9, (4, 9), (9, 24)))
     same(methods.failures(counts(1, 2, 3)), [
-        "crossings, edges, ours, half-spaces: 1 missed of 9", "paths, inside, ours, triangles: 2 lost of 9",
-        "shadows, face_lights, ours: 3 blocked of 9", "shadows, edge_lights, ours, in double: 3 blocked of 9"])
+        "crossings, edges, hedron's half-spaces: 1 missed of 9", "paths, inside, hedron's triangles: 2 lost of 9",
+        "shadows, face_lights, hedron: 3 blocked of 9", "shadows, edge_lights, hedron in double: 3 blocked of 9"])
 
 
 # ---- triangles

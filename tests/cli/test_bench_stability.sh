@@ -24,7 +24,7 @@ def wrong(study, case, method, key, place=None):
 
 # ---- rays, paths and segments
 expect_exit 0 "$bench" stability --hedron "$hedron" --out out --parts crossings,paths,shadows --rays 60
-expect_stdout_contains 'kept so by'
+expect_stdout_contains 'tested by'
 expect_counts '["stability", true, [], true]' \
     'print(json.dumps([r["bench"], r["complete"], r["failures"], len(r["table"]) > 20]))'
 # Ours is never wrong but at the cracks of a mesh, which are there for every method; and of paths in places that are no target.

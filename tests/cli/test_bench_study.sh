@@ -148,7 +148,7 @@ expect_value wrong/study.json 'len(re.findall("class=\"wrong\">.*THE PICTURES DI
 fake_study 1 'broken opencl' --out broken --parts lights
 expect_value broken/study.json '[len(m["lights", "", 1, "c:0"]["runs"]), m["lights", "", 1, "opencl:0"]["reason"]]' '[2, "the card burns"]'
 FAKE_MODE=wrong expect_exit 1 "${frames[@]}" --repeats 1
-expect_stdout_contains 'THE PICTURES DIFFER, so these times are no result: frame 1, cuda:0, c:0 / opencl:0.'
+expect_stdout_contains 'THE PICTURES DIFFER, so these times do not count: frame 1, cuda:0, c:0 / opencl:0.'
 FAKE_MODE='missing opencl' expect_exit 3 "${frames[@]}" --repeats 1 --device opencl
 expect_files out frames.json # no chart of another run stays
 
@@ -170,7 +170,7 @@ expect_stdout_contains ' slower, '
 mkdir results
 sed 's/Made & up/Elsewhere/; s/"date": "[^"]*"/"date": "2020-02-02"/' one/study.json >results/elsewhere.json
 fake_study 0 '' --report --out one --results results
-expect_in one/report.html Elsewhere 2020-02-02 'c:0 (Elsewhere)'
+expect_in one/report.html Elsewhere 2020-02-02 'c:0 of Elsewhere'
 expect_in one/study.csv 'Elsewhere,c:0,'
 cp one/study.json results/elsewhere.json
 fake_study 0 '' --report --out one --results results

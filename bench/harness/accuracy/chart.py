@@ -21,12 +21,13 @@ def error_axis(error):
 
 
 def caption(truth, points, error):
-    words = [f"{word}: {' '.join(point['options'])} ({number(point['ms'], 3)} ms)" for word, point in recommended(points)]
-    made = (f"The reference has {truth['samples']} x {truth['samples']} samples and misses at most "
-            f"{number(truth['missing']['largest'], 2)} of 255; one of a quarter of its samples is off by "
+    words = [f"{word.capitalize()}: {' '.join(point['options'])} takes {number(point['ms'], 3)} ms."
+             for word, point in recommended(points)]
+    words += ["These are the fastest settings at least as good as grids of 2 x 2, 4 x 4 and 8 x 8."] * bool(words)
+    made = (f"The reference has {truth['samples']} x {truth['samples']} samples and an error of at most "
+            f"{number(truth['missing']['largest'], 2)} of 255; a reference of a quarter of the samples differs by "
             f"{number(truth['to_quarter_of_samples'][error], 2)}.")
-    return " ".join([f"The fastest at least as good as grids of 2, 4 and 8: {'; '.join(words)}." if words else "",
-                     made, "Times are medians of frames next to the one that is judged."]).strip()
+    return " ".join([*words, made, "Times are medians of neighbouring frames."])
 
 
 def point_line(name, points, error, **named):
@@ -34,7 +35,7 @@ def point_line(name, points, error, **named):
 
 
 def chart(result, label, error):
-    """Every setting of a device by its family, the best front, and what is recommended."""
+    """Returns a chart of every setting of a device by its family, the best front, and recommended settings."""
     points = [{**point, error: max(point[error], LEAST)} for point in result["points"] if point["device"] == label]
     device = next(each for each in result["devices"] if each["label"] == label)
     title = f"{ERRORS[error].capitalize()} against time, {device_title(device)}"
@@ -46,7 +47,7 @@ def chart(result, label, error):
 
 
 def device_front(points, error, name, colour, **named):
-    """The best front of a device's points, on which what is recommended is named."""
+    """Returns the best front of a device's points, with labels at recommended settings."""
     words = {}
     for word, point in recommended(points):
         words.setdefault((point["ms"], point[error]), word)
@@ -57,7 +58,7 @@ def device_front(points, error, name, colour, **named):
 # ---- all devices
 
 def fronts(memory):
-    """(least error that is drawn, {device: its front}), of points so far from the truth that the reference can judge them."""
+    """Returns (least error drawn, {device: its front}), of points far enough from the truth for the reference to judge them."""
     limit = ENOUGH_NEARER * own_error(memory["truth"])
     points = [point for point in memory["points"] if point["rmse"] >= max(limit, LEAST)]
     labels = dict.fromkeys(point["device"] for point in points)
@@ -65,14 +66,14 @@ def fronts(memory):
 
 
 def fronts_caption(limit, drawn):
-    told = [f"{label} comes to {number(these[-1]['rmse'], 3)} in {number(these[-1]['ms'], 3)} ms ({these[-1]['name']})"
+    told = [f"{label} comes to {number(these[-1]['rmse'], 3)} in {number(these[-1]['ms'], 3)} ms ({these[-1]['name']})."
             for label, these in drawn.items()]
-    return (f"{'; '.join(told)}. The chart ends where the error is {ENOUGH_NEARER} times the reference's own, which is "
+    return (f"{' '.join(told)} The chart ends at {ENOUGH_NEARER} times the reference's own error of "
             f"{number(limit / ENOUGH_NEARER, 2)}.")
 
 
 def fronts_chart(about, memory):
-    """The front of each device of a machine, all of the same pictures; None: the reference can judge no point."""
+    """Returns a chart of the fronts of a machine's devices, or None if the reference can judge no point."""
     limit, drawn = fronts(memory)
     if not drawn:
         return None

@@ -54,7 +54,7 @@ class Choices:
         view = [word for word in choice.view if word not in ("--geometry", "triangles")]
         render(self.plan, self.judge, self.plan.scenes[choice.scene], (*view, *size, "--precision", "double"), reference)
         ways = {AUTOMATIC: (), **{name: (choice.option, value) for name, value in choice.ways.items()}}
-        for repeat in range(repeats):  # in turns
+        for repeat in range(repeats):  # interleaved
             for label in self.plan.runnable:
                 for name, options in ways.items():
                     made = self.job(label, choice, name, (*options, *choice.view, *size))

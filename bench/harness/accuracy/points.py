@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Time and error of every setting on every device; what was measured before is not measured again."""
+"""Time and error of every setting on every device; saved measurements are kept."""
 from pathlib import Path
 from statistics import median
 
@@ -45,7 +45,7 @@ class Points:
     # ---- the work
 
     def first_round(self):
-        """Each setting of a family waits for the one before, which tells how long it would take."""
+        """Runs each setting of a family after the one before, from which its time follows."""
         for label in self.plan.runnable:
             for name, family in settings.settings(self.plan.quick).items():
                 before = None

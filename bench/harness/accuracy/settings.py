@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The settings that bench/study accuracy tries, in families: each goes on where the one before was affordable."""
+"""The settings that bench/study accuracy tries, in families: each continues if the one before was affordable."""
 from dataclasses import dataclass
 
 # So deep a grid without a cut-off can be afforded; deeper costs more still, so ratios to it are no
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 FULL_DEPTH = 40
 BOUNDED = ("--depth", "30", "--cutoff", "0.001")
 LESS_BOUNDED = ("--depth", "30", "--cutoff", "0.003")
-SIDE = 4  # of the grid where something else is tried
+SIDE = 4  # of the grid of families that vary something else
 SIDES, SIDES_QUICKLY = (1, 2, 3, 4, 6, 8), (1, 2, 4)
 DRAFT_USUAL_FINE = {2: "draft", 4: "usual", 8: "fine"}  # sides of the grids that they are as good as
 

@@ -24,7 +24,7 @@ def there(found):
 
 
 class SceneTargets:
-    """`scenes` are the files; all is done on one device, for the bytes are the same everywhere."""
+    """`scenes` are the files; all runs use one device, because the bytes are the same on all."""
 
     def __init__(self, plan, device, scenes):
         self.plan, self.device, self.scenes = plan, device, scenes

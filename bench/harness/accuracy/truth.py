@@ -9,7 +9,7 @@ SIDE_QUICKLY = 16
 # Steps of 255 that may be left out of it: the first one that is affordable, or the last.
 LIMITS = ("0.015625", "0.25", "2")
 SECONDS, SECONDS_QUICKLY = 150, 12
-PART = 16  # of the picture's rows, in its middle, tells how long the whole takes
+PART = 16  # of the picture's rows, in its middle: from it follows the time of the whole
 
 
 def own_error(facts):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Axes: where a value stands, and what is written along them."""
+"""Axes: positions of values, and labels."""
 import math
 from dataclasses import dataclass, field
 
@@ -60,7 +60,7 @@ def linear_ticks(low, high):
 
 
 def limits(values, logarithmic, low=None):
-    """What holds all of them, with a margin; `low` where a linear axis has a beginning."""
+    """Returns limits of all values with a margin; `low` is the begin of a linear axis."""
     values = [value for value in values if value > 0 or not logarithmic]
     if not values:
         return 1.0, 10.0
@@ -72,7 +72,7 @@ def limits(values, logarithmic, low=None):
 
 
 def draw_name(sheet, x, y, name, until):
-    """Below its place, on the sheet; left out where it would touch what ends there. Returns where what is drawn ends."""
+    """Draws a label below its place, unless it would touch the one that ends at `until`; returns the end of the last."""
     half = sheet.length(name) / 2
     x = min(max(x, half), sheet.width - half)
     if x - half < until + 6:
@@ -82,7 +82,7 @@ def draw_name(sheet, x, y, name, until):
 
 
 def draw_below(sheet, scale, y, words, top=None):
-    """An axis at the bottom, with lines up to `top`; names that would touch are left out. Returns where it ends."""
+    """Draws an axis at the bottom, with lines up to `top`, without labels that would touch; returns its end."""
     until = -1e9
     sheet.stroke([(scale.start, y), (scale.end, y)], None, 1, 'class="axis"')
     for name, x in sorted(scale.ticks().items(), key=lambda tick: tick[1]):

@@ -4,13 +4,13 @@ from harness.store.result import write_text
 
 
 def remove_old(folder, patterns):
-    """So that no chart stands beside numbers that are not its own."""
+    """Removes charts of other numbers."""
     for file in (file for pattern in patterns for file in folder.glob(f"{pattern}.svg")):
         file.unlink()
 
 
 def draw(wanted, folder):
-    """Charts by their names; returns lines that tell what became of them."""
+    """Writes charts by their names; returns lines that report them."""
     for name, chart in wanted.items():
         write_text(folder / f"{name}.svg", chart.document())
     return [f"Chart: {folder / name}.svg" for name in wanted]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Dots along a common axis, a row for each name; several of a row are told apart by their marks."""
+"""Dots along a common axis, a row for each name; marks distinguish several dots of a row."""
 import itertools
 from dataclasses import dataclass
 
@@ -21,7 +21,7 @@ class Row:
     colour: object = 0  # a device's number, or a name
     bound: float = None  # a mark, such as what cannot be undercut
     group: str = ""  # a heading of rows
-    variant: str = ""  # tells dots of a line apart
+    variant: str = ""  # distinguishes dots of a line
 
 
 def one_value(value):
@@ -74,7 +74,7 @@ class Painter:
         self.sheet.mark(mark_of(place), middle, y, SIZE, row.colour, said, row.spread["median"] <= 0)
 
     def line(self, rows):
-        """The dots of one name: beside it where there is room, else below it."""
+        """Draws the dots of one name, beside it if the sheet is wide, else below it."""
         sheet, words = self.sheet, " · ".join(row.words for row in rows if row.words)
         deep = max(22, APART * len(self.variants) + 12)
         if sheet.is_narrow:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A sheet of SVG in the making, filled from above, and charts: each can be drawn wide, and narrow for a telephone, in colours
-that follow the reader's light or dark screen."""
+"""A sheet of SVG, filled from above, and charts. Each chart can be drawn wide, and narrow for a telephone. Its colours follow
+the reader's light or dark screen."""
 import html
 import re
 import textwrap
@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from harness.store.result import machine_words, scene_words
 
 WIDE, NARROW, MARGIN = 960, 368, 16  # the margin of charts in files of their own
-LETTER = 0.56  # its width by its height, for no browser is asked
-LABEL_LENGTH = 42
+LETTER = 0.56  # width of a letter by its height, an estimate without a browser
+VENDOR_WORDS = re.compile(r"NVIDIA|AMD|Intel|Processor|CPU|\d+GB|HBM\w*|\d+-Core|@|\d[.\d]*GHz")  # of names of devices
 MARKS = ("circle", "square", "diamond", "triangle", "cross", "down", "plus")
-# Of devices: told apart by everyone, light on dark and dark on light.
+# Colours of devices, distinct for the colour-blind too, on light and on dark paper.
 LIGHT = ("#0072b2", "#c24e00", "#007a5a", "#a3397a", "#5a46b8", "#8a6100", "#5b6570", "#b3202c")
 DARK = ("#5ab4f0", "#ff9350", "#2ccb9a", "#f09ac8", "#a99dff", "#e2b443", "#aeb8c2", "#ff7b80")
 COLOURS = len(LIGHT)
@@ -35,20 +35,23 @@ svg .grid{stroke:var(--grid)}svg .axis{stroke:var(--soft)}svg .guide{stroke:var(
 svg .over{paint-order:stroke;stroke:var(--paper);stroke-width:4px}svg .paper{fill:var(--paper)}""")
 
 
-def plain(words, length):
-    """One line of printable characters, shortened."""
-    clean = " ".join("".join(letter if letter.isprintable() else " " for letter in words).split())
-    return clean if len(clean) <= length else clean[: length - 3] + "..."
+def plain(words):
+    """Returns one line of printable characters."""
+    return " ".join("".join(letter if letter.isprintable() else " " for letter in words).split())
+
+
+def model(device):
+    """Returns the short name of a device: without vendor, sizes, and what PoCL puts before a processor's name."""
+    name = plain(re.sub(r"^(pthread|cpu)-\S+-", "", device["name"]).replace("(R)", "").replace("(TM)", ""))
+    return " ".join(word for word in name.split() if not VENDOR_WORDS.fullmatch(word)) or name
 
 
 def device_title(device):
-    """Without what PoCL puts before a processor's name."""
-    name = re.sub(r"^(pthread|cpu)-\S+-", "", device["name"]).replace("(R)", "").replace("(TM)", "")
-    return f"{device['label']} {plain(name, LABEL_LENGTH)}"
+    return f"{device['label']} {model(device)}"
 
 
 def look(colour):
-    """The class of a device's number, or of a name."""
+    """Returns the class of a device's number, or of a name."""
     return f"k{colour % COLOURS}" if isinstance(colour, int) else colour
 
 
@@ -57,7 +60,7 @@ def mark_of(place):
 
 
 class Sheet:
-    """`y` is where it is filled so far."""
+    """`y` is the end of what is drawn so far."""
 
     def __init__(self, width):
         self.width, self.y, self.parts = width, 0.0, []
@@ -79,7 +82,7 @@ class Sheet:
                  f"{f' class={chr(34)}{kind}{chr(34)}' if kind else ''}>{html.escape(words)}</text>")
 
     def paragraph(self, words, kind="", x=0.0, width=None, y=None):
-        """Returns where it ends."""
+        """Returns the y at which it ends."""
         end = self.y if y is None else y
         for line in self.wrapped(words, width or self.width):
             end += self.line
@@ -89,13 +92,13 @@ class Sheet:
         return end
 
     def stroke(self, points, colour, width=1.0, more=""):
-        """A line through all; without a colour `more` has a class."""
+        """Draws a line through all points; without a colour `more` has a class."""
         path = "M" + " ".join(f"{x:.1f} {y:.1f}" for x, y in points)
         kind = f" class=\"{look(colour)}\" stroke=\"currentColor\" fill=\"none\"" if colour is not None else ""
         self.add(f"<path d=\"{path}\"{kind} stroke-width=\"{width:g}\" {more}/>")
 
     def mark(self, name, x, y, size, colour, told="", hollow=False):
-        """One of MARKS; `told` is shown where it is pointed at."""
+        """Draws one of MARKS; `told` appears when the reader points at it."""
         words = f"<title>{html.escape(told)}</title>" if told else ""
         start = f"class=\"{look(colour)}\" stroke=\"currentColor\" stroke-width=\"1.8\""
         fill = "class=\"paper\"" if hollow and name not in ("cross", "plus") else "fill=\"currentColor\""
@@ -107,16 +110,18 @@ class Sheet:
         self.add(f"<g {start}>{words}{shape}</g>")
 
     def legend(self, entries, x, width, y):
-        """(what draws a sample at a place, words) each, as many in a row as there is room; returns where it ends."""
+        """Draws entries of (what draws a sample at a place, words), as many in a row as fit; returns the y at which it ends."""
         at, sample = x, 30
         y += self.line
         for draw, words in entries:
-            words = plain(words, int((width - sample) / LETTER / self.size))
+            written = self.wrapped(words, width - sample)
             if at > x and at + sample + self.length(words) > x + width:
                 at, y = x, y + self.line
             draw(at + 12, y - 9)
-            self.text(at + sample, y - 5, words)
-            at += sample + self.length(words) + 18
+            for place, each in enumerate(written):
+                self.text(at + sample, y - 5 + place * self.line, each)
+            y += self.line * (len(written) - 1)
+            at += sample + max(map(self.length, written)) + 18
         return y + 4
 
     def svg(self, more="", margin=0):
@@ -138,7 +143,7 @@ class Chart:
         return sheet.svg()
 
     def document(self):
-        """With title, scene, machine and caption, for itself."""
+        """Returns SVG with title, scene, machine and caption."""
         sheet = Sheet(WIDE)
         sheet.paragraph(self.title, "strong")
         sheet.paragraph(f"hedron {self.about['hedron']['version']}, {scene_words(self.about)}", "soft")

@@ -15,11 +15,11 @@ from harness.run.program import NEVER, ROOT, Problem, Program
 from harness.store import result as results
 
 OWN = ("--backend", "--device", "--frames", "--stats", "--output", "-o")
-NEWS_SECONDS = 10  # between lines about progress where there is no terminal
+NEWS_SECONDS = 10  # between lines of progress if the error output is no terminal
 
 
 class News:
-    """What is being done: one line that changes on a terminal, or a line every few seconds."""
+    """Progress: one line that changes on a terminal, or a line every few seconds."""
     told = None
 
     def __call__(self, words, seconds_left=None):
@@ -38,12 +38,12 @@ class News:
 
 
 class Bench(Command):
-    """A measurement. A class of it says what there is to choose; `prepare` puts jobs and rows into the plan, `measure`
-    measures, `fill` puts what came of it into the result, `tables` and `charts` show it."""
+    """A measurement. A subclass declares its options; `prepare` puts jobs and rows into the plan, `measure` measures,
+    `fill` fills in the result, `tables` and `charts` show it."""
     codes = """exit codes: 0 done, 1 pictures differ or a run failed, 2 wrong usage or input,
 3 no device can be timed, 130 interrupted (what was measured is kept)"""
     own_options = OWN
-    quick = "few frames and repeats, smaller pictures; rough"  # None: it has no such option
+    quick = "measure few frames, repeats and samples; figures are rough"  # None: it has no such option
     repeats = (5, 2)  # rounds, slowly and quickly; None: no devices are timed
     parts = ()
     scene = "built-in scene"
@@ -55,17 +55,17 @@ class Bench(Command):
         if self.quick:
             parser.add_argument("--quick", action="store_true", help=self.quick)
         parser.add_argument("--hedron", type=Path, default=ROOT / "build/release/hedron", metavar="PROGRAM",
-                            help="the program to measure, beside which are those of the build (default: build/release/hedron)")
+                            help="program to measure, in the folder of its build (default: build/release/hedron)")
         parser.add_argument("--out", type=Path, default=ROOT / "bench/out", metavar="FOLDER",
-                            help="where the results go (default: bench/out)")
+                            help="folder for the results (default: bench/out)")
         if self.repeats:
             default = f"default: {self.repeats[0]}" + (f", with --quick {self.repeats[1]}" if self.quick else "")
-            parser.add_argument("--repeats", type=whole_number, metavar="N", help=f"rounds of all runs, in turns ({default})")
+            parser.add_argument("--repeats", type=whole_number, metavar="N", help=f"rounds; each runs every job once ({default})")
             parser.add_argument("--device", action="append", default=[], metavar="BACKEND[:NUMBER]",
-                                help="only this backend or device of 'hedron devices'; may be repeated")
+                                help="measure only this backend or device of 'hedron devices'; repeatable")
         if self.parts:
             parser.add_argument("--parts", type=part_names(self.parts), default=list(self.parts), metavar="NAME,...",
-                                help=f"only these; of {', '.join(self.parts)}")
+                                help=f"measure only these parts, of {', '.join(self.parts)}")
 
     def complete(self, arguments):
         if self.repeats:
@@ -124,7 +124,7 @@ class Bench(Command):
         return not set(parts).isdisjoint(self.arguments.parts)
 
     def tried(self, what, measure, *arguments, **named):
-        """What it gives, or the reason why there is nothing."""
+        """Returns what `measure` gives, or the reason why it failed."""
         self.news(what)
         return self.plan.tried(measure, *arguments, **named)
 

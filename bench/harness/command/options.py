@@ -10,7 +10,7 @@ from harness.run.program import ROOT, Problem
 
 
 def whole_number(text):
-    """1 or more; "1e6" will do."""
+    """Returns a number of 1 or more; "1e6" is one."""
     number = float(text)
     if not 1 <= number < math.inf or number != int(number):
         raise ValueError
@@ -31,7 +31,7 @@ def part_names(parts):
 
 
 class Command:
-    """One of the names that bench/study knows, or a program of its own."""
+    """Command line of a measurement or a program."""
     name = ""
     about = ""  # what it does, for --help
     codes = "exit codes: 0 done, 2 wrong usage or input"
@@ -41,13 +41,13 @@ class Command:
         return f"bench/{self.name}" if (ROOT / "bench" / self.name).is_file() else f"bench/study {self.name}"
 
     def add_options(self, parser):
-        """What it takes."""
+        """Adds the options of the command."""
 
     def complete(self, arguments):
-        """Fills in what follows from the options; a ValueError is wrong usage."""
+        """Fills in defaults that depend on other options; a ValueError is wrong usage."""
 
     def run(self, arguments):
-        """The exit code."""
+        """Runs the command and returns its exit code."""
         raise NotImplementedError
 
     def parse(self, words):
@@ -63,7 +63,7 @@ class Command:
         arguments = parser.parse_args(words)
         for option in options:
             if option.split("=")[0] in self.own_options or option.startswith("-o"):
-                parser.error(f"{option} cannot stand after --, for {self.title()} sets it itself")
+                parser.error(f"{option} cannot stand after --, because {self.title()} sets it itself")
         arguments.options = options
         try:
             self.complete(arguments)

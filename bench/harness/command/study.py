@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Every part on every device, and one page of them; what was interrupted goes on where it stopped."""
+"""Every part on every device, and one page of them; an interrupted study can be continued."""
 import hashlib
 import importlib
 import sys
@@ -22,8 +22,8 @@ PARTS = dict(sorted(((name, module.PART) for name, module in MEASUREMENTS.items(
 # What the first word may name; frames and compare are programs of their own.
 NAMES = sorted(name for name, module in MEASUREMENTS.items()
                if hasattr(module, "BENCH") and not (ROOT / "bench" / name).is_file())
-LIMIT = 10  # per cent of all processors' time: a run of which others took more is measured again, if not said
-SLOW_SECONDS, SLOW_ROUNDS = 6, 2  # a whole run of so long is done so often
+LIMIT = 10  # default of --others, in per cent of all processors' time
+SLOW_SECONDS, SLOW_ROUNDS = 6, 2  # rounds of a run that takes longer
 
 
 def percent(text):
@@ -38,8 +38,8 @@ percent.__name__ = "number from 0 to 100"
 
 class Study(Bench):
     name = "study"
-    about = (f"Measure everything on every device, and make one page of it. What was interrupted goes on where it stopped. "
-             f"bench/study NAME measures something else, with options of its own: {', '.join(NAMES)}.")
+    about = (f"Measure everything on every device, and write one page. An interrupted study continues if it is called again. "
+             f"bench/study NAME measures something else, with its own options: {', '.join(NAMES)}.")
     own_options = (*OWN, "--size", "--samples", "--depth", "--lanes", "--threads", "--pipeline", "--block", "--grid", "--accel",
                    "--precision", "--math")
     parts = tuple(PARTS)
@@ -51,19 +51,19 @@ class Study(Bench):
 
     def add_options(self, parser):
         super().add_options(parser)
-        parser.add_argument("--again", action="store_true", help="measure everything anew, whatever was saved")
-        parser.add_argument("--report", action="store_true", help="measure nothing: the page of what was saved")
+        parser.add_argument("--again", action="store_true", help="measure everything again and replace what was saved")
+        parser.add_argument("--report", action="store_true", help="measure nothing; write the page from saved results")
         parser.add_argument("--machine", metavar="NAME", help="what the page calls this machine (default: its processor)")
         parser.add_argument("--others", type=percent, default=LIMIT, metavar="PERCENT",
-                            help="a run is done again, a few times at most, where other programs took more of the processors "
-                                 "(default: 10; 100: never)")
+                            help="repeat a run, a few times at most, if other programs took more of the processors "
+                                 "(default: 10; 100: never repeat)")
         parser.add_argument("--results", type=Path, default=ROOT / "bench/results", metavar="FOLDER",
                             help="results of other machines (default: bench/results)")
 
     def complete(self, arguments):
         super().complete(arguments)
         if arguments.report and arguments.again:
-            raise ValueError("--report measures nothing, so there is no --again")
+            raise ValueError("--report measures nothing, so --again cannot stand with it")
 
     def run(self, arguments):
         return self.report(arguments) if arguments.report else super().run(arguments)
@@ -80,7 +80,7 @@ class Study(Bench):
         plan.save, plan.slow_seconds, plan.slow_rounds = self.save, SLOW_SECONDS, SLOW_ROUNDS
 
     def before(self):
-        """What was saved and may be gone on from, or None."""
+        """Returns saved results that can be continued, or None."""
         if not self.file.is_file() or self.arguments.again:
             return None
         old = results.read_study(self.file)
@@ -88,8 +88,8 @@ class Study(Bench):
             return old
         kept = self.file.with_suffix(".before.json")
         self.file.replace(kept)
-        print(f"What {self.file} has is of another program, another device or another kind of study: all is measured "
-              f"anew. The old one is {kept} now.", file=sys.stderr)
+        print(f"{self.file} is of another program, another device or another kind of study, so everything is measured again. "
+              f"{kept} keeps the old results.", file=sys.stderr)
         return None
 
     def make_plan(self):
@@ -131,7 +131,7 @@ class Study(Bench):
     def report(self, arguments):
         self.arguments, self.file = arguments, arguments.out / "study.json"
         if not self.file.is_file():
-            raise Problem(2, f"there is no {self.file} to make a page of: leave --report away to measure")
+            raise Problem(2, f"{self.file} does not exist; without --report, bench/study measures")
         self.result = results.read_study(self.file)
         self.result["machine"]["name"] = arguments.machine or self.result["machine"]["name"]
         self.kernels = Program(arguments.hedron).kernels() if arguments.hedron.is_file() else None
@@ -139,12 +139,12 @@ class Study(Bench):
         return 0 if code == 130 else code
 
     def is_same(self, result):
-        """Whether this program's kernels measured it; where none is known, what is new counts as its own."""
+        """Returns whether this program's kernels measured it; if no program is known, the newest result counts as its own."""
         kernels, wanted = result["hedron"].get("kernels"), self.kernels or self.result["hedron"].get("kernels")
         return kernels == wanted if wanted else result is self.result
 
     def finish(self):
-        """Everything that follows from what was saved: the page, the charts, the table; the exit code."""
+        """Writes the page, the charts and the table of saved results; returns the exit code."""
         result, out = self.result, self.arguments.out
         jobs.summarize(result["measurements"])
         missing = results.missing_parts(result, PARTS)
@@ -158,11 +158,11 @@ class Study(Bench):
         wrong, told = [[f"{each['machine']['name']}: {each['pictures']['sentence']}" for each in found
                         if (each["pictures"]["same"] is False) is differ] for differ in (True, False)]
         failed = [f"FAILED: {words}" for words in result["failures"]]
-        results.write_text(out / "report.html", html.page(found, drawn, answer.paragraph(PARTS, found), [*wrong, *failed], told))
+        results.write_text(out / "report.html", html.page(found, drawn, answer.opening(PARTS, found), [*wrong, *failed], told))
         results.write_text(out / "study.csv", html.csv_text(found))
         print(*summary_lines(result), "", *failed, *wrong, *told, sep="\n")
         if results.is_unfinished(result):
-            print("Interrupted: the same call goes on where it stopped.")
+            print("Interrupted: the same call continues.")
         print(f"The page: {out / 'report.html'}; all figures: {self.file} and study.csv")
         if result["pictures"]["same"] is False or result["failures"]:
             return 1
@@ -170,7 +170,7 @@ class Study(Bench):
 
 
 def compare(result):
-    """Whether all that must make the same pictures did."""
+    """Returns whether all that must make the same pictures did."""
     return jobs.compare_pictures(result["measurements"], {device["label"]: device for device in result["devices"]})
 
 
@@ -180,7 +180,7 @@ def failures(result):
 
 
 def others(folder, own):
-    """The results of other machines, by their names; not that which was copied from here."""
+    """Returns the results of other machines, sorted by name, without copies of the own one."""
     found = [results.read_study(file) for file in sorted(folder.glob("*.json"))]
     return sorted(({**result, "pictures": compare(result)} for result in found
                    if (result["date"], result["machine"]["name"]) != (own["date"], own["machine"]["name"])),
@@ -188,7 +188,7 @@ def others(folder, own):
 
 
 def summary_lines(result):
-    """For the terminal."""
+    """Returns the table for the terminal."""
     rows = [["part", "device", "what", "trace ms [q1..q3]", "runs"]]
     for entry in result["measurements"]:
         each = entry["summary"]

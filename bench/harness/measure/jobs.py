@@ -21,7 +21,7 @@ def job(device, scene, frames, options=(), *, output=PICTURES, warm_up=True, sca
 
 def kept_run(entry, repeat, run):
     """As it is written."""
-    several = len(run["frames"]) > 1 or run["code"] is None  # where it was interrupted there were to be more
+    several = len(run["frames"]) > 1 or run["code"] is None  # an interrupted run would have had more
     frames = [{**{key: frame[key] for key in FRAME_KEYS if key in frame},
                "warm_up": entry["warm_up"] and place == 0 and several,
                "picture": run["digests"].get(frame["frame"])} for place, frame in enumerate(run["frames"])]
@@ -41,7 +41,7 @@ def counted_frames(entry):
 
 
 def chosen_runs(entry):
-    """Those that nothing disturbed; all, where there are none."""
+    """Returns the undisturbed runs, or all if there are none."""
     return [run for run in entry["runs"] if not run["noisy"]] or entry["runs"]
 
 
@@ -61,7 +61,7 @@ def summarize(entries):
 
 
 def failures(entries):
-    """What ended a run that should not have."""
+    """Returns reasons of failed runs."""
     return {f"{entry['device']}, {entry.get('part', entry['scene'])}, {' '.join(entry['options'])}: {entry['reason']}"
             for entry in entries if entry["failed"]}
 
@@ -94,8 +94,8 @@ def compare_pictures(entries, devices):
         if len(makers) > 1:
             who = " / ".join(", ".join(sorted(set(each))) for each in makers.values())
             return {"same": False, "compared": len(several),
-                    "sentence": f"THE PICTURES DIFFER, so these times are no result: {scene}, frame {number}: {who}."}
+                    "sentence": f"THE PICTURES DIFFER, so these times do not count: {scene}, frame {number}: {who}."}
     if not several:
-        return {"same": None, "compared": 0, "sentence": "No pictures were compared: none was made in two ways."}
+        return {"same": None, "compared": 0, "sentence": "No pictures were compared, because none was made in two ways."}
     return {"same": True, "compared": len(several),
             "sentence": f"The same bytes from every device and pipeline, in {len(several)} frames made in two ways or more."}

@@ -7,7 +7,7 @@ import subprocess
 from harness.run.program import Problem, run_tool
 
 INSTRUCTION = re.compile(r"^\s*([0-9a-f]+):\t(?:(?:notrack|bnd|rep|data16) )?(\S+)\s*([^#<]*)")
-# They bring numbers to where they are used, and compute nothing; but a masked one selects.
+# Instructions that move numbers and compute nothing, except that masked ones select.
 MOVES = ("vmov", "vbroadcast", "vpbroadcast", "vextract", "vinsert", "vperm", "vshuf", "vpshuf", "vunpck",
          "vpunpck", "vgather", "vpgather", "vpinsr", "vpextr", "vzero", "vcompress", "vpcompress")
 
@@ -78,11 +78,11 @@ def parse(program, text):
 
 
 def run(program, scenes, seconds, rounds, counts=False, limit=None):
-    """Raises Problem with the reason where it cannot be, or takes more than `limit` seconds: counting goes instruction
-    by instruction, which a busy machine makes slow."""
+    """Raises Problem with the reason if it fails or takes more than `limit` seconds: counting steps through instructions,
+    slowly on a busy machine."""
     rates_program = program.beside("bench/hedron_kernel_rates")
     if counts and shutil.which("objdump") is None:
-        raise Problem(3, "there is no objdump to tell instructions apart; its package is binutils")
+        raise Problem(3, "objdump is not installed; its package is binutils")
     done = run_tool(rates_program, "--seconds", seconds, "--rounds", rounds, *(["--count"] if counts else []), *scenes,
                     limit=limit)
     return parse(rates_program, done.stdout)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Quartiles, and numbers as they are told."""
+"""Quartiles, and numbers in words."""
 import math
 from statistics import quantiles
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What is measured: jobs of hedron, done in turns, and again what was disturbed; and what rows ask of them."""
+"""The plan: jobs of hedron, interleaved, repeated if disturbed; and the rows that need them."""
 import tempfile
 from pathlib import Path
 from statistics import median
@@ -39,7 +39,7 @@ class Plan(Rows):
     # ---- what is measured
 
     def job(self, device, scene, frames, options=(), **named):
-        """The same one where it was asked for before."""
+        """Returns the same one if it was requested before."""
         wanted = jobs.job(device, scene, frames, (*options, *self.options), **named)
         made = self.made.setdefault(repr(wanted), wanted)
         if made is wanted:
@@ -91,7 +91,7 @@ class Plan(Rows):
         pairs = zip(self.done(short), self.done(long))
         seconds = [(two["wall"] - one["wall"]) / (len(two["frames"]) - len(one["frames"])) for one, two in pairs]
         if seconds and min(seconds) <= 0:
-            raise Missing("the frames are too fast to be told from the noise of two runs")
+            raise Missing("the frames are too fast: two runs differ by more than a frame takes")
         return seconds
 
     def compared(self):
@@ -101,7 +101,7 @@ class Plan(Rows):
         return self.failures | jobs.failures(self.jobs)
 
     def tried(self, measure, *arguments, **named):
-        """What it gives, or the reason why there is nothing; that counts as a failure, but where something is missing."""
+        """Returns what it gives, or the reason why it failed; that counts as a failure unless something is missing."""
         try:
             return measure(*arguments, **named)
         except Problem as problem:
@@ -170,8 +170,8 @@ class Plan(Rows):
                 and sum(each["repeat"] == repeat for each in (*job["runs"], *job["rejected"])) == tries)
 
     def run_all(self, repeats, is_good=lambda: True):
-        """Every job once a round, so that a slow minute of the machine meets all of them; what was disturbed again at the
-        round's end. Ends where the rounds so far are not good, and tells whether all are."""
+        """Runs every job once a round, so that a slow minute of the machine meets all of them, and disturbed jobs again at
+        the end of the round. Stops if the rounds so far are not good; returns whether all are."""
         for repeat in range(repeats):
             words = f"round {repeat + 1} of {repeats}"
             self.turn(repeat, repeats, words, lambda job: self.is_wanted(job, repeat))

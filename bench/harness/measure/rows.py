@@ -20,7 +20,7 @@ NONE = Target(0, 0, False)  # of what must not be at all
 
 
 def known(measured, reason="it was not measured"):
-    """What was measured; raises Missing where there is nothing, or a sentence in its place."""
+    """Returns what was measured; raises Missing if it is nothing or a sentence."""
     if measured is None or isinstance(measured, str):
         raise Missing(measured or reason)
     return measured

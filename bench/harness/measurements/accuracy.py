@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Error against time for many settings, and the targets of accuracy; the study has the chart of each device."""
 import argparse
-import html
 import re
 
 from harness.accuracy import chart, choices, front, settings
 from harness.accuracy.points import SCENE, Points, empty_memory, equal_error, recommended
 from harness.accuracy.targets import SceneTargets
 from harness.chart.lines import lines
+from harness.chart.rows import ms
 from harness.command.bench import Bench
 from harness.measure.numbers import number, spread_text
 from harness.measure.plan import Plan
@@ -21,7 +21,7 @@ EQUAL_ERROR = Target(1 / 3, 1 / 10, False)
 # GPUs have all of the scene's pixels; smaller frames are too short to be timed there.
 SIZE, SIZE_OF_GPUS = {False: (128, 96), True: (64, 48)}, (640, 360)
 ON_ALL_SCENES = ("arithmetic", "truncation", "adaptive")
-# With the built-in one; of several frames each, for the neighbours of the first give the time.
+# With the built-in one; of several frames each, because the neighbours of the first give the time.
 FRONT_SCENES, FRONT_FAMILIES = ("five", "official", "starter"), ("grid", "adaptive", "fine", "deep", "promise")
 HEAD = ["setting", "device", "ms [q1..q3]", "RMSE", "largest", "M rays", "front", "recommended"]
 
@@ -62,10 +62,10 @@ def point_words(result):
 
 class Accuracy(Bench):
     name = "accuracy"
-    about = "Draw error against time for many settings, and measure the targets of accuracy."
+    about = "Chart error against time for many settings, and measure the targets of accuracy."
     codes = """exit codes: 0 done, 1 pictures differ, have values that are not finite, or a run failed,
 2 wrong usage or input, 3 no device can be timed, 130 interrupted (what was measured is kept)"""
-    quick, repeats = "few settings, small frames, a coarser reference; rough", (3, 1)
+    quick, repeats = "measure few settings with small frames and a coarse reference; figures are rough", (3, 1)
     own_options = (*Bench.own_options, "--size", "--samples", "--depth", "--cutoff", "--aa", "--max-error", "--reference",
                    "--crop", "--precision", "--math", "--geometry", "--pipeline", "--accel", "--divisions")
     parts = ("settings", "fronts", *ON_ALL_SCENES, "choices")
@@ -75,8 +75,8 @@ class Accuracy(Bench):
     def add_options(self, parser):
         super().add_options(parser)
         parser.add_argument("--size", type=size, metavar="WxH",
-                            help="of the frames of the settings (default: 128x96, with --quick 64x48, where all devices "
-                                 "are GPUs 640x360)")
+                            help="size of frames of the part settings, in pixels (default: 128x96; with --quick 64x48; "
+                                 "640x360 if all devices are GPUs)")
 
     def prepare(self):
         plan, scenes = self.plan, sorted((ROOT / "scenes").glob("*.json"))
@@ -115,7 +115,7 @@ class Accuracy(Bench):
                       device=label, **named)
 
     def add_fronts(self):
-        """Of each scene what its chart is made of."""
+        """Fills in the data of each scene's chart."""
         found = {scene: points.memory for scene, points in self.fronts.items() if points.truth.facts}
         for points in (self.fronts[scene] for scene in found):
             points.save()
@@ -144,7 +144,7 @@ class Accuracy(Bench):
             for label in self.runnable:
                 self.add_equal_error(
                     label, "equal_error", "time at equal RMSE, adaptive and bounded depth against grid and full depth",
-                    target=EQUAL_ERROR, note="full depth is 40 without a cut-off, and deeper would take longer still; the median "
+                    target=EQUAL_ERROR, note="full depth is 40 without a cut-off; more depth takes more time; the median "
                                              "over the errors that both have")
                 self.add_equal_error(label, "equal_error_sampling",
                                      "  of adaptive sampling alone, against the grid of the same depth", ("adaptive",), "grid")
@@ -185,7 +185,7 @@ SIZES = {"cpu": {True: (48, 36), False: (64, 48)}, "gpu": {True: (320, 180), Fal
 
 
 def measure(study):
-    """Fills `cpu` and `gpu`, for they render pictures of different sizes; an interrupted study goes on where it was."""
+    """Fills `cpu` and `gpu`, which render pictures of different sizes; an interrupted study continues."""
     arguments, judge = study.arguments, devices.judge(study.runnable.values())
     if judge is None:
         return "No device that is strict has double precision, so there is no reference."
@@ -202,34 +202,33 @@ def measure(study):
     return None
 
 
-LIMITS = (20, 10, 5, 2, 1)  # of errors for which a setting is told
-GUIDE = 5  # the one that is marked in the chart
-USUAL_GRID = "grid 4"
+LIMITS = (20, 10, 5, 2, 1)  # errors for which the page names a setting
+GUIDE = 5  # the error that the chart marks and the first screen has
 
 
 def panels(device, memory):
-    """The device's front, and its other settings."""
+    """Returns lines of the device's front, and of its other settings."""
     own = [point for point in memory["points"] if point["device"] == device.label and point["rmse"] > 0]
-    title = f"{device.short}, {memory['size'][0]} x {memory['size'][1]}"
+    title = f"{device.name}, {memory['size'][0]} x {memory['size'][1]}"
     others = [point for point in own if not point["on_front"]]
-    return [chart.device_front(own, "rmse", f"{device.title}, best settings", device.place, mark=device.place, panel=title),
+    return [chart.device_front(own, "rmse", "best settings", device.place, mark=device.place, panel=title),
             chart.point_line("other settings", others, "rmse", colour=device.place, mark=device.place + 1, panel=title,
                              joined=False)] if own else []
 
 
 def choice(points, limit):
-    """The fastest setting whose error is no greater; what hedron chooses by itself is none."""
+    """Returns the fastest setting whose error is no greater, without those that hedron chooses by itself."""
     return front.cheapest([point for point in points if point["family"] != settings.CHOSEN], limit)
 
 
-def choice_rows(memory):
-    """For each error the setting, by the fastest device, and what the same takes on each."""
+def choice_rows(memory, names):
+    """Yields for each error the setting that is fastest on any device, and its time on each."""
     labels = list(dict.fromkeys(point["device"] for point in memory["points"]))
-    yield ["RMSE at most", "setting", *(f"ms on {label}" for label in labels)]
+    yield ["RMSE at most", "setting", *(f"ms on {names[label]}" for label in labels)]
     for limit in LIMITS:
         best = choice(memory["points"], limit)
         if best is None:
-            yield [str(limit), "none that was tried", *["-"] * len(labels)]
+            yield [str(limit), "none of those tried", *["-"] * len(labels)]
             return
         same = {point["device"]: point for point in memory["points"] if point["options"] == best["options"]}
         yield [str(limit), " ".join(best["options"]), *(number(same[label]["ms"], 3) if label in same else "-" for label in labels)]
@@ -248,42 +247,43 @@ def fill(section):
                               for point in memory["points"] if point["device"] == device.label]
     for result in section.results:
         for memory in (result["accuracy"] or {}).values():
-            title = f"Which setting, on {result['machine']['name']}, {memory['size'][0]} x {memory['size'][1]}{dagger(result)}"
-            section.shown.append((title, list(choice_rows(memory))))
+            title = f"Fastest settings, {result['machine']['name']}, {memory['size'][0]} x {memory['size'][1]}{dagger(result)}"
+            names = {device.label: device.name for device in found if device.result is result}
+            section.shown.append((title, list(choice_rows(memory, names))))
     if drawn:
-        section.draw(lines, "built-in scene", "Error against time", "Draft, usual and fine are the fastest settings that are at "
-                     "least as good as a plain grid of 2 x 2, 4 x 4 and 8 x 8 samples. Further left is faster, further down is "
-                     "nearer to the truth.", chart.TIME, chart.error_axis("rmse"), drawn, guides={f"error {GUIDE}": GUIDE})
+        section.draw(lines, "built-in scene", "Error against time", f"{best_words(found)}Draft, usual and fine are the fastest "
+                     "settings at least as good as grids of 2 x 2, 4 x 4 and 8 x 8 samples. Further left is faster; further down "
+                     "is nearer to the reference.", chart.TIME, chart.error_axis("rmse"), drawn,
+                     guides={f"error {GUIDE}": GUIDE})
 
 
-def code(options):
-    return f"<code>{html.escape(' '.join(options))}</code>"
+def at_guide(device):
+    """Returns (size, the device's fastest setting at the error GUIDE, or None), or None if it was not measured."""
+    for memory in (device.result["accuracy"] or {}).values():
+        own = [point for point in memory["points"] if point["device"] == device.label]
+        if own:
+            return memory["size"], choice(own, GUIDE)
+    return None
 
 
-def answers(results):
-    """At the error of the chart's mark, and at the time of the usual grid."""
-    found = [(result, memory) for result in results for memory in (result["accuracy"] or {}).values() if memory["points"]]
-    if not found:
-        yield "Accuracy at equal time: <em>missing</em>, for it was measured on no machine here."
-    for result, memory in found:
-        best = choice(memory["points"], GUIDE)
-        if best is None:
-            continue
-        where = f"{answer.BACKENDS[best['device'].split(':')[0]]} of “{html.escape(result['machine']['name'])}”{dagger(result)}"
-        words = (f"For an error of {GUIDE} of 255 take {code(best['options'])}: "
-                 f"{answer.milliseconds('ms_at_error', best['ms'])} for {memory['size'][0]} x {memory['size'][1]} by {where}")
-        own = [point for point in memory["points"] if point["device"] == best["device"]]
-        grid = next((point for point in own if point["name"] == USUAL_GRID), None)
-        if grid:
-            rival = min((point for point in own if point["ms"] <= grid["ms"] and point["family"] != settings.CHOSEN),
-                        key=lambda point: point["rmse"])
-            words += (f"; in the time of a plain grid of 4 x 4, which is off by {answer.figure('rmse_grid', grid['rmse'])}, "
-                      + (f"{code(rival['options'])} is off by {answer.figure('rmse_best', rival['rmse'])}"
-                         if rival["rmse"] < grid["rmse"] else "no setting is nearer"))
-        yield f"{words}."
-        return
-    if found:
-        yield f"For an error of {GUIDE} of 255: <em>missing</em>, for no setting that was tried comes so near."
+def time_words(best, size):
+    return f"{ms(best['ms'])} at {size[0]} x {size[1]}"
+
+
+def best_words(found):
+    """Returns a sentence about the device that needs the least time for a pixel."""
+    told = [(best, size, device.name) for device in found for size, best in filter(None, [at_guide(device)]) if best]
+    if not told:
+        return f"No setting comes to an RMSE of {GUIDE}. "
+    best, size, name = min(told, key=lambda each: each[0]["ms"] / (each[1][0] * each[1][1]))
+    return f"An RMSE of {GUIDE} takes {time_words(best, size)} on {name}, by {' '.join(best['options'])}. "
+
+
+def opening_cells(device):
+    size, best = at_guide(device) or (None, None)
+    absent = "none reaches it" if size else answer.ABSENT
+    yield f"setting for RMSE {GUIDE}", "rmse", best and best["rmse"], " ".join(best["options"]) if best else absent
+    yield "its time", "ms_at_error", best and best["ms"], time_words(best, size) if best else "-"
 
 
 def failures(result):
@@ -295,6 +295,6 @@ def failures(result):
     return found
 
 
-PART = Part(15, "Accuracy: error against time", "Root mean square error of many settings against a reference of dense samples in "
-            "double, by the time of a frame of the built-in scene; see bench/README.md, bench/study accuracy.", measure=measure,
-            fill=fill, failures=failures, answer=answers, lead=3)
+PART = Part(15, "Accuracy: error against time", "Root mean square error (RMSE) of many settings, in steps of 255, and the time of "
+            "a frame of the built-in scene. The reference has dense samples in double.", measure=measure, fill=fill,
+            failures=failures, cells=opening_cells, lead=3)

@@ -24,7 +24,7 @@ def by_frame(entry):
 
 
 def most_varied(drawn):
-    """(line, slowest by fastest) of the one that differs most from frame to frame."""
+    """Returns (line, slowest by fastest) of the line that differs most from frame to frame."""
     times = [[each["median"] for _, each in line.points] for line in drawn]
     ratios = [max(each) / min(each) if min(each) > 0 else 1 for each in times]
     return drawn[ratios.index(max(ratios))], max(ratios)
@@ -35,9 +35,9 @@ def fill(section):
     line, times = most_varied(drawn)
     slowest = max(line.points, key=lambda point: point[1]["median"])
     section.draw(lines, WHOLE_FRAME, "Time of tracing along the animation",
-                 f"The slowest frame ({slowest[0]}) takes {ratio(times)} as long as the fastest on {line.short}, where that "
-                 "differs most.", Axis("frame number"), TIME_AXIS, drawn)
+                 f"Frames differ most on {line.short}: the slowest, frame {slowest[0]}, takes {ratio(times)} as long as the "
+                 "fastest.", Axis("frame number"), TIME_AXIS, drawn)
     section.tabulate(lambda entry: f"frames {entry['frames']}")
 
 
-PART = Part(2, "Along the animation", "The built-in scene's tracing, frame by frame.", add, fill=fill)
+PART = Part(2, "Along the animation", "Tracing of the built-in scene, frame by frame.", add, fill=fill)

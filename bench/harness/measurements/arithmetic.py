@@ -3,7 +3,7 @@
 from harness.chart.rows import Row, rows
 from harness.measure.numbers import number
 from harness.measure.plan import DEFAULT
-from harness.page.section import TOO_LITTLE, WHOLE_FRAME, Part, few, middle, ratio, relative, sentence
+from harness.page.section import TOO_LITTLE, WHOLE_FRAME, Part, few, middle, ratio, relative
 
 ARITHMETIC = [(precision, math) for precision in ("float", "double") for math in ("strict", "fast")]
 
@@ -25,11 +25,11 @@ def fill(section):
         others = [f"{words} takes {ratio(middle(found[kind]) / middle(base))} as long" for kind, words in
                   ((("float", "fast"), "fast arithmetic"), (("double", "strict"), "double")) if base and kind in found]
         if others:
-            told.append(f"on {device.short} {' and '.join(others)}")
-    caption = sentence(few(told) + ", all against strict arithmetic in float.") if told else TOO_LITTLE
+            told.append(f"on {device.name} {' and '.join(others)} as strict float")
+    caption = few(told) or TOO_LITTLE
     if drawn:
         section.draw(rows, WHOLE_FRAME, "Strict and fast, float and double", caption, "times the time in float, strict", drawn)
     section.tabulate(lambda entry: ", ".join(ARITHMETIC[int(entry["x"])]))
 
 
-PART = Part(12, "Arithmetic", "--math strict and fast, --precision float and double.", add, fill=fill)
+PART = Part(12, "Arithmetic", "Options --math strict and fast, --precision float and double.", add, fill=fill)

@@ -11,16 +11,17 @@ GRIDS = (1, 4, 16, 64, 256, 1024, 4096, 16384, 65536)
 def add(plan):
     for option, values in (("block", BLOCKS), ("grid", GRIDS)):
         plan.sweep(f"--{option}", values, lambda device: not device["is_cpu"], series=option,
-                   none="There is no GPU, and the CPUs' work groups have one size.")
+                   none="No GPU was measured; work groups of CPUs have one size.")
 
 
 def fill(section):
     for series, what in (("block", "threads of a work group"), ("grid", "work groups of a launch, at most")):
         drawn = [device.line(series=series) for device in section.devices if device.entries(series=series)]
         if drawn:
-            section.draw(lines, WHOLE_FRAME, f"Time against {what}", f"The fastest: {best_words(drawn)}.",
-                         Axis(what, True, ticks_of(drawn)), TIME_AXIS, drawn, name=f"blocks_{series}")
+            words = best_words(drawn, lambda x, series=series: f"--{series} {x:g}")
+            section.draw(lines, WHOLE_FRAME, f"Time against {what}", words, Axis(what, True, ticks_of(drawn)), TIME_AXIS, drawn,
+                         name=f"blocks_{series}")
     section.tabulate(lambda entry: f"--{entry['series']} {entry['x']:g}", "option")
 
 
-PART = Part(3, "Block and grid sizes", "--block and --grid of GPUs, each with the other as hedron chooses it.", add, fill=fill)
+PART = Part(3, "Block and grid sizes", "Options --block and --grid of GPUs; hedron chooses the other of the two.", add, fill=fill)

@@ -18,7 +18,7 @@ LANES, ONE_LANE = f"light:{OFFICIAL}", f"light_one_lane:{OFFICIAL}"
 
 
 def measure(study):
-    """Raises Problem with the reason where it cannot be."""
+    """Raises Problem with the reason if it fails."""
     if not study.result["bounds"]:
         study.news("the arithmetic peak")
         scene = ROOT / f"scenes/{OFFICIAL}.json"
@@ -31,7 +31,7 @@ def measure(study):
 
 
 def milliseconds(result, device, entry):
-    """For the frames that count, scaled as their times are; or None where it is not known."""
+    """Returns the bound of the frames that count, scaled as their times are, or None if not known."""
     bounds = result.get("bounds")
     if not bounds:
         return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tells what became slower or faster between two results of bench/study, beyond the noise."""
+"""Reports what became slower or faster between two results of bench/study, beyond the noise."""
 import math
 from pathlib import Path
 from statistics import median
@@ -25,7 +25,7 @@ def deviation(entry):
 
 
 def measured(result):
-    """{what it is: entry}; the device's name belongs to it, for c:0 of another machine is another device."""
+    """Returns {identity: entry}; the name of the device is part of it, because c:0 of another machine is another device."""
     names = {device["label"]: device["name"] for device in result["devices"]}
     return {(results.identity(entry), names[entry["device"]]): entry for entry in result["measurements"]
             if entry["summary"]}
@@ -36,8 +36,7 @@ def compare(old, new):
     gives it, have in common; the most slowed first."""
     common = [key for key in old if key in new]
     if not common:
-        raise Problem(2, "the two have no measurement in common: they are of other devices, or one is quick and the other "
-                         "is not")
+        raise Problem(2, "the two have no measurement in common: their devices differ, or only one of them is quick")
     # Few runs may lie together by chance, so none counts as quieter than half of all.
     usual = [median(deviation(each[key]) for key in common) for each in (old, new)]
     found = []
@@ -64,13 +63,13 @@ def row(each):
 
 class Compare(Command):
     name = "compare"
-    about = "Tell what became slower or faster between two results of bench/study."
+    about = "Report what became slower or faster between two results of bench/study, beyond the noise."
     codes = "exit codes: 0 nothing is slower beyond the noise, 1 something is, 2 wrong usage or input"
 
     def add_options(self, parser):
-        parser.add_argument("old", type=Path, metavar="OLD.json", help="what bench/study wrote before")
-        parser.add_argument("new", type=Path, metavar="NEW.json", help="what it wrote after")
-        parser.add_argument("--all", action="store_true", help="list what is within the noise, too")
+        parser.add_argument("old", type=Path, metavar="OLD.json", help="result of bench/study before the change")
+        parser.add_argument("new", type=Path, metavar="NEW.json", help="result after the change")
+        parser.add_argument("--all", action="store_true", help="list changes within the noise too")
 
     def run(self, arguments):
         both = {"old": results.read_study(arguments.old), "new": results.read_study(arguments.new)}

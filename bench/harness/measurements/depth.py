@@ -11,8 +11,8 @@ def add(plan):
 
 
 def fill(section):
-    section.sweep("Time against depth", Axis("mirrorings and passings of a ray, at most"),
-                  lambda drawn: growth_words(drawn, "in depth"))
+    section.sweep("Time against depth", Axis("maximum ray depth"),
+                  lambda drawn: growth_words(drawn, words=lambda x: f"depth {x:g}"))
 
 
-PART = Part(7, "Depth", "--depth, with the scene's own cut-off.", add, fill=fill)
+PART = Part(7, "Depth", "Option --depth: reflections and transmissions in a row, with the cut-off of the scene.", add, fill=fill)

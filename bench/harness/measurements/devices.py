@@ -12,8 +12,8 @@ HEAD = ["devices", "frames/s", "least", "most", "times one"]
 
 
 def steady_rate(frames):
-    """Frames a second, as the sum of what each device does between the end of its first frame and that of its last:
-    neither the compiling of kernels nor the wait of the last device for the others is in it. 0 where a device made
+    """Returns frames a second, as the sum of what each device does between the end of its first frame and that of its last:
+    it includes neither the compiling of kernels nor the wait of the last device for the others. 0 if a device made
     fewer than two frames."""
     ends = {}
     for frame in frames:
@@ -33,14 +33,16 @@ def counts(total):
 
 class Devices(Bench):
     name = "devices"
-    about = "Time one device, then two, four, ... that share the frames of a scene; by CUDA if not said."
+    about = "Time one device, then two, four, ... that share the frames of a scene; CUDA devices by default."
     quick, repeats = None, (3,)
     keys = ("rates", "frames")
 
     def add_options(self, parser):
         super().add_options(parser)
-        parser.add_argument("scene", nargs="?", type=Path, default=ROOT / "scenes/official.json", metavar="SCENE.json")
-        parser.add_argument("--frames", type=whole_number, default=48, metavar="N", help="frames for each device (default: 48)")
+        parser.add_argument("scene", nargs="?", type=Path, default=ROOT / "scenes/official.json", metavar="SCENE.json",
+                            help="scene to render (default: scenes/official.json)")
+        parser.add_argument("--frames", type=whole_number, default=48, metavar="N",
+                            help="frames of each device, at least 3 (default: 48)")
 
     def complete(self, arguments):
         super().complete(arguments)
@@ -50,7 +52,7 @@ class Devices(Bench):
 
     def prepare(self):
         if not self.arguments.scene.is_file():
-            raise Problem(2, f"there is no scene file {self.arguments.scene}")
+            raise Problem(2, f"the scene file {self.arguments.scene} does not exist")
         self.demand_device()
         self.pictures = {}
         self.result.update(frames=self.arguments.frames, scene={"name": self.arguments.scene.stem}, rates=[
@@ -66,8 +68,8 @@ class Devices(Bench):
         row["runs"].append({"rate": steady_rate(run["frames"]), "devices": len(made_by)})
         for frame, picture in run["digests"].items():
             if self.pictures.setdefault(frame, picture) != picture:
-                raise Problem(1, f"frame {frame} of {row['devices']} devices is another picture than before, so these times "
-                                 "are no result")
+                raise Problem(1, f"frame {frame} of {row['devices']} devices is another picture than before, so these times do "
+                                 "not count")
 
     def measure(self):
         for repeat in range(self.arguments.repeats):

@@ -101,7 +101,7 @@ class Frames(Bench):
             for (_, _, frame), makers in sorted(picture_groups(jobs, self.plan.devices).items()):
                 if same and len(makers) > 1:
                     groups = " / ".join(", ".join(dict.fromkeys(maker.split()[0] for maker in each)) for each in makers.values())
-                    same, words = False, f"THE PICTURES DIFFER, so these times are no result: frame {frame}, {groups}."
+                    same, words = False, f"THE PICTURES DIFFER, so these times do not count: frame {frame}, {groups}."
         return {"same": same, "devices": names, "sentence": words}
 
     def device(self, job):
@@ -123,7 +123,7 @@ class Frames(Bench):
         told += [f"{each.get('label') or each['device']} {'failed' if each.get('failed') else 'cannot run'}: {each['reason']}"
                  for each in [*self.result["devices"], *self.plan.jobs] if each["reason"] is not None]
         if not self.result["complete"]:
-            told.append("Interrupted: only what was measured before counts.")
+            told.append("Interrupted: figures are of what was measured until then.")
         print(*told, self.result["pictures"]["sentence"], *files.draw(self.charts(), self.arguments.out),
               f"All times: {self.file}", sep="\n")
 
@@ -134,9 +134,9 @@ class Frames(Bench):
         fastest, slowest = min(self.measured, key=trace_ms), max(self.measured, key=trace_ms)
         caption = f"{device_title(self.device(fastest))} traces a frame in {ms(trace_ms(fastest))}"
         if slowest is not fastest:
-            caption += f", and {slowest['device']}, the slowest, takes {ratio(slowest['summary']['ratio_to_fastest'])} as long"
+            caption += f"; {slowest['device']}, the slowest, takes {ratio(slowest['summary']['ratio_to_fastest'])} as long"
         return rows(self.result, "Time of a frame on each device",
-                    f"{caption}; dots are medians of {fastest['summary']['frames']} frames, whiskers reach from the first to "
+                    f"{caption}. Dots are medians of {fastest['summary']['frames']} frames; whiskers reach from the first to "
                     "the third quartile.", MS,
                     [Row(device_title(self.device(job)), job["summary"]["trace_ms"],
                          f"{ms(trace_ms(job))}, whole {ms(job['summary']['frame_ms'])}", place, job["summary"]["frame_ms"])
@@ -150,12 +150,12 @@ class Frames(Bench):
                    for frame in {frame for line in drawn for frame, _ in line.points}}
         words = f"The slowest frame takes {ratio(times)} as long as the fastest on {line.short}"
         if len(drawn) > 1:
-            words += ", where that differs most, and " + (
-                f"{fastest.pop()} is the fastest device in every frame" if len(fastest) == 1
-                else "which device is the fastest depends on the frame")
+            words += ", the device that differs most. " + (
+                f"{fastest.pop()} is the fastest in every frame" if len(fastest) == 1
+                else "The fastest device depends on the frame")
         kind = "the only run" if self.arguments.repeats == 1 else f"the median of {self.arguments.repeats} runs"
         return lines(self.result, "Time of tracing along the animation",
-                     f"{words}; each point is {kind}, without the first frame, which warms up.", Axis("frame number", ticks=ticks_of(drawn)),
+                     f"{words}. Each point is {kind}, without the first frame, which warms up.", Axis("frame number", ticks=ticks_of(drawn)),
                      TIME_AXIS, drawn)
 
     def exit_code(self):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Rays that a CPU traces together."""
+"""Lanes of CPUs."""
 from harness.chart.axes import Axis
 from harness.page.section import Part, best_words, proportional
 
@@ -17,15 +17,14 @@ def sets_words(entries):
             if entry["renderer"] and f" {name}" in entry["renderer"]:
                 found.setdefault(name, set()).add(int(entry["x"]))
     told = [f"{', '.join(map(str, sorted(each)))} by {name}" for name, each in found.items()]
-    words = ("Which instruction set runs is no choice of the user's: hedron takes the best build that the CPU has for so "
-             "many lanes")
-    return f"{words} (here {'; '.join(told)})." if told else f"{words}."
+    words = "Hedron takes the best instruction set that the CPU has for a number of lanes"
+    return f"{words}: {'; '.join(told)}." if told else f"{words}."
 
 
 def fill(section):
     section.sweep("Time against rays traced together", Axis("lanes", True),
-                  lambda drawn: f"The fastest: {best_words(drawn, lambda x: f'{x:g} lanes')}.", bounds=proportional)
+                  lambda drawn: best_words(drawn, lambda x: f"--lanes {x:g}"), bounds=proportional)
     section.notes.append(sets_words(section.entries()))
 
 
-PART = Part(8, "Lanes and instruction sets", "--lanes of the CPUs.", add, fill=fill)
+PART = Part(8, "Lanes and instruction sets", "Option --lanes of CPUs: rays that one thread traces together.", add, fill=fill)

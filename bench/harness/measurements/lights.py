@@ -22,4 +22,4 @@ def fill(section):
                   scene="default scene under point lights, 1280 x 720, 2 x 2 samples")
 
 
-PART = Part(5, "Number of lights", "The default scene under so many point lights, each with shadows.", add, scenes, fill=fill)
+PART = Part(5, "Number of lights", "The default scene under 1 to 1000 point lights with shadows.", add, scenes, fill=fill)

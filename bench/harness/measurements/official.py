@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""The official example beside the figures of the report that it comes from; and what the page says first of speed: GPU against
-CPU of one machine, and backends of one device against each other."""
+"""The official example beside the figures of the report that defines it, and what the first screen of the page says of speed."""
 import html
 from statistics import median
 
 from harness.chart.rows import Row, ms, one_value, rows, spread_words
+from harness.chart.sheet import model
+from harness.measure.numbers import number
 from harness.measure.plan import OFFICIAL
 from harness.measurements import bounds
 from harness.page import answer
-from harness.page.section import MS, Part, dagger, middle, speed_words
+from harness.page.section import MS, Part, middle, ratio, short_name, speed_words
 
 FRAMES = ",".join(map(str, range(0, 1024, 128)))
 CPU, GPU = "the report's CPU", "the report's GTX 1050"
@@ -33,12 +34,13 @@ def fill(section):
     drawn += [Row(device.name, spread, spread_words(spread), device.place,
                   bounds.milliseconds(device.result, device.entry, entry)) for spread, device, entry in times]
     fastest, slowest = times[0][0]["median"], times[-1][0]["median"]
-    caption = (f"{times[0][1].short} takes {ms(fastest)} for a frame, {speed_words(REPORT[CPU] / fastest, CPU)} and "
-               f"{speed_words(REPORT[GPU] / fastest, GPU)}")
+    caption = (f"{times[0][1].name} is the fastest: {ms(fastest)} a frame, {speed_words(REPORT[CPU] / fastest, CPU)} and "
+               f"{speed_words(REPORT[GPU] / fastest, GPU)}.")
     if len(times) > 1:
-        caption += f"; {times[-1][1].short}, the slowest, takes {ms(slowest)}, {speed_words(REPORT[CPU] / slowest, CPU)}"
-    section.draw(rows, "official example, 640 x 480, 16 x 16 samples, depth 10", "Mean time of a frame", f"{caption}.", MS, drawn,
+        caption += f" {times[-1][1].name} is the slowest: {ms(slowest)}, {speed_words(REPORT[CPU] / slowest, CPU)}."
+    section.draw(rows, "official example, 640 x 480, 16 x 16 samples, depth 10", "Mean time of a frame", caption, MS, drawn,
                  bounds.NAME)
+    section.notes += backend_words(section.results)
     section.tabulate(lambda entry: f"frames {entry['frames']}")
 
 
@@ -59,70 +61,63 @@ def ratios(slow, fast):
 
 
 def frame_ms(result, label):
-    """Of the official example; None: not measured."""
+    """Returns the time of a frame of the official example, or None if it was not measured."""
     return next((entry["summary"]["frame_ms"]["median"] for entry in result["measurements"]
                  if (entry["device"], entry["part"]) == (label, "official") and entry["summary"]), None)
 
 
 def fastest(result, is_cpu):
-    """(milliseconds, device); None where there is none of the kind."""
+    """Returns (milliseconds, device), or None if there is none of the kind."""
     found = [(frame_ms(result, device["label"]), device) for device in answer.runnable(result) if device["is_cpu"] is is_cpu]
     return min((pair for pair in found if pair[0]), key=lambda pair: pair[0], default=None)
 
 
-def place_words(result):
-    return f"“{html.escape(result['machine']['name'])}”{dagger(result)}"
+def opening_cells(device):
+    found = frame_ms(device.result, device.label)
+    yield "official frame", "frame_ms", found, ms(found) if found else answer.ABSENT
+    for name, report in (("cpu", CPU), ("gtx_1050", GPU)):
+        factor = REPORT[report] / found if found else None
+        yield f"times as fast as {report}", f"times_{name}", factor, number(factor, 3)
 
 
-def gpu_words(results):
-    both = [(result, fastest(result, False), fastest(result, True)) for result in results]
-    both = [each for each in both if each[1] and each[2]]
+def speed_answer(results):
+    both = [(gpu[0], cpu[0], gpu[1], result) for result in results
+            for gpu, cpu in [(fastest(result, False), fastest(result, True))] if gpu and cpu]
     if not both:
-        yield ("GPU against CPU: <em>missing</em>, for no machine here has a GPU that drew the official example beside its CPU.")
-    for result, (gpu_ms, gpu), (cpu_ms, cpu) in both:
-        all_ratios = ratios(*(times(result, device["label"]) for device in (cpu, gpu)))
-        yield (f"On {place_words(result)} the GPU ({html.escape(gpu['name'])}, {answer.BACKENDS[gpu['backend']]}) is "
-               f"{answer.figure('gpu_to_cpu', cpu_ms / gpu_ms)} times as fast as the CPU with all its "
-               f"{result['machine']['cores']} cores ({answer.BACKENDS[cpu['backend']]}): "
-               f"{answer.milliseconds('gpu_ms', gpu_ms)} against {answer.milliseconds('cpu_ms', cpu_ms)} for a frame of the "
-               f"official example, and {answer.figure('gpu_to_cpu_least', min(all_ratios))} to "
-               f"{answer.figure('gpu_to_cpu_most', max(all_ratios))} times in other scenes.")
+        return "No machine here has both a GPU and a CPU that rendered the official example."
+    gpu_ms, cpu_ms, gpu, result = min(both, key=lambda each: each[0])
+    return (f"The {html.escape(model(gpu))} is {answer.figure('gpu_to_cpu', cpu_ms / gpu_ms)} times as fast as the "
+            f"{result['machine']['cores']} CPU cores beside it: {answer.milliseconds('gpu_ms', gpu_ms)} against "
+            f"{answer.milliseconds('cpu_ms', cpu_ms)} for a frame of the official example.")
 
 
 def backend_words(results):
-    """OpenCL against the backend that is made for the same hardware, clauses."""
-    for base, where in (("c", "CPUs"), ("cuda", "GPUs")):
-        told = []
-        for result in results:
-            for device in (each for each in answer.runnable(result) if each["backend"] == "opencl"):
-                own = next((each for each in answer.runnable(result) if each["backend"] == base
-                            and each["is_cpu"] is device["is_cpu"] and (device["is_cpu"] or each["name"] == device["name"])), None)
-                found = ratios(times(result, device["label"]), times(result, own["label"])) if own else []
-                if found:
-                    told.append(f"{answer.figure(f'opencl_to_{base}', median(found))} ({place_words(result)})")
-        if told:
-            yield f"{' and '.join(filter(None, (', '.join(told[:-1]), told[-1])))} times as long as {answer.BACKENDS[base]} on {where}"
+    """Yields OpenCL against the backend that is made for the same hardware, a sentence for each device."""
+    for result in results:
+        for device in (each for each in answer.runnable(result) if each["backend"] == "opencl"):
+            base = "c" if device["is_cpu"] else "cuda"
+            own = next((each for each in answer.runnable(result) if each["backend"] == base
+                        and (device["is_cpu"] or each["name"] == device["name"])), None)
+            found = ratios(times(result, device["label"]), times(result, own["label"])) if own else []
+            if found:
+                yield (f"{short_name(result, device)} takes {ratio(median(found))} as long as {short_name(result, own)}, in the "
+                       f"median of {len(found)} measurements.")
 
 
-def trust_words(results):
-    judged = [result["pictures"] for result in results if result["pictures"] and result["pictures"]["same"] is not None]
+def trust_answer(results):
     wrong = [result["machine"]["name"] for result in results if result["pictures"] and result["pictures"]["same"] is False]
+    count = sum(result["pictures"]["compared"] for result in results if result["pictures"])
     if wrong:
         return f"<strong>Do not trust these figures: the pictures of backends differ on {html.escape(', '.join(wrong))}.</strong>"
-    if not judged:
-        return "Which backend to trust: <em>missing</em>, for no pictures were compared."
-    count = sum(each["compared"] for each in judged)
-    return (f"Trust any backend, for all made the same bytes in {answer.figure('frames_alike', count, f'{count}')} compared "
-            "frames, and take the fastest.")
+    if not count:
+        return "Nothing is known about equal pictures, because none was rendered in two ways."
+    return (f"Take the fastest backend: all made the same bytes in {answer.figure('frames_alike', count, f'{count}')} compared "
+            "frames.")
 
 
 def answers(results):
-    yield from gpu_words(results)
-    yield trust_words(results)
-    clauses = list(backend_words(results))
-    if clauses:
-        yield f"OpenCL takes {' and '.join(clauses)}."
+    return speed_answer(results), trust_answer(results)
 
 
-PART = Part(1, "Speed: the mean time of a frame", "The official example beside the figures of the report that it comes from. A "
-            "frame is prepared, traced and copied.", add, fill=fill, answer=answers, lead=2)
+PART = Part(1, "Speed: the mean time of a frame", "The official example, beside the figures of the report that defines it. The "
+            "time of a frame includes preparing, tracing and copying.", add, fill=fill, cells=opening_cells, answer=answers, lead=2)

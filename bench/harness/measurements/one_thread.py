@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The same picture by one thread, and by everything else."""
+"""The same picture by one thread, and by whole devices."""
 from harness.chart.rows import Row, ms, rows
 from harness.measure.numbers import number
 from harness.measure.plan import OFFICIAL
@@ -28,20 +28,20 @@ def fill(section):
     for device, entry in found:
         against = f", {number(middle(base) / middle(entry), 3)} x" if base else ""
         whole = entry["series"] == ALL
-        drawn.append(Row(device.name if whole else f"{device.short}, {entry['series']}", entry["summary"]["trace_ms"],
+        drawn.append(Row(device.name if whole else f"{device.name}, {entry['series']}", entry["summary"]["trace_ms"],
                          ms(middle(entry)) + against, device.place,
                          bounds.milliseconds(device.result, device.entry, entry) if whole else None))
     fastest, entry = found[-1]
-    caption = f"{fastest.short} traces a frame in {ms(middle(entry))}"
+    caption = f"{fastest.name} is the fastest: {ms(middle(entry))} a frame."
     if base:
-        caption += f", {speed_words(middle(base) / middle(entry), 'one thread of the C backend')}"
+        caption += f" That is {speed_words(middle(base) / middle(entry), 'one thread of the C backend')}."
         plain = next((each for _, each in found if each["series"] == ONE_LANE and each["device"] == base["device"]), None)
         if plain:
-            caption += f", which is {speed_words(middle(plain) / middle(base), 'one thread that traces ray by ray')}"
+            caption += f" One thread is {speed_words(middle(plain) / middle(base), 'with one lane')}."
     section.draw(rows, "official example, 640 x 480, 4 x 4 samples, depth 10", "One thread against everything else",
-                 caption + ". The factors beside the times are against one thread.", MS, drawn, bounds.NAME)
+                 f"{caption} Factors beside times are against one thread.", MS, drawn, bounds.NAME)
     section.tabulate(lambda entry: entry["series"])
 
 
-PART = Part(10, "One thread against everything else", "The same picture by one thread of the C backend, ray by ray and with "
-            "lanes, and by every device with all it has.", add, fill=fill)
+PART = Part(10, "One thread against everything else", "The same picture by one thread of the C backend, with one lane and "
+            "with all, and by every whole device.", add, fill=fill)

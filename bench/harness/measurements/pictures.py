@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What the figures look like: the built-in scene as it really is, and in two settings, with maps of where they are off; and
-where backends, precisions and arithmetics differ."""
+"""Pictures of the built-in scene: a reference, and two settings with maps of their errors; and maps of where backends, precisions
+and arithmetics differ."""
 import base64
 
 from harness.measure.numbers import number
@@ -12,9 +12,9 @@ SIZES, REFERENCE_SIDES = {True: (192, 108), False: (320, 180)}, {True: 4, False:
 MISSING = "4"  # steps of 255 that may be left out of the reference
 DRAFT, FINE = ("--samples", "2"), ("--samples", "8", "--aa", "adaptive")
 SETTINGS = {"A draft": DRAFT, "Fine": FINE}
-REFERENCE = "The scene as it is"
-BLACK = 1  # steps of 255: hardly to be seen
-LEGEND = "In maps, black: no difference; violet 1, red 4, orange 16, yellow 128 steps of 255."
+REFERENCE = "Reference"
+BLACK = 1  # steps of 255, hardly visible
+LEGEND = "Colours of maps: black no difference, violet 1, red 4, orange 16, yellow 128 steps of 255."
 
 
 class Gallery:
@@ -38,7 +38,7 @@ class Gallery:
         self.entries.append({"name": name, **more, "png": base64.b64encode(png.read_bytes()).decode("ascii")})
 
     def compare(self, title, name, with_name, **more):
-        """A map of where two pictures differ."""
+        """Adds a map of the differences of two pictures."""
         one, other = self.files[name], self.files[with_name]
         found, heat = pfm.compare(self.study.program, one, other), self.study.folder / "heat.png"
         run_tool(self.study.program.path, "compare", one, other, "--diff", heat)
@@ -53,7 +53,7 @@ class Gallery:
         for name, options in SETTINGS.items():
             self.render(name, judge, *options)
             self.add(name, self.files[name], device=judge, options=list(options))
-            self.compare(f"{name}: where it is off", name, REFERENCE, device=judge, options=list(options))
+            self.compare(f"{name}: errors", name, REFERENCE, device=judge, options=list(options))
         draft = next(iter(SETTINGS))
         for label, device in runnable.items():
             if label != judge and device["strict"]:
@@ -69,7 +69,7 @@ class Gallery:
 
 
 def measure(study):
-    """Raises Problem where a run fails."""
+    """Raises Problem if a run fails."""
     judge = devices.judge(study.runnable.values())
     if judge is None:
         return "No device that is strict has double precision, so there is no reference."
@@ -87,10 +87,9 @@ def words(each):
 
 
 def fill(section):
-    """Of the first machine that has them: only times are others elsewhere. Maps that would be all black are told of."""
+    """Shows those of the first machine that has them, because all render the same; names maps that are black."""
     found = next((result for result in section.results if result.get("gallery")), None)
     if found is None:
-        section.notes.append("Missing, for no machine here made any.")
         return
     entries = found["gallery"]["entries"]
     black = {each["name"]: each["off"]["largest"] for each in entries if each.get("off", {}).get("largest", BLACK + 1) <= BLACK}
@@ -98,9 +97,9 @@ def fill(section):
     section.notes.append(LEGEND)
     if black:
         told = [f"{name}, {f'at most {number(most, 3)} of 255' if most else 'no pixel'}" for name, most in black.items()]
-        section.notes.append(f"Not shown, for the maps are black: {'; '.join(told)}.")
+        section.notes.append(f"Maps that are all black are not shown: {'; '.join(told)}.")
     section.notes.append(f"Made on {found['machine']['name']}{dagger(found)}, {' x '.join(map(str, found['gallery']['size']))}.")
 
 
-PART = Part(19, "Pictures, and where they differ", "The built-in scene against a reference of dense samples, and backends, "
-            "precisions and arithmetics against each other.", measure=measure, fill=fill, lead=1)
+PART = Part(19, "Pictures, and where they differ", "The built-in scene is compared with a reference of dense samples, and "
+            "backends, precisions and arithmetics with each other.", measure=measure, fill=fill, lead=1)

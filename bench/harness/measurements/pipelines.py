@@ -26,8 +26,8 @@ def cells(each):
 
 class Pipelines(Bench):
     name = "pipelines"
-    about = "Measure the megakernel against the wavefront, and draw a chart."
-    quick = "few frames, rounds and samples; rough"
+    about = "Measure and chart the wavefront against the megakernel."
+    quick = "measure few frames, rounds and samples; figures are rough"
     own_options = (*Bench.own_options, "--pipeline")
     scene = f"scenes {', '.join(SCENES)}"
     chart_files = keys = ("pipelines",)
@@ -69,8 +69,8 @@ class Pipelines(Bench):
     def chart(self, measured):
         wavefronts = [each for each in measured if each["pipeline"] == "wavefront"]
         best = min(wavefronts or measured, key=lambda each: each["ratio_to_mega"])
-        caption = (f"At 1 it takes as long as the megakernel. The wavefront does best on {best['device']} with "
-                   f"{best['scene']}: {number(best['ratio_to_mega'], 3)}. Medians of the rounds' ratios.")
+        caption = (f"The wavefront does best on {best['device']} in the scene {best['scene']}: it takes "
+                   f"{number(best['ratio_to_mega'], 3)} times the megakernel's time. Figures are medians of the rounds' ratios.")
         return rows(self.result, "Time of tracing, against the megakernel", caption, "times the megakernel's time", [
             Row(each["pipeline"], one_value(each["ratio_to_mega"]),
                 f"{number(each['ratio_to_mega'], 3)}  ({number(each['trace_ms']['median'], 3)} ms)",
@@ -93,8 +93,8 @@ def gain_words(gains):
     if not gains:
         return TOO_LITTLE
     best, compacted = min(gains), max(gains, key=lambda each: each[1])
-    return (f"The wavefront does best on {best[2]}, where it takes {ratio(best[0])} the megakernel's time; closing up the "
-            f"live rays helps most on {compacted[2]}: without it the wavefront takes {ratio(compacted[1])} as long.")
+    return (f"The wavefront does best on {best[2]}: it takes {ratio(best[0])} the megakernel's time. Compaction helps most on "
+            f"{compacted[2]}: without it the wavefront takes {ratio(compacted[1])} as long.")
 
 
 def fill(section):
@@ -106,12 +106,13 @@ def fill(section):
                           variant=name) for name in PIPELINES if name in found and "mega" in found]
             if len(found) == len(PIPELINES):
                 mega, wavefront, uncompacted = (middle(found[name]) for name in PIPELINES)
-                gains.append((wavefront / mega, uncompacted / wavefront, f"{device.short}, {scene}"))
+                gains.append((wavefront / mega, uncompacted / wavefront, f"{device.name} in the scene {scene}"))
     if drawn:
         section.draw(rows, "built-in scene, 1280 x 720, and official example, 640 x 480, 2 x 2 samples", "Megakernel and wavefront",
                      gain_words(gains), "times the megakernel's time", drawn)
     section.tabulate(lambda entry: f"{entry['series']}, {PIPELINES[int(entry['x'])]}")
 
 
-PART = Part(11, "Megakernel and wavefront", "--pipeline mega, wavefront, and wavefront-uncompacted, which keeps dead rays.",
+PART = Part(11, "Megakernel and wavefront", "Options --pipeline mega, wavefront, and wavefront-uncompacted, which keeps dead "
+            "rays.",
             add, fill=fill)

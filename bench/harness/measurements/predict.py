@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Predicts the frame times of a GTX 1050 from those of a GPU that bench/study speed wrote.
 
-A frame is taken for the sum of a fixed time and of work in proportion to the device's lanes times clock:
+The time of a frame is the sum of a fixed time and of work in proportion to the device's lanes times clock:
 
     t = fixed + (a rays x planes + b rays x lights + c shadow tests) / lane rate
 
 The coefficients, none of them negative, are fitted on every other scene by least squares of the relative
-error. The scenes in between tell the error. What the other GPU has less of per lane (caches) or more
-(integer lanes) is not in it, nor are meshes, and pictures of so few samples that a GPU only waits for the deepest tree of
-rays: such scenes are left out."""
+error. The scenes in between show the error. The model has no caches and no ratio of integer to float lanes. It
+excludes meshes, and pictures of so few samples that a GPU only waits for the deepest tree of rays."""
 import math
 from pathlib import Path
 from statistics import median
@@ -131,8 +130,8 @@ def beside_report(row):
                (False, True, True): "hedron is likely slower there than the report's program; the range has both",
                (False, False, True): "hedron is likely faster there than the report's program; the range has both",
                (False, False, False): "hedron is faster there than the report's program, over the whole range"}[slower]
-    return (f"{OFFICIAL}: the report's program took {number(1e3 * report, 3)} ms on its {GTX_1050['name']}; the model says {usual} times that, "
-            f"{low} to {high}: {verdict}")
+    return (f"{OFFICIAL}: the report's program took {number(1e3 * report, 3)} ms on its {GTX_1050['name']}, and the model predicts "
+            f"{usual} times that, {low} to {high}: {verdict}")
 
 
 class Predict(Command):
@@ -140,8 +139,8 @@ class Predict(Command):
     about = "Predict the frame times of a GTX 1050 from those of another GPU."
 
     def add_options(self, parser):
-        parser.add_argument("file", type=Path, metavar="speed.json", help="what bench/study speed wrote on a machine with a GPU")
-        parser.add_argument("--device", metavar="BACKEND:NUMBER", help="the GPU to start from (default: the first)")
+        parser.add_argument("file", type=Path, metavar="speed.json", help="result of bench/study speed on a machine with a GPU")
+        parser.add_argument("--device", metavar="BACKEND:NUMBER", help="GPU whose times the prediction uses (default: the first)")
 
     def run(self, arguments):
         result = read(arguments.file, "speed")

@@ -127,7 +127,7 @@ def displayed(value, curve):
 
 
 def render(program, folder, output, options, limit):
-    """False where it takes too long."""
+    """Returns False if it takes too long."""
     words = ["render", "scene.json", "--quiet", "--backend", "c", "--frames", "0", *map(str, options), "-o", output]
     try:
         done = subprocess.run([program.path, *words], cwd=folder, capture_output=True, text=True, stdin=subprocess.DEVNULL,
@@ -150,7 +150,7 @@ def write(program, folder, scene):
 
 
 def try_scene(program, folder, seed, options=()):
-    """What is stated of it and what is missing, in steps of 255; None where that took too long."""
+    """Returns the stated and the measured error, in steps of 255; None if that took too long."""
     scene, common, bounded = Maker(seed).make()
     common += options
     write(program, folder, scene)
@@ -182,16 +182,16 @@ def rows_of(scenes):
 
 class Promise(Bench):
     name = "promise"
-    about = "Search random scenes for one of which --max-error leaves out more than it states."
-    codes = "exit codes: 0 none found, 1 one was found or a run failed, 2 wrong usage or input, 130 interrupted"
-    quick, repeats = "100 scenes", None
+    about = "Search random scenes for one whose error is larger than --max-error states."
+    codes = "exit codes: 0 no such scene found, 1 one found or a run failed, 2 wrong usage or input, 130 interrupted"
+    quick, repeats = "try 100 scenes", None
     scene = "random scenes"
     keys = ("scenes",)
 
     def add_options(self, parser):
         super().add_options(parser)
-        parser.add_argument("--scenes", type=whole_number, metavar="N", help="how many (default: 2000, with --quick 100)")
-        parser.add_argument("--first", type=whole_number, default=1, metavar="SEED", help="of the first one (default: 1)")
+        parser.add_argument("--scenes", type=whole_number, metavar="N", help="number of scenes (default: 2000, with --quick 100)")
+        parser.add_argument("--first", type=whole_number, default=1, metavar="SEED", help="seed of the first scene (default: 1)")
 
     def prepare(self):
         self.result["scenes"] = []
@@ -205,7 +205,7 @@ class Promise(Bench):
     def fill(self):
         failures = failures_of(self.result["scenes"])
         self.plan.failures |= set(failures)
-        self.plan.row("promise", "scenes of which more is missing than --max-error states", "scenes", lambda: [len(failures)],
+        self.plan.row("promise", "scenes whose error is larger than --max-error states", "scenes", lambda: [len(failures)],
                       target=NONE)
 
     def compared(self):
@@ -221,7 +221,7 @@ BENCH = Promise
 # ---- the study's part
 
 def measure(study):
-    """Raises Problem where a run fails."""
+    """Raises Problem if a run fails."""
     found = study.result["promise"] = study.result.get("promise") or []
     for seed in range(len(found) + 1, COUNTS[study.arguments.quick] + 1):
         study.news(f"promise, scene {seed}")
@@ -231,14 +231,14 @@ def measure(study):
 
 
 def fill(section):
-    """Of the first machine that has it: every number is the same everywhere."""
+    """Shows the first machine's that has it, because all give the same numbers."""
     found = next((result for result in section.results if result.get("promise")), None)
     if found is not None:
         lies = len(failures_of(found["promise"]))
-        section.notes.append(f"Of {len(judged(found['promise']))} random scenes {lies or 'none'} missed more than was stated.")
+        section.notes.append(f"{lies or 'None'} of {len(judged(found['promise']))} random scenes misses more than --max-error states.")
         section.table = rows_of(found["promise"])
 
 
-PART = Part(17, "What --max-error promises", "Random scenes, with lights of up to a million, mirrors that send on all and depths of "
-            "0 to 1000: what --max-error states of each, and what is missing against a deep truth.", measure=measure, fill=fill,
+PART = Part(17, "What --max-error promises", "Random scenes with lights of up to a million, total reflection and depths of 0 to 1000. "
+            "The error that --max-error states is compared with that against a deep reference.", measure=measure, fill=fill,
             failures=lambda result: failures_of(result.get("promise") or []))

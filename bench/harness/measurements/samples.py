@@ -25,4 +25,4 @@ def fill(section):
                   scene="one frame of the built-in scene, 1280 x 720", name=lambda x: f"{x ** 2:g}")
 
 
-PART = Part(6, "Samples per pixel", "The grid of --samples N has N x N.", add, fill=fill)
+PART = Part(6, "Samples per pixel", "Option --samples N: a pixel has N x N samples.", add, fill=fill)

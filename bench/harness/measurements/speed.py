@@ -32,7 +32,7 @@ class Speed(Bench):
     """`rates` and `counts` are what kernel_rates gives, or the reason why there is nothing; `film` what film.alone gives, for
     CPU devices or not."""
     name = "speed"
-    about = "Measure every target of speed on every device, and print figures and ratios."
+    about = "Measure every target of speed on every device."
     quick = "few frames and repeats; large pictures on CPUs are smaller, and their times scaled"
     parts = ("headline_film", "headline", "fullhd", "official", "pairs", "searches", "share", "pocl", "math", "pipelines",
              "stage", "model")
@@ -147,7 +147,7 @@ class Speed(Bench):
 
     def counted(self, name):
         if name not in known(self.counts)["counted"]:
-            raise Missing("the system lets no process be stepped through, so nothing was counted")
+            raise Missing("the system does not allow stepping through a process, so nothing was counted")
         return self.counts["counted"][name]
 
     def cpu_share(self, name, key):
@@ -174,7 +174,11 @@ class Speed(Bench):
                                     ("slots", "  share of the vector issue slots", None)):
                 if device is not None:
                     self.plan.row("share", f"{what}, {loop}", "%", lambda name=name, key=key: self.cpu_share(name, key),
+<<<<<<< HEAD
                                   device=device, target=goal, note="operations counted in the machine code, on the same packets")
+=======
+                                  device=device, target=goal, note="operations counted in the machine code, of the same packets")
+>>>>>>> w41-study
         for label in self.gpus():
             for scene in ("default", "lights-1000"):
                 job = self.job(label, scene, "0-3")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Where methods of geometry and arithmetic fail, ours among them. It all runs on the CPU, and every number is the same each
-time; an interrupted study goes on where it was."""
+"""Where methods of geometry and arithmetic fail, hedron's among them. All of it runs on the CPU, with the same numbers each time;
+an interrupted study can be continued."""
 from pathlib import Path
 
 from harness.command.bench import Bench
@@ -47,24 +47,24 @@ def add_rows(plan, result):
         def figure(study=study):
             these = known([each for each in counts if each["study"] == study and each["method"] in methods.OURS] or None)
             return [sum(methods.tally(these, wrong)[0] for wrong in (study, *["misplaced"] * (study == "crossings")))]
-        plan.row(study, f"{what}, ours", "count", figure, target=NONE)
+        plan.row(study, f"{what}, hedron", "count", figure, target=NONE)
     for geometry in pictures.GEOMETRIES:
         near, pixels = pictures.total(precision, pictures.FLOAT, geometry)
         plan.row("precision", f"pixels within 1 of 255, {pictures.FLOAT}, all scenes, {geometry}", "%",
                  lambda near=near, pixels=pixels: percent(near, pixels), target=NEAR,
                  note=f"{pictures.FLOAT}, {geometry}: {pixels - near} of {pixels} pixels off" if pixels else None)
-    plan.row("odd", "pixels that are no numbers or infinite, all frames", "pixels",
+    plan.row("odd", "pixels that are NaN or infinite, all frames", "pixels",
              lambda: [sum(each["nan"] for each in known([*precision, *odd] or None))], target=NONE)
-    plan.row("odd", "odd scenes that neither render nor are refused with a clear error", "scenes",
+    plan.row("odd", "odd scenes that neither render nor give a clear error", "scenes",
              lambda: [sum(not each["as_it_should"] for each in known(odd or None))], target=NONE)
 
 
 class Stability(Bench):
     name = "stability"
-    about = "Measure where methods of geometry and arithmetic fail, ours among them."
-    codes = """exit codes: 0 done, 1 ours failed where it never may, or a run failed, 2 wrong usage or input,
+    about = "Measure where methods of geometry and arithmetic fail, hedron's among them."
+    codes = """exit codes: 0 done, 1 hedron's method failed or a run failed, 2 wrong usage or input,
 130 interrupted (what was measured is kept)"""
-    quick, repeats = "a twentieth of the rays, and smaller pictures; rough", None
+    quick, repeats = "measure a twentieth of the rays and smaller pictures; figures are rough", None
     own_options = (*Bench.own_options, "--precision", "--math", "--geometry")
     parts = (*methods.STUDIES, "precision", "odd")
     scene = "solids, triangles and odd scenes"
@@ -74,12 +74,13 @@ class Stability(Bench):
     def add_options(self, parser):
         super().add_options(parser)
         parser.add_argument("--rays", type=whole_number, metavar="N",
-                            help="rays, paths or segments for each method and place (default: by the part)")
+                            help="rays, paths or segments of each method and place (default: crossings and shadows 20000, paths "
+                                 "5000)")
         parser.add_argument("--scenes", type=Path, default=ROOT / "scenes", metavar="FOLDER",
-                            help="the scenes of the part precision (default: scenes)")
+                            help="folder of the scenes of the part precision (default: scenes)")
 
     def tried(self, what, measure, *arguments, **named):
-        """An empty list where it cannot be, which counts as a failure."""
+        """Returns an empty list after a failure, which counts."""
         found = super().tried(what, measure, *arguments, **named)
         if isinstance(found, str):
             self.plan.failures.add(found)
@@ -109,7 +110,7 @@ class Stability(Bench):
         self.plan.failures |= {*methods.failures(self.result["counts"] or []), *pictures.failures(self.result["odd"] or [])}
 
     def compared(self):
-        return {"same": None, "sentence": "A share that is 0 was not seen to fail; how many were tried stands beside ours."}
+        return {"same": None, "sentence": "A share of 0 means that no failure was seen; the column of hedron has the number of tries."}
 
     def tables(self):
         return [("How methods fail", [table.HEAD, *(list(row.values()) for row in self.result["table"])], [])]
@@ -127,7 +128,7 @@ FEWER = {True: QUICK_PART, False: 4}  # by what it counts less
 
 
 def measure(study):
-    """Raises Problem where it cannot be."""
+    """Raises Problem if a run fails."""
     memory = study.result["stability"] = study.result["stability"] or {"steps": [], "counts": [], "precision": [], "odd": None}
     options = (*SIZES[True], *study.arguments.options)
     steps = {each: ("counts", methods.run, study.program, each, methods.COUNTS[each] // FEWER[study.arguments.quick])
@@ -143,7 +144,7 @@ def measure(study):
 
 
 def fill(section):
-    """Of the first machine that has it: every number is the same everywhere."""
+    """Shows the first machine's that has it, because all give the same numbers."""
     found = next((result for result in section.results if result["stability"]), None)
     if found is None:
         return
@@ -158,33 +159,22 @@ NEVER = {"crossings": "crossings", "misplaced": "crossings", "lost": "paths", "s
 
 
 def answers(results):
-    """Of the first machine that has it."""
+    """Yields a sentence about the first machine that has it."""
     found = next((result["stability"] for result in results if result["stability"] and result["stability"]["counts"]), None)
     if found is None:
-        yield "Stability: <em>missing</em>, for it was measured on no machine here."
+        yield "Stability was measured on no machine here."
         return
     counts = found["counts"]
     ours = [methods.tally([each for each in counts if each["study"] == study and each["method"] in methods.OURS
                            and each["case"] not in methods.CRACKS], what) for what, study in NEVER.items()]
     wrong, tried = map(sum, zip(*ours))
-    words = (f"What fails where: hedron's geometry failed in {answer.figure('ours_failed', wrong, f'{wrong}')} of "
-             f"{answer.figure('ours_tried', tried, count_words(round(tried, -4)))} tries at every size and distance")
-    others = {method: methods.worst(methods.select(counts, "crossings", charts.EDGES, method), "crossings")[0]
-              for method in methods.methods(counts, "crossings") if method not in methods.OURS}
+    words = (f"Hedron lost, misplaced or wrongly shadowed {answer.figure('ours_failed', wrong, f'{wrong}')} of "
+             f"{answer.figure('ours_tried', tried, count_words(round(tried, -4)))} rays")
+    others = [methods.worst(methods.select(counts, "crossings", charts.EDGES, method), "crossings")[0]
+              for method in methods.methods(counts, "crossings") if method not in methods.OURS]
     if others:
-        best, worst = min(others, key=others.get), max(others, key=others.get)
-        words += (f", where other methods lose {answer.figure('others_least', 100 * others[best])} % ({methods.NAMES[best]}) to "
-                  f"{answer.figure('others_most', 100 * others[worst])} % ({methods.NAMES[worst]}) of the rays at edges")
-    strayed = methods.share(methods.select(counts, "paths", method="ours_triangles"), "paths")
-    if strayed is not None:
-        words += f"; {answer.figure('paths_strayed', 100 * strayed)} % of mirror paths in triangles leave the exact one in 30 bounces"
-    compared = [each for each in found["precision"] if each["what"] == pictures.FLOAT]
-    if compared:
-        off = {scene: 100 * (1 - pictures.share([each for each in compared if each["scene"] == scene]))
-               for scene in dict.fromkeys(each["scene"] for each in compared)}
-        scene = max(off, key=off.get)
-        words += (f"; float is off from double in {answer.figure('float_off', 100 * (1 - pictures.share(compared)))} % of all "
-                  f"pixels, most in the scene {scene} ({answer.figure('float_off_most', off[scene])} %)")
+        words += (f"; other methods lose {answer.figure('others_least', 100 * min(others))} % to "
+                  f"{answer.figure('others_most', 100 * max(others))} % of the rays at edges, each at its worst place")
     yield f"{words}."
 
 
@@ -192,6 +182,6 @@ def failures(result):
     return methods.failures(result["stability"]["counts"]) if result["stability"] else []
 
 
-PART = Part(16, "Stability: what fails where", "How often methods of geometry and arithmetic fail, hedron's among them, at many "
-            "sizes and distances; see bench/README.md, bench/study stability.", measure=measure, fill=fill, failures=failures,
+PART = Part(16, "Stability: what fails where", "How often methods of geometry and arithmetic fail at many sizes and distances. "
+            "Hedron's own are in bold.", measure=measure, fill=fill, failures=failures,
             answer=answers, lead=4)

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""A run of one frame, with all that comes before and after."""
+"""A run of one frame, from the start of the program to the file."""
 from statistics import median
 
 from harness.chart.rows import Row, ms, rows
 from harness.measure.jobs import chosen_runs
 from harness.measure.numbers import spread
 from harness.measure.plan import DEFAULT
-from harness.page.section import Part, few, sentence
+from harness.page.section import Part, few
 
 COLD, WARM = "nothing compiled", "compiled before"
-STAGES = ("program and device start", "kernels built", "scene and kernels to the device", "prepare", "trace",
+STAGES = ("program and device start", "compiling kernels", "scene and kernels to the device", "prepare", "trace",
           "read back", "convert and encode PNG")
 
 
@@ -38,7 +38,7 @@ def stage_spreads(device):
     found = {name: spread([1e3 * seconds[name] for seconds in each]) for name in STAGES if each[0][name] is not None}
     if cold:
         usual = median(run["wall"] for run in warm)
-        found["kernels built"] = spread([max(0.0, 1e3 * (run["wall"] - usual)) for run in cold])
+        found["compiling kernels"] = spread([max(0.0, 1e3 * (run["wall"] - usual)) for run in cold])
     return found
 
 
@@ -50,12 +50,12 @@ def fill(section):
                   if name in found]
         if found:
             longest = max(found, key=lambda name: found[name]["median"])
-            told.append(f"{longest} takes longest on {device.short}, {ms(found[longest]['median'])}")
+            told.append(f"on {device.name} the longest stage is {longest}: {ms(found[longest]['median'])}")
     if drawn:
         section.draw(rows, "one frame of the built-in scene to PNG, 640 x 360, 3 x 3 samples",
-                     "Start-up and stages of a run of one frame", sentence(few(told) + "."), "milliseconds", drawn)
+                     "Start-up and stages of a run of one frame", few(told), "milliseconds", drawn)
         section.tabulate(lambda entry: entry["series"])
 
 
-PART = Part(13, "Start-up and stages", "Whole runs of one frame. What a run takes longer with empty caches is the building of "
-            "kernels; those of the C backend are compiled ahead.", add, fill=fill)
+PART = Part(13, "Start-up and stages", "Whole runs of one frame. The time of compiling is how much longer a run takes with empty "
+            "caches; the kernels of the C backend are compiled ahead.", add, fill=fill)

@@ -15,7 +15,7 @@ def counts(cores):
 
 def add(plan):
     plan.sweep("--threads", counts(machine.cores()), lambda device: device["backend"] == "c",
-               none="The C backend, which has a choice of threads, was not measured.")
+               none="The C backend was not measured; only it has --threads.")
 
 
 def words(line):
@@ -27,7 +27,7 @@ def words(line):
 
 def fill(section):
     section.sweep("Time against threads of the C backend", Axis("threads", True),
-                  lambda drawn: few(list(map(words, drawn))) + ".", bounds=proportional)
+                  lambda drawn: few(list(map(words, drawn))), bounds=proportional)
 
 
-PART = Part(9, "Threads", "--threads of the C backend.", add, fill=fill)
+PART = Part(9, "Threads", "Option --threads of the C backend.", add, fill=fill)

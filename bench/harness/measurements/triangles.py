@@ -20,10 +20,10 @@ LEAK_RAYS = {True: 10 ** 5, False: 10 ** 8}
 
 class Triangles(Bench):
     name = "triangles"
-    about = "Measure every target of triangles, and draw time against their number."
+    about = "Measure every target of triangles, and chart time against their number."
     codes = """exit codes: 0 done, 1 pictures differ, rays leak, or a run failed,
 2 wrong usage or input, 3 no device can be timed, 130 interrupted (what was measured is kept)"""
-    quick = "few rounds and rays, and no more than 1 M triangles; rough"
+    quick = "measure few rounds and rays and at most 1 M triangles; figures are rough"
     own_options = (*Bench.own_options, "--accel")
     parts = ("sweep", "primary", "leaks")
     scene = "a mirrored, transparent sphere with bumps over a floor, two lights, depth 4"
@@ -33,7 +33,7 @@ class Triangles(Bench):
     def add_options(self, parser):
         super().add_options(parser)
         parser.add_argument("--most", type=whole_number, metavar="N",
-                            help="no object of more triangles (default: 10 M, with --quick 1 M)")
+                            help="triangles of the largest object (default: 10 M, with --quick 1 M)")
         parser.add_argument("--leak-rays", type=whole_number, metavar="N",
                             help="rays of the leak hunt for each backend and precision (default: 1e8, with --quick 1e5)")
 
@@ -80,7 +80,7 @@ class Triangles(Bench):
     # ---- the sweep
 
     def begin_sweep(self, made, brute_most):
-        """Brute force is added where it can be timed in reasonable time: each further count waits for the one before."""
+        """Adds brute force as far as its time allows: each further count waits for the one before."""
         self.triangles = made
         for label in self.runnable:
             for count in made:
@@ -176,24 +176,27 @@ def add(plan):
 def crossing_words(device):
     trees = {x: spread["median"] for x, spread in device.line(series="bvh").points}
     slower = [x for x, spread in device.line(series="brute").points if x in trees and spread["median"] > trees[x]]
-    where = f"from {count_words(int(min(slower)))} triangles on" if slower else "nowhere that was measured"
-    return f"on {device.short} {where}"
+    where = f"from {count_words(int(min(slower)))} triangles on" if slower else "at no number measured"
+    return f"the hierarchy is faster {where}"
 
 
 def fill(section):
     drawn, trees = [], []
     for device in section.devices:
         if device.entries(series="bvh"):
-            trees.append(device.line(f"{device.title}, hierarchy", series="bvh"))
-            drawn += [trees[-1], replace(device.line(f"{device.title}, each triangle tried", series="brute"), dash=4)]
+            trees.append(device.line(f"{device.name}, hierarchy", series="bvh"))
+            drawn += [trees[-1], replace(device.line(f"{device.name}, brute force", series="brute"), dash=4)]
     if not trees:
         return
     caption = growth_words(trees, "triangles", lambda x: count_words(int(x)))
-    caption += f" The hierarchy is the faster one {few(list(map(crossing_words, section.devices)))}."
+    crossings = {device.name: crossing_words(device) for device in section.devices}
+    if len(set(crossings.values())) == 1:
+        crossings = {"every device": crossings.popitem()[1]}
+    caption += " " + few([f"on {name} {each}" for name, each in crossings.items()])
     section.draw(lines, "mirrored, transparent sphere with bumps, 1280 x 960, 2 x 2 samples",
                  "Time against the number of triangles", caption, Axis("triangles", True, TRIANGLE_TICKS), TIME_AXIS, drawn)
     section.tabulate(lambda entry: f"{entry['x']:g}, {entry['series']}", "triangles")
 
 
-PART = Part(4, "Number of triangles", "A sphere of so many triangles, searched by a hierarchy (--accel bvh) and one by one "
-            "(--accel brute).", add, scenes, fill=fill)
+PART = Part(4, "Number of triangles", "A sphere of 12 to 1 M triangles, searched by a bounding volume hierarchy (--accel bvh) "
+            "and one by one (--accel brute).", add, scenes, fill=fill)

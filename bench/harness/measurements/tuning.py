@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What hedron tune finds to be the fastest on each device. It is measured after all else, for later runs take what it found."""
+"""The fastest settings of each device by hedron tune. It runs last, because later runs use what it finds."""
 import json
 
 from harness.measure.numbers import number
@@ -11,7 +11,7 @@ HOW = ("pipeline", "lanes", "block", "registers")
 
 
 def measure(study):
-    """Raises Problem where a run fails."""
+    """Raises Problem if a run fails."""
     found = study.result["tuning"] = study.result.get("tuning") or {}
     for label in study.runnable:
         if label not in found:
@@ -33,9 +33,9 @@ def fill(section):
             section.table += [[result["machine"]["name"], label, words(each), number(each["ms"], 3), number(each["ratio"], 3)]
                               for each in measured]
             best = min(measured, key=lambda each: each["ms"])
-            section.notes.append(f"{result['machine']['name']}, {label}: the fastest is {words(best)}, in {number(best['ratio'], 3)} "
-                                 "times the time of what is chosen without tuning.")
+            section.notes.append(f"{words(best)} is the fastest on {label} of {result['machine']['name']}: it takes "
+                                 f"{number(best['ratio'], 3)} times the time of the default.")
 
 
-PART = Part(20, "Tuning", "Times of one frame of the built-in scene by every pipeline, number of lanes and size of groups that the "
-            "device can do; see hedron help tune.", measure=measure, fill=fill)
+PART = Part(20, "Tuning", "Times of a frame of the built-in scene by every pipeline, number of lanes and size of groups that the "
+            "device supports; see hedron help tune.", measure=measure, fill=fill)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The page of bench/study: one file of HTML with its charts in it, made of nothing but saved results; and its table."""
+"""The page of bench/study, one file of HTML with its charts, made from saved results alone; and its table as CSV."""
 import csv
 import html
 import io
@@ -9,27 +9,31 @@ from harness.chart.sheet import NARROW, STYLE, WIDE
 from harness.page.section import dagger
 from harness.store.result import is_unfinished, scene_words
 
-# Where a screen is narrower it gets the narrow charts.
+# Narrow screens get the narrow charts, and the first table as paragraphs.
 PAGE_STYLE = STYLE + """
 body{font:16px/1.5 sans-serif;max-width:1100px;margin:0 auto;padding:0 1rem 3rem;color:var(--ink);background:var(--paper)}
 h1{font-size:1.3rem;margin:.7rem 0 .3rem}h2{margin:2.6rem 0 .3rem;border-top:1px solid var(--grid);padding-top:.9rem}
-h1,h2,h3{line-height:1.25}h3{margin:1.4rem 0 .2rem}p,figcaption{max-width:75ch}.answer{font-size:1.06rem;margin:.3rem 0}
+h1,h2,h3{line-height:1.25}h3{margin:1.4rem 0 .2rem}p,figcaption{max-width:75ch}header p{margin:.5rem 0}header strong{font-weight:inherit}
 figure{margin:.6rem 0 1.2rem}svg{width:100%;height:auto;display:block}.narrow{display:none;max-width:520px}
-@media(max-width:860px){.wide{display:none}.narrow{display:block}body{line-height:1.42}.answer{font-size:1rem}}
+@media(min-width:861px){header td:not(:last-child){white-space:nowrap}}
+@media(max-width:860px){.wide{display:none}.narrow{display:block}body{line-height:1.42}}
 table{border-collapse:collapse;font-size:14px;margin:.4rem 0}th,td{border:1px solid var(--grid);padding:.2em .5em;text-align:left;
 vertical-align:top;overflow-wrap:break-word}th{font-weight:bold}.scroll{overflow-x:auto}
 .wrong{background:#b00020;color:#fff;padding:.6em 1em}.soft{color:var(--soft)}a,summary{color:var(--k0)}summary{cursor:pointer}
 code,.option{white-space:nowrap}details{margin:.5rem 0}#machines{margin-top:2.6rem}nav a{display:inline-block;margin:.1rem .9rem .1rem 0}
 .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,300px),1fr));gap:1rem 1.2rem}.pictures figure{margin:0}
-.pictures img{width:100%;box-sizing:border-box;border:1px solid var(--grid);height:auto;display:block}.pictures h3{font-size:1rem;margin:0 0 .25rem}.pictures figcaption{font-size:.9rem}"""
+.pictures img{width:100%;box-sizing:border-box;border:1px solid var(--grid);height:auto;display:block}.pictures h3{font-size:1rem;margin:0 0 .25rem}.pictures figcaption{font-size:.9rem}
+@media(max-width:860px){header tr:first-child{display:none}header tr{display:block;margin:.3rem 0;line-height:1.3}header th{display:block}
+header :is(th,td){border:0;padding:0}header td{display:inline}header .none{display:none}header td::before{content:attr(data-column)": ";color:var(--soft)}
+header td:not(:last-child)::after{content:"; "}}"""
 
-METHOD = ("Times are the statistics' own: no start of a program and no building of kernels is in them, but in the last of the "
-          "charts of time. The first frame of a run warms up and does not count. A run's figure is the mean of its frames, "
-          "and a point is the median of the runs, with whiskers from the first to the third quartile. Runs took turns.")
+METHOD = ("Times are those of the statistics: without the start of the program and the compiling of kernels, which the last chart "
+          "of time has. The first frame of a run warms up and does not count. A run's figure is the mean of its frames. A point is "
+          "the median of the runs; its whiskers reach from the first to the third quartile. Runs are interleaved.")
 
 
 def text(words):
-    """No option is torn from its dashes or its value."""
+    """Returns HTML in which no line breaks within an option or before its value."""
     return re.sub(r"--[a-z][a-z-]*( [\w./]+(?=[ ,;.:]|$))?", r'<span class="option">\g<0></span>', html.escape(str(words)))
 
 
@@ -41,7 +45,7 @@ def table(rows):
 
 
 def figure(name, chart, caption, is_alone):
-    """Both ways it can be drawn, of which a screen shows one."""
+    """Returns both drawings of a chart; a screen shows one of them."""
     heading = "" if is_alone else f"<h3>{text(chart.title)}</h3>\n"
     label = html.escape(caption or chart.title)
     drawn = "\n".join(f"<div class=\"{kind}\" role=\"img\" aria-label=\"{label}\">{chart.svg(width)}</div>"
@@ -74,21 +78,21 @@ def noise_words(result):
     runs = [run for each in entries for run in each["runs"]]
     loads = [run["load"] for run in runs]
     words = f"{result['machine']['name']}: {len(runs)} runs of {len(entries)} measurements count. "
-    words += (f"Where other programs took more than {100 * result['interference_limit']:g} % of the processors, a run was "
-              f"done again: {rejected} were rejected, and {disturbed} measurements stayed disturbed."
+    words += (f"A run is repeated if other programs took more than {100 * result['interference_limit']:g} % of the processors: "
+              f"{rejected} were rejected, and {disturbed} measurements stayed disturbed."
               if all(run["others"] is not None for run in runs) else
-              "This system does not tell what other programs took of the processors, so no run was rejected.")
+              "This system does not report what other programs took of the processors, so no run was rejected.")
     return words + (f" The load was {min(loads)} to {max(loads)}." if loads else "")
 
 
 def parts_without_figures(result):
-    """An interrupted part may have some."""
+    """Returns parts without any; an interrupted part may have some."""
     measured = {entry["part"] for entry in result["measurements"]}
     return [part for part in result.get("missing") or () if part not in measured]
 
 
 def machines(results, pictures):
-    """What the figures come from, folded away."""
+    """Returns what the figures come from, folded away."""
     changed = [f"{result['machine']['name']}: every run had the options {' '.join(result['hedron']['options'])}."
                for result in results if result["hedron"]["options"]]
     absent = [f"{result['machine']['name']}: nothing was measured of {', '.join(parts)}."
@@ -101,15 +105,15 @@ def machines(results, pictures):
 def warnings(results, failures):
     words = [f"<p class=\"wrong\">{text(each)}</p>" for each in failures]
     if is_unfinished(results[0]):  # the one that a call would go on with
-        words.append("<p class=\"wrong\">A study here is unfinished: bench/study goes on where it stopped.</p>")
+        words.append("<p class=\"wrong\">A study here is unfinished: bench/study continues it.</p>")
     quick = [result["machine"]["name"] for result in results if result["quick"]]
     if quick:
-        words.append("<p class=\"soft\">Rough, for quick studies have few repeats and small pictures: "
+        words.append("<p class=\"soft\">Rough, because quick studies have few repeats and small pictures: "
                      f"{text('; '.join(quick))}.</p>")
     strange = [result["machine"]["name"] for result in results if dagger(result)]
     if strange:
-        words.append("<p class=\"soft\">\u2020 Measured with other kernels than this program's, so its own may be faster or "
-                     f"slower: {text('; '.join(strange))}.</p>")
+        words.append("<p class=\"soft\">\u2020 Measured with other kernels than this program's, which may be faster or slower: "
+                     f"{text('; '.join(strange))}.</p>")
     return words
 
 
@@ -127,13 +131,13 @@ def section_words(section):
     return words
 
 
-def page(results, sections, answer, failures, pictures):
-    """`answer` is HTML, what the page opens with."""
+def page(results, sections, opening, failures, pictures):
+    """`opening` is HTML, the first screen."""
     links = "\n".join(f"<a href=\"#{section.part}\">{text(section.title)}</a>" for section in sections)
     words = ["<!DOCTYPE html>", "<html lang=\"en\"><head><meta charset=\"utf-8\">",
              "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">",
              f"<title>hedron: how fast, how exact, how stable</title><style>{PAGE_STYLE}</style></head><body>",
-             "<h1>hedron: how fast, how exact, how stable</h1>", answer, *warnings(results, failures),
+             "<h1>hedron: how fast, how exact, how stable</h1>", opening, *warnings(results, failures),
              f"<details><summary>Contents</summary><nav>{links}</nav></details>"]
     for section in sections:
         words += section_words(section)
@@ -145,7 +149,7 @@ CSV_HEAD = ["machine", "device", "device_name", "part", "series", "x", "scene", 
 
 
 def csv_text(results):
-    """A line for each measurement of each machine."""
+    """Returns a line for each measurement of each machine."""
     found = io.StringIO()
     writer = csv.writer(found, lineterminator="\n")
     writer.writerow(CSV_HEAD)

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""A part of bench/study, and the section of its page: what all machines measured of the part."""
+"""Parts of bench/study, and their sections of its page: what all machines measured of a part."""
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from harness.chart.axes import Axis, axis_number
 from harness.chart.lines import Line, lines
-from harness.chart.sheet import device_title, plain
+from harness.chart.sheet import model, plain
 from harness.measure.numbers import number, spread_text
 from harness.store.result import machine_words
 
-NAME_LENGTH, MACHINE_LENGTH = 28, 24
-MOST_CLAUSES = 4
+MOST_SENTENCES = 4
+BACKENDS = {"c": "C", "cuda": "CUDA", "opencl": "OpenCL"}
 TOO_LITTLE = "Too little was measured to compare."
 MS = "milliseconds for each frame"
 TIME_AXIS = Axis(MS, True)
@@ -29,56 +29,58 @@ class Part:
     measure: Callable = None
     fill: Callable = None  # fills its section, from the results
     failures: Callable = lambda result: []
-    answer: Callable = None  # gives sentences of HTML for the page's first paragraph, from the results (page/answer.py)
-    lead: int = 9  # its place among those that answer, at the top of the page; the others follow in their order
+    cells: Callable = None  # cells of a device in the page's first table (page/answer.py)
+    answer: Callable = None  # sentences of HTML below that table, from the results
+    lead: int = 9  # place among those that answer, at the top of the page; the others follow in their order
 
 
 @dataclass(frozen=True)
 class Device:
-    """One of one machine, and what it measured of a part; `place` counts through all that differ and gives the colour."""
+    """Device of a machine, and what it measured of a part; `place` counts the different devices and gives the colour."""
     result: dict
     entry: dict
     place: int
     part: str
     label: str
-    title: str  # beside those of the same machine
-    short: str  # in sentences
-    name: str  # of the machine too, where there are several
-    machine: str  # where there are several
+    name: str  # short, and different from all others
+    machine: str  # name of its machine; empty if there is one only
 
     def entries(self, **wanted):
-        """The measured ones."""
+        """Returns the measured ones."""
         wanted.update(part=self.part, device=self.label)
         return [entry for entry in self.result["measurements"]
                 if entry["summary"] and all(entry[key] == value for key, value in wanted.items())]
 
     def line(self, name=None, points=None, **wanted):
-        """Time against what the part varies."""
+        """Returns a line of time against what the part varies."""
         points = points or sorted((each["x"], each["summary"]["trace_ms"]) for each in self.entries(**wanted))
-        return Line(name or self.title, points, self.place, 1, self.place, self.short, self.machine)
+        return Line(name or self.name, points, self.place, 1, self.place, self.name, self.machine)
 
 
-def all_devices(results, part):
+def short_name(result, device):
+    """Returns the model and the backend; of CPUs also the number of cores."""
+    backend = "PoCL" if "Portable Computing Language" in device["driver"] else BACKENDS[device["backend"]]
+    return f"{result['machine']['cores']}-core " * device["is_cpu"] + f"{model(device)} ({backend})"
+
+
+def all_devices(results, part=""):
     """`results` are in the order of the page; this machine's, if any, comes first."""
+    runnable = [(result, entry) for result in results for entry in result["devices"] if entry["reason"] is None]
+    names = [short_name(*each) for each in runnable]
     found, places = [], {}
-    for result in results:
-        machine = plain(result["machine"]["name"], MACHINE_LENGTH)
-        for entry in (entry for entry in result["devices"] if entry["reason"] is None):
-            title = device_title(entry)
-            if len(results) == 1:
-                title += dagger(result)
-                names = entry["label"] + dagger(result), title, ""
-            else:
-                names = (f"{entry['label']} ({machine}){dagger(result)}", f"{plain(title, NAME_LENGTH)}, {machine}{dagger(result)}",
-                         f"{machine}{dagger(result)}")
-            known = result["machine"]["cpu"], result["machine"]["cores"], entry["label"], entry["name"]
-            place = places.setdefault(known, len(places))
-            found.append(Device(result, entry, place, part, entry["label"], title, *names))
+    for (result, entry), name in zip(runnable, names):
+        machine = plain(result["machine"]["name"])
+        if names.count(name) > 1:
+            name += f", {entry['label']}" + f" of {machine}" * (len(results) > 1)
+        known = result["machine"]["cpu"], result["machine"]["cores"], entry["label"], entry["name"]
+        place = places.setdefault(known, len(places))
+        found.append(Device(result, entry, place, part, entry["label"], name + dagger(result),
+                            (machine + dagger(result)) * (len(results) > 1)))
     return found
 
 
 def dagger(result):
-    """Marks what other kernels than this program's measured."""
+    """Returns the mark of figures by other kernels than this program's."""
     return "" if result.get("same_kernels", True) else " \u2020"
 
 
@@ -103,7 +105,7 @@ class Section:
         return [entry for device in self.devices for entry in device.entries()]
 
     def draw(self, kind, scene, title, caption, *arguments, name=None, **named):
-        """A chart of this kind, whose head tells of all machines."""
+        """Draws a chart of this kind; its head names all machines."""
         machines = [(f"{result['machine']['name']}: " if result["machine"]["name"] != result["machine"]["cpu"] else "")
                     + machine_words(result) for result in self.results]
         about = {"hedron": {"version": ", ".join(dict.fromkeys(result["hedron"]["version"] for result in self.results))},
@@ -114,7 +116,7 @@ class Section:
         self.charts[f"study_{name}"] = chart, caption
 
     def tabulate(self, name, what="what"):
-        """A row for each measurement."""
+        """Makes the table, a row for each measurement."""
         self.table = [["device", "machine", what, "milliseconds [quartiles]", "times", "runs", "rejected", "options", "renderer"]]
         for device in self.devices:
             for entry in device.entries():
@@ -125,7 +127,7 @@ class Section:
 
     def sweep(self, title, x_axis, caption=None, *, scene=WHOLE_FRAME, points=lambda line: line, name=lambda x: f"{x:g}",
               bounds=None):
-        """A line for each device, and a table; `bounds` makes what cannot be undercut from the lines."""
+        """Draws a line for each device, and makes a table; `bounds` makes lower bounds from the lines."""
         drawn = [points(device.line()) for device in self.devices]
         words = caption(drawn) if caption else growth_words(drawn, x_axis.words)
         self.draw(lines, scene, title, words, replace(x_axis, ticks=ticks_of(drawn)),
@@ -137,11 +139,11 @@ class Section:
         for scale in sorted({entry["scale"] for entry in entries if entry["scale"] > 1}):
             devices = sorted({entry["device"] for entry in entries if entry["scale"] == scale})
             self.remarks.append(f"Times of {' and '.join(devices)} are those of a picture with 1/{scale} of the samples, "
-                              f"times {scale}, where the figures say so.")
+                              f"times {scale}, if the figures say so.")
 
 
 def sections(parts, results):
-    """One for each part that anybody measured or that has a reason why not."""
+    """Returns a section for each part that a machine measured or has a reason not to."""
     found = []
     for name, part in parts.items():
         section = Section(name, part.title, part.about, results)
@@ -175,7 +177,7 @@ def middle(entry):
 
 
 def relative(entry, base):
-    """A spread, in times of the other's median."""
+    """Returns a spread, in times of the other's median."""
     return {key: value / middle(base) for key, value in entry["summary"]["trace_ms"].items()}
 
 
@@ -184,40 +186,47 @@ def ticks_of(drawn):
 
 
 def growth(line):
-    """(x, y) of both ends of a line."""
+    """Returns (x, y) of both ends of a line."""
     (x, first), (last_x, last) = line.points[0], line.points[-1]
     return x, first["median"], last_x, last["median"]
 
 
 def few(told):
-    """As many clauses as a sentence can have."""
-    more = len(told) - MOST_CLAUSES
-    return "; ".join(told[:MOST_CLAUSES]) + (f"; and {more} more in the figures below" if more > 0 else "")
+    """Returns a sentence for each of the first few."""
+    more = len(told) - MOST_SENTENCES
+    return " ".join(f"{sentence(each)}." for each in told[:MOST_SENTENCES]) + (
+        f" The figures below have {more} more." if more > 0 else "")
 
 
-def growth_words(drawn, what, words=axis_number):
-    """How each line grows from end to end."""
-    told = []
-    for line in drawn:
-        if len(line.points) > 1:
-            x, first, last_x, last = growth(line)
-            start = "" if told else f"From {words(x)} to {words(last_x)} {what} a frame takes "
-            told.append(f"{start}{ratio(last / first)} as long on {line.short}")
-    return few(told) + "." if told else "There is one point only."
+def range_words(told):
+    """Returns the least and the most of [(value, name of device)]."""
+    words = [f"{number(value, 3)} on {name}" for value, name in (min(told), max(told))]
+    return " up to ".join(words[:len(told)])
+
+
+def growth_words(drawn, what="", words=axis_number):
+    """Returns how the lines grow from end to end."""
+    grown = [(line, *growth(line)) for line in drawn if len(line.points) > 1]
+    if not grown:
+        return "There is one point only."
+    _, x, _, last_x, _ = grown[0]
+    told = range_words([(last / first, line.short) for line, _, first, _, last in grown])
+    ends = f"From {words(x)} to {words(last_x)} {what}".rstrip()
+    return f"{ends} the time of a frame grows by a factor of {told}."
 
 
 def best_words(drawn, words=axis_number):
-    """The fastest point of each line."""
+    """Returns the fastest point of each line, in sentences."""
     told = []
     for line in drawn:
         x, spread = min(line.points, key=lambda point: point[1]["median"])
         worst = max(each["median"] for _, each in line.points)
-        told.append(f"{words(x)} on {line.short} (the slowest takes {ratio(worst / spread['median'])} as long)")
+        told.append(f"{words(x)} is fastest on {line.short}: {ratio(worst / spread['median'])} as fast as the slowest")
     return few(told)
 
 
 def proportional(drawn):
-    """Bounds: as if twice as many took half as long, from the first point of each line."""
+    """Returns bounds: half the time for twice as many, from the first point of each line."""
     ends = [(line, *growth(line)[:2]) for line in drawn if len(line.points) > 1]
     return {"bounds": [[(each, first * x / each) for each, _ in line.points] for line, x, first in ends],
-            "bound_name": "bound: in proportion to one"}
+            "bound_name": "bound: half the time for twice as many"}

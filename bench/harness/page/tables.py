@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A result as tables, (title, rows, lines below): for the terminal, and for documents."""
+"""A result as tables of (title, rows, lines below), for the terminal and for documents."""
 from harness.measure.numbers import number, spread_text
 from harness.store.result import machine_words
 
@@ -8,7 +8,7 @@ HEAD = ["what", "device", "least", "aim", "figure [q1..q3]", "unit", "to least",
 
 
 def lines(rows):
-    """The first two columns to the left, the others to the right."""
+    """Returns lines with the first two columns aligned left and the others right."""
     widths = [max(map(len, column)) for column in zip(*rows)]
     return ["  ".join(cell.ljust(width) if column < 2 else cell.rjust(width)
                       for column, (cell, width) in enumerate(zip(cells, widths))).rstrip() for cells in rows]
@@ -29,7 +29,7 @@ def cells(row):
 
 
 def remarks(rows):
-    """What the table alone does not tell, each once, with the rows that it is about; many rows by their keys."""
+    """Returns notes and reasons, each once, with its rows; many rows by their keys."""
     said = {}
     for row in rows:
         if row["reason"]:
@@ -50,15 +50,15 @@ def head_lines(result):
     found += [f"{device['label']}: {device['name'] or '-'}{', cannot run: ' + device['reason'] if device['reason'] else ''}"
               for device in result["devices"]]
     if result["quick"]:
-        found.append("QUICK: few frames and repeats; where a time is scaled, its row says so.")
+        found.append("QUICK: few frames and repeats; rows with a scaled time say so.")
     if result["hedron"]["options"]:
-        found.append(f"CHANGED by {' '.join(result['hedron']['options'])}: no figure answers to its target.")
+        found.append(f"CHANGED by {' '.join(result['hedron']['options'])}: figures are not compared with targets.")
     return found
 
 
 def all_tables(result, tables):
     """With that of the rows."""
-    unfinished = [] if result["complete"] else ["Interrupted: only what was measured before counts."]
+    unfinished = [] if result["complete"] else ["Interrupted: figures are of what was measured until then."]
     below = [*remarks(result["rows"]), *unfinished, result["pictures"]["sentence"]]
     return [("", [HEAD, *map(cells, result["rows"])] if result["rows"] else [], below), *tables]
 

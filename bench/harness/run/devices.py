@@ -44,7 +44,7 @@ def chosen(backends, wishes):
         matches = [each for each in found if each["backend"] == name
                    and (not colon or each["index"] is None or each["index"] == int(number))]
         if not matches:
-            raise Problem(3, f"--device is '{wish}', and 'hedron devices' lists no such device")
+            raise Problem(3, f"--device is '{wish}', which 'hedron devices' does not list")
         picked += [each for each in matches if each not in picked]
     return picked
 
@@ -68,7 +68,7 @@ def architecture(device, devices):
 
 
 def lane_rate(device, devices):
-    """Float instructions of a GPU a second, one lane each; None where it is not known."""
+    """Returns the float instructions of a GPU a second, one lane each; None if not known."""
     lanes = LANES.get(architecture(device, devices))
     if lanes is None or not device["compute_units"] or not device["clock_mhz"]:
         return None

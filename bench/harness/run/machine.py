@@ -29,7 +29,7 @@ def load():
 
 
 def busy_seconds():
-    """Seconds that the usable processors worked, for whomever; None where the system does not tell."""
+    """Returns the busy seconds of the usable processors, for all programs; None if the system does not report them."""
     try:
         usable = {f"cpu{number}" for number in os.sched_getaffinity(0)}
         with open("/proc/stat", encoding="ascii", errors="replace") as file:

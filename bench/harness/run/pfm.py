@@ -20,7 +20,7 @@ def read(file):
         numbers = array.array("f")
         numbers.frombytes(stream.read())
     if head[0].strip() != b"PF" or len(numbers) != 3 * width * height:
-        raise Problem(1, f"{file} is no whole PFM file")
+        raise Problem(1, f"{file} is not a complete PFM file")
     if (float(head[2]) < 0) != (sys.byteorder == "little"):
         numbers.byteswap()
     return width, height, numbers

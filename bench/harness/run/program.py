@@ -36,12 +36,12 @@ class Interrupted(KeyboardInterrupt):
 
 
 class Program:
-    """A run is disturbed where others took more than `limit`, a share of all usable processors' time."""
+    """Hedron; a run is disturbed if others took more than `limit`, a share of all usable processors' time."""
 
     def __init__(self, path, limit=NEVER):
         self.path, self.limit = path.resolve(), limit
         if not self.path.is_file():
-            raise Problem(2, f"there is no program {path}: build it with ./dev build, or name it with --hedron")
+            raise Problem(2, f"the program {path} does not exist: build it with ./dev build, or name it with --hedron")
         self.version = self._ask("--version").removeprefix("hedron ").strip()
 
     def _ask(self, *words):
@@ -55,7 +55,7 @@ class Program:
 
     @functools.cached_property
     def listed(self):
-        """What `hedron devices --json` prints."""
+        """Returns what `hedron devices --json` prints."""
         try:
             found = json.loads(self._ask("devices", "--json"))
             return {"kernels": found.get("kernels"), "backends": found["backends"]}
@@ -66,23 +66,21 @@ class Program:
         return self.listed["backends"]
 
     def kernels(self):
-        """The hash of its kernels; None: it does not tell."""
+        """Returns the hash of its kernels, or None if it reports none."""
         return self.listed["kernels"]
 
     def beside(self, name):
-        """A program that the build put next to hedron, or below."""
+        """Returns the path of a program that the build put beside hedron, or below."""
         return self.path.parent / name
 
     def render(self, device, scene, frames, options, folder, output="#######.data", cores=None, path=None,
                look=None, variables=None):
-        """One run, in a new folder within the temporary one, so that no name in the path counts as a
-        pattern; on `cores` alone, with `path` for PATH and these variables of the environment, where given. Returns {"code",
-        "message", "said", "frames", "digests", "wall", "cpu", "load", "others", "noisy"}: the exit code (None where a run
-        was interrupted), the first line of what hedron said, all of it, the lines of the statistics, for each frame the
-        digest of its picture if that is a file of its own, the seconds from the start to the end of the program, and those
-        that processors worked for it and its children; the load; the share of all usable processors' time that others took,
-        None where the system does not tell; whether that is too much. `look` is called with the folder before that goes,
-        and what it gives is there as `seen`.
+        """Runs hedron in a new folder, where no name in the path counts as a pattern; `cores`, `path` (for PATH) and `variables` of
+        the environment are optional. Returns a dictionary: the exit "code" (None if the run was interrupted); the first line of
+        the error output as "message", all of it as "said"; "frames", the lines of the statistics; "digests" of frames that are
+        files of their own; "wall" seconds of the program, "cpu" seconds of it and its children; the "load"; "others", the share
+        of all usable processors' time that other programs took (None if the system does not report it); "noisy", whether that
+        is too much. `look` is called with the folder before its removal, and gives "seen".
         """
         place = Path(folder, "run")
         place.mkdir()
@@ -164,9 +162,8 @@ def message_in(text):
 
 
 def run_tool(program, *words, accepted=(0,), limit=None):
-    """Another program, one of those beside hedron or a compiler: the finished process, with its `stdout`. Raises Problem with
-    the reason where there is none: 3 where the program is not there or takes more than `limit` seconds, 1 where it ends with
-    a code that is not accepted."""
+    """Runs a program beside hedron, or a compiler, and returns the finished process, with its `stdout`. Raises Problem: 3 if the
+    program does not exist or takes more than `limit` seconds, 1 if its exit code is not accepted."""
     if not program.is_file():
         raise Problem(3, f"there is no {program}: ./dev build builds it")
     try:

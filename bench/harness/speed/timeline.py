@@ -28,7 +28,7 @@ def measure(frames):
     "ratio_to_slowest"}: the run goes from the first begin of a stage to the last end."""
     stages = intervals(frames)
     if not stages:
-        raise Missing("the statistics of this hedron do not tell when stages began")
+        raise Missing("the statistics of this hedron do not have the times at which stages began")
     begin = min(boxes[0][0] for boxes in stages.values())
     length = max(end for boxes in stages.values() for _, end, _ in boxes) - begin
     busy = {stage: busy_seconds(boxes) for stage, boxes in stages.items()}
@@ -52,8 +52,8 @@ def chart(result):
     """A row for each stage, a box for each frame."""
     timeline = result["timeline"]
     first = min(box[0] for stage in timeline["boxes"].values() for box in stage)
-    caption = (f"{timeline['slowest']} sets the pace: the run takes {timeline['ratio_to_slowest']:.2f} times as long as "
-               "it is busy. Frames alternate in colour.")
+    caption = (f"{timeline['slowest'].capitalize()} limits the run, which takes {timeline['ratio_to_slowest']:.2f} times as "
+               "long as this stage is busy. Frames alternate in colour.")
     drawn = [Row(stage, {"median": 1e3 * (begin - first), "q1": 1e3 * (begin - first), "q3": 1e3 * (end - first)},
                  "" if place else f"{100 * timeline['stages'][stage]['busy_share']:.0f} % busy", frame % 2)
              for stage, frames in timeline["boxes"].items() for place, (begin, end, frame) in enumerate(frames)]

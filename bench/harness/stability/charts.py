@@ -10,7 +10,7 @@ EDGES = ("edges", "corners")
 
 
 def power(value):
-    """A power of ten, short enough for many columns."""
+    """Returns a power of ten, short enough for many columns."""
     exponents = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"
     if value in (0, 1):
         return f"{value:g}"
@@ -19,7 +19,7 @@ def power(value):
 
 
 def shares(counts, what, key, places):
-    """Of failures at each of them, the cases together; None where nothing was tried."""
+    """Returns shares of failures at each place, all cases together; None if nothing was tried."""
     return [methods.share([each for each in counts if each[key] == place], what) for place in places]
 
 
@@ -28,7 +28,7 @@ def places_of(counts, key):
 
 
 def blocks(result, study, cases, what, title, words, told):
-    """A chart: a row for each method, columns for sizes at the origin and for distances of what has size 1."""
+    """Returns a chart: a row for each method, columns for sizes at the origin and for distances at size 1."""
     counts = methods.select(result["counts"], study, cases)
     sides = [("scale", [each for each in counts if methods.is_at_origin(each)]),
              ("offset", [each for each in counts if each["scale"] == 1])]
@@ -38,41 +38,43 @@ def blocks(result, study, cases, what, title, words, told):
         found = [shares(methods.select(these, study, method=method), what, key, at) for (key, these), at in zip(sides, places)]
         drawn.append(Dots(methods.NAMES[method], found, method in methods.OURS))
     names = [list(map(power, at)) for at in places]
-    return dots(result, title, f"{words}{words_of(result['counts'], study, cases, what, told)}.",
+    return dots(result, title, f"{words_of(result['counts'], study, cases, what, told)} {words}".strip(),
                 [Block("size of things, at the origin", names[0]), Block("distance from the origin, in sizes", names[1])], drawn)
 
 
 def words_of(counts, study, cases, what, told):
-    """How often they fail where they fail most, those that never do last."""
+    """Returns sentences: which methods never fail, and how often others do at their worst place."""
     worst = {method: methods.worst(methods.select(counts, study, cases, method), what) for method in told}
-    said = [f"{methods.NAMES[method]} up to {100 * found[0]:.3g} %" for method, found in worst.items() if found and found[0]]
-    return "; ".join(said + [f"{methods.NAMES[method]} never" for method, found in worst.items() if found and not found[0]])
+    never = [methods.NAMES[method] for method, found in worst.items() if found and not found[0]]
+    most = [f"{100 * found[0]:.3g} % with {methods.NAMES[method]}" for method, found in worst.items() if found and found[0]]
+    said = [f"No failures occur with {' and '.join(never)}."] * bool(never) + [f"Failures reach {'; '.join(most)}."] * bool(most)
+    return " ".join(said)
 
 
-# What each chart is made of: study, cases, what counts as wrong, title, start of the caption, methods that it tells of.
+# Of each chart: study, cases, what counts as wrong, title, end of the caption, methods that the caption names.
 PANELS = {
     "stability_crossings": (
         "crossings", EDGES, "crossings", "Rays at edges and corners of closed solids",
-        "Share of rays aimed at edges and corners that miss a triangle or meet one twice: ",
+        "Dots show the share of rays aimed at edges and corners that miss a triangle or meet one twice.",
         ("moeller_trumbore_0", "watertight", "ours_solids", "ours_triangles")),
     "stability_misplaced": (
         "crossings", ("interior",), "misplaced", "Hits at a wrong distance",
-        "Share of rays whose hit is off by more than a thousandth of the solid's size. World coordinates in float "
-        "lose what lies far away, whatever the test; ours are relative", ()),
+        "World coordinates in float lose what lies far away, whatever the test; hedron's coordinates are relative. "
+        "Dots show the share of rays whose hit is off by more than a thousandth of the solid's size.", ()),
     "stability_paths": (
         "paths", None, "paths", "Mirror paths that leave the double path within 30 bounces",
-        "Share of mirror paths, inside of solids and between them, that meet other faces than the path in double: ",
+        "Dots show the share of mirror paths, inside and between solids, that meet other faces than the path in double.",
         ("epsilon_1e-3", "waechter_binder", "own_face", "ours_solids", "ours_triangles")),
     "stability_shadows": (
         "shadows", ("edge_lights", "edge_lights_from_within", "face_lights"), "shadows",
         "Shadow segments to lights on the surface",
-        "Share of segments to lights on edges and faces that are wrongly blocked, or wrongly open: ",
+        "Dots show the share of segments to lights on edges and faces that are wrongly blocked or wrongly open.",
         ("normalised", "normalised_epsilon_1e-4", "ours")),
 }
 
 
 def precision(result):
-    """A chart: pixels that are off, for each scene."""
+    """Returns a chart of the pixels that differ, for each scene."""
     entries = [each for each in result["precision"] if each["what"] == pictures.FLOAT]
     near, pixels = pictures.total(entries, pictures.FLOAT)
     order = {scene: 1 - pictures.share([each for each in entries if each["scene"] == scene])
@@ -81,9 +83,9 @@ def precision(result):
     others = len(order) - len(shown)
     drawn = [Row(each["scene"], one_value(1 - pictures.share([each])), colour="ink", variant=each["geometry"])
              for scene in shown for each in entries if each["scene"] == scene]
-    return rows(result, "Float against double", f"Share of pixels that are off by more than 1 of 255 on the sRGB curve; in all "
-                f"{100 * near / pixels:.3f} % of those in float are within it of those in double"
-                + (f"; none is off in the other {others} scenes." if others else "."), "share of pixels", drawn)
+    return rows(result, "Float against double", f"{100 * near / pixels:.3f} % of all pixels in float are within 1 of 255 of those in double, "
+                "on the sRGB curve. Dots show the share of others" + (f"; {others} more scenes have none." if others else "."),
+                "share of pixels", drawn)
 
 
 def charts(result):

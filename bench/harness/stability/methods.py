@@ -6,7 +6,7 @@ from harness.run.program import run_tool
 COUNTS = {"crossings": 20000, "paths": 5000, "shadows": 20000}
 STUDIES = tuple(COUNTS)
 OURS = ("ours_solids", "ours_triangles", "ours")
-CHECK = "ours_double"  # the same in double: tells whether what is compared with is right
+CHECK = "ours_double"  # the same in double, which checks the reference
 
 NAMES = {
     "moeller_trumbore_1e-6": "Moeller-Trumbore, epsilon 1e-6",
@@ -29,10 +29,10 @@ NAMES = {
     "normalised_epsilon_1e-4": "unit direction, epsilon 1e-4",
     "unnormalised": "whole segment, t < 1",
     "unnormalised_epsilon_1e-4": "whole segment, epsilon 1e-4 of it",
-    "ours_solids": "ours, half-spaces",
-    "ours_triangles": "ours, triangles",
-    "ours": "ours",
-    CHECK: "ours, in double",
+    "ours_solids": "hedron's half-spaces",
+    "ours_triangles": "hedron's triangles",
+    "ours": "hedron",
+    CHECK: "hedron in double",
 }
 
 # What counts as wrong, and of how many.
@@ -63,7 +63,7 @@ def parse(text):
 
 
 def run(program, study, count):
-    """Raises Problem with the reason where it cannot be."""
+    """Raises Problem with the reason if it fails."""
     return parse(run_tool(program.beside("bench/hedron_stability_methods"), study, count).stdout)
 
 
@@ -72,7 +72,7 @@ def is_at_origin(each):
 
 
 def is_in_target(each):
-    """Where the target of the paths holds."""
+    """Returns whether the target of the paths holds there."""
     return 1e-4 <= each["scale"] <= 1e4 and each["offset"] <= 1e4
 
 
@@ -82,7 +82,7 @@ def select(counts, study, cases=None, method=None, place=None):
 
 
 def tally(counts, what):
-    """(wrong, of how many), all together; what is wrong in several ways counts once for each."""
+    """Returns (failures, tries); a try that fails in several ways counts once for each."""
     pairs = WRONG[what]
     wrong = sum(each[key] for each in counts for key, _ in pairs)
     tried = sum(each[base] for each in counts for base in dict.fromkeys(base for _, base in pairs))
@@ -95,26 +95,26 @@ def share(counts, what):
 
 
 def worst(counts, what):
-    """(share, the place) where most is wrong; None where nothing was tried."""
+    """Returns (share, place) of the most failures, or None if nothing was tried."""
     shares = [(share([each], what), each) for each in counts if tally([each], what)[1]]
     return max(shares, key=lambda pair: pair[0], default=None)
 
 
 def methods(counts, study):
-    """In the order that they are printed in, ours last, without the check."""
+    """Returns the methods in the order of printing, hedron's last, without the check."""
     found = dict.fromkeys(each["method"] for each in counts if each["study"] == study)
     return [each for each in found if each not in (*OURS, CHECK)] + [each for each in found if each in OURS]
 
 
-# What ours must not do once, whatever the case.
+# What hedron's methods never may do.
 NEVER = {"crossings": ("missed", "twice", "misplaced"), "paths": ("lost",), "shadows": ("blocked", "opened", "nan")}
-# Nor in double, where a light that is put on a face is on one side of it by rounding.
+# In double, rounding puts a light on a face to one side of it.
 DOUBLE_MAY = ("face_lights",)
 CRACKS = ("t_junctions",)  # the corners, as they are rounded, leave gaps, which nobody promises to close
 
 
 def failures(counts):
-    """What ours does wrong that it never may, a sentence for each case and method."""
+    """Returns the failures of hedron's methods, a sentence for each case and method."""
     found = []
     for study, keys in NEVER.items():
         for method in (*OURS, CHECK):

@@ -69,7 +69,7 @@ def outcome(odd, runs):
     codes = {run["code"] for run in runs}
     if codes == {0}:
         return "rendered", not odd.refused
-    if codes == {REFUSED}:  # the first problem that hedron tells, without the file's name
+    if codes == {REFUSED}:  # the first problem that hedron reports, without the file's name
         first, *others = runs[0]["said"].strip().splitlines()
         words = first.rpartition(".json: ")[2]
         return f"refused: {others[0].strip()} ({words})" if others else f"refused: {words}", odd.refused

@@ -20,8 +20,8 @@ SIZE = 10.0  # of the default scene, in its own unit
 
 @dataclass
 class Odd:
-    """`like` names the scene whose picture in double is to be matched; None: its own. `beside` are the
-    same scenes with the odd thing a hair to either side, where that decides what is seen."""
+    """Scene that is compared in double with the scene `like`, or with itself if that is None. `beside` are the same scenes with
+    the odd thing a hair to either side, if that decides what is seen."""
     name: str
     scene: dict
     like: str | None = None
@@ -39,7 +39,7 @@ def camera(eye, target=(0.0, 0.0, 0.0), field_of_view=60):
 
 
 def at_places(kind, places, make):
-    """A scene of each place; where the thing stands on something, also of those a hair outwards and inwards of it, for floors
+    """Yields a scene of each place; if the thing stands on something, also those a hair outwards and inwards of it, for floors
     upwards and downwards."""
     for name, place in places.items():
         up = place[2] < -0.7
@@ -130,7 +130,7 @@ def textures(folder):
 # ---- the default scene, larger and smaller, and elsewhere
 
 def point(place):
-    """Where it is, or where a path begins."""
+    """Position, or begin of a path."""
     if isinstance(place, list):
         return place
     radius, height = [place.get(f"{name}0", 0) + place.get(f"{name}_amplitude", 0) * math.sin(place.get(f"{name}_phase", 0))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The table of failure modes: what each method does at each place, what ours does, and what keeps it so."""
+"""The table of failure modes: each method at each place, hedron's, and the tests of it."""
 from harness.stability import methods, pictures
 
-HEAD = ["place", "method", "fails", "worst", "where", "ours", "kept so by"]
+HEAD = ["place", "method", "fails", "worst", "where", "hedron", "tested by"]
 
 HERE = "cli_bench_stability"
 MESHES = "unit_kernels, leak_hunt_c, leak_hunt_opencl, leak_hunt_cuda"
@@ -49,7 +49,7 @@ def ours_words(counts, study, cases, what):
         these = methods.select(counts, study, cases, method)
         if these:
             wrong, tried = methods.tally(these, what)
-            name = methods.NAMES[method].removeprefix("ours, ").replace("ours", "").strip()
+            name = methods.NAMES[method].removeprefix("hedron").removeprefix("'s ")
             said.append(f"{name + ' ' if name else ''}{wrong} of {tried}" + (f" ({percent(wrong / tried)})" if wrong else ""))
     return "; ".join(said) or "-"
 

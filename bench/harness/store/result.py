@@ -22,7 +22,7 @@ def begin(bench, program, arguments, devices, **more):
 
 
 def write_text(file, text):
-    """The file is the old one or the new one, never a part."""
+    """Replaces the file at once, so that it is the old one or the new one."""
     part = Path(f"{file}.tmp-{os.getpid()}")
     try:
         part.write_text(text, encoding="utf-8")
@@ -36,13 +36,13 @@ def write(file, result):
 
 
 def read(file, bench):
-    """What `bench` wrote; raises Problem where the file is none."""
+    """Returns what `bench` wrote; raises Problem if it did not write the file."""
     try:
         result = json.loads(file.read_text(encoding="utf-8"))
     except OSError as error:
         raise Problem(2, f"cannot read {file}: {error.strerror}") from error
     except ValueError as error:
-        raise Problem(2, f"{file} is no JSON, or damaged: {error}") from error
+        raise Problem(2, f"{file} is not valid JSON: {error}") from error
     if not isinstance(result, dict) or result.get("bench") != bench:
         raise Problem(2, f"{file} is not what bench/study{'' if bench == 'study' else ' ' + bench} writes")
     if result.get("hedron_bench") != VERSION:
@@ -62,7 +62,7 @@ IDENTITY = ("part", "series", "x", "device", "scene", "options", "frames", "outp
 
 
 def read_study(file):
-    """A result of bench/study; raises Problem where the file is none."""
+    """Returns a result of bench/study; raises Problem if the file is none."""
     result = read(file, "study")
     missing = [key for key in KEYS if key not in result]
     if missing:
@@ -75,12 +75,12 @@ def read_study(file):
 
 
 def is_unfinished(result):
-    """Whether a part that was asked for has not come to its end."""
+    """Returns whether a requested part is not complete."""
     return not set(result["parts"]) <= set(result["done"])
 
 
 def missing_parts(result, parts):
-    """{part: why there is nothing of it}"""
+    """Returns {part: reason why it is missing}."""
     reasons = {**dict.fromkeys(set(parts) - set(result["parts"]), "it was not asked for"),
                **dict.fromkeys(set(result["parts"]) - set(result["done"]), "it was interrupted"),
                **result["left_out"], **result["failed"]}
@@ -88,7 +88,7 @@ def missing_parts(result, parts):
 
 
 def question(result):
-    """That which the measurements answer: one goes on from another whose question is the same."""
+    """Returns what must be equal for a study to continue another."""
     return [result["bench"], result["quick"], result["machine"]["cpu"], *(result["hedron"][key] for key in SAME_OF_HEDRON),
             *(device[key] for device in result["devices"] for key in SAME_OF_DEVICES)]
 

@@ -11,20 +11,20 @@ SOME_LEAK, NOTHING_OPENS = 1, 77
 
 
 def parse(text):
-    """{"renderers", "rays", "leaks", "double_hits"}, or None where the hunt did not come to its end."""
+    """Returns {"renderers", "rays", "leaks", "double_hits"}, or None if the hunt did not finish."""
     found = TOTAL.search(text)
     return found and dict(zip(("renderers", "rays", "leaks", "double_hits"), map(int, found.groups())))
 
 
 def run(program, backend, rays):
-    """Raises Problem with the reason where it cannot be."""
+    """Raises Problem with the reason if it fails."""
     done = run_tool(program.beside("tests/leak_hunt/hedron_leak_hunt"), rays, "--backend", backend,
                     accepted=(0, SOME_LEAK, NOTHING_OPENS))
     if done.returncode == NOTHING_OPENS:
         raise Problem(3, f"no device of {backend} opens")
     total = parse(done.stdout)
     if total is None:
-        raise Problem(1, f"the leak hunt on {backend} tells no total: {done.stderr.strip() or 'it says nothing'}")
+        raise Problem(1, f"the leak hunt on {backend} reports no total: {done.stderr.strip() or 'it prints nothing'}")
     return total
 
 

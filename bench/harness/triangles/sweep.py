@@ -31,8 +31,8 @@ def spreads(points, label, way):
 
 
 def crossover(brute, tree):
-    """The number of triangles where both take the same time, interpolated between neighbours of the logarithms of
-    [(triangles, milliseconds)]; the words tell where that lies beyond what was measured. None: nothing to compare."""
+    """Returns in words the number of triangles at which both take equal time, or beyond which, interpolated between logarithms
+    of [(triangles, milliseconds)]; None if there is nothing to compare."""
     trees = dict(tree)
     # More than 0: brute force takes longer.
     gaps = [(math.log(count), math.log(ms / trees[count])) for count, ms in brute if count in trees]
@@ -58,7 +58,7 @@ def caption(points, labels):
         if crossover(*both):
             crossed.append(f"{crossover(*both)} triangles on {label}")
     if crossed:
-        sentences.append(f"Brute force and the hierarchy cross {', '.join(crossed)}.")
+        sentences.append(f"Brute force and the hierarchy take equal time {', '.join(crossed)}.")
     return " ".join([*sentences, "Points are medians; the first frame of each run does not count."])
 
 
