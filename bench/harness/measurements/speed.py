@@ -174,11 +174,7 @@ class Speed(Bench):
                                     ("slots", "  share of the vector issue slots", None)):
                 if device is not None:
                     self.plan.row("share", f"{what}, {loop}", "%", lambda name=name, key=key: self.cpu_share(name, key),
-<<<<<<< HEAD
-                                  device=device, target=goal, note="operations counted in the machine code, on the same packets")
-=======
                                   device=device, target=goal, note="operations counted in the machine code, of the same packets")
->>>>>>> w41-study
         for label in self.gpus():
             for scene in ("default", "lights-1000"):
                 job = self.job(label, scene, "0-3")
