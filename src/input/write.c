@@ -514,8 +514,10 @@ static void print_default(Printer *printer, const HdField *field) {
 }
 
 static void print_field(Printer *printer, const HdField *field) {
+    char description[HD_DESCRIPTION_SIZE];
+    hd_field_describe(field, description);
     put_open_at(printer, field->key, '{');
-    print_pair(printer, "description", field->about);
+    print_pair(printer, "description", description);
     print_type(printer, field);
     print_default(printer, field);
     put_close(printer, '}');
