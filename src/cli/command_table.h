@@ -9,19 +9,17 @@ ROW(HD_COMMAND_RENDER, "render", "[SCENE.json]", ".json", 1, "render a scene to 
     "without a number takes a single frame.\n\n"
     "A numbered .png sequence can be resumed: finished pictures with the same pixels are kept, and "
     "a film in the same run contains them too.\n\n"
-    "--set reaches each value of the scene by its path: --set camera.eye=[4,0,2], --set "
-    "image.exposure=2, --set output.curve=linear. A value is JSON, or else a string. --size, "
-    "--samples, --depth and --cutoff take effect after --set.")
+    "--set reaches each value of the scene by its path: '--set camera.eye=[4,0,2]'. A value is "
+    "JSON, or else a string. --size, --samples, --depth and --cutoff take effect after --set.")
 ROW(HD_COMMAND_VIEW, "view", "[SCENE.json]", ".json", 1,
     "fly through a scene in a window or a terminal",
     "Shows SCENE.json, or the built-in scene, live. Space plays the camera path, mouse and arrows "
     "turn the view, h lists all keys. While something moves, hedron adapts size and samples to the "
-    "device. When the view stands still, hedron refines it to the bytes of 'hedron render'.\n\n"
-    "hedron watches the file and shows each version that is saved. An error in it appears over the "
-    "last good picture. The names of saved pictures (p) and cameras to paste into a scene (c) go "
-    "to standard output.\n\n"
-    "The view is a program of its own, hedron-view. It needs SDL 2 for the window and chafa for "
-    "--terminal, which shows pictures (kitty protocol, sixels) or coloured block symbols.")
+    "device. A view that stands still is refined to the bytes of 'hedron render'.\n\n"
+    "hedron shows each version of the file that is saved. An error in it appears over the last "
+    "good picture. Names of saved pictures (p) and cameras to paste into a scene (c) go to "
+    "standard output.\n\n"
+    "The program hedron-view does this. It needs SDL 2 for the window and chafa for --terminal.")
 ROW(HD_COMMAND_NEW, "new", "[SCENE.json]", ".json", 1, "write a scene with comments to start from",
     "Writes a small scene with comments to SCENE.json (default: scene.json). A file that exists is "
     "never overwritten. 'hedron help scene' explains every key.")
@@ -38,22 +36,21 @@ ROW(HD_COMMAND_DEVICES, "devices", "", NULL, 0,
     "list backends and devices, and why others are unavailable",
     "Lists backends and devices, and the reason if one is unavailable.")
 ROW(HD_COMMAND_SELFTEST, "selftest", "", NULL, 0, "test whether devices compute correctly",
-    "Tests every device, or those of --device and --backend, and prints a report for each. The "
-    "test has two parts, in float and, if the device has it, in double:\n\n"
-    "The arithmetic of the kernels, on a million hard operands, is compared with the C backend. "
-    "Frames are rendered by kernels of every kind and compared with known hashes.\n\n"
-    "A report names the device, its driver and the compiler of its kernels. It lists the tests, "
-    "the first mismatch if there is one, the times, and a hash of all else. hedron remembers the "
-    "result for this driver, and 'hedron render' skips a device that computes wrongly.\n\n"
+    "Tests every device, or those of --device and --backend, in float and, if the device has it, "
+    "in double. The arithmetic of the kernels, on a million hard operands, is compared with the C "
+    "backend. Frames of kernels of every kind are compared with known hashes.\n\n"
+    "The report of a device has its driver, the compiler of its kernels, the tests, the first "
+    "mismatch, the times, and a hash of all but the times. hedron remembers the result for this "
+    "driver, and 'hedron render' skips a device that computes wrongly.\n\n"
     "The exit code is 1 if a device computes wrongly, and 3 if no device can be tested.")
 ROW(HD_COMMAND_TUNE, "tune", "[SCENE.json]", ".json", 1,
-    "measure the fastest settings of a device for a scene, and remember them",
+    "measure and remember the fastest settings",
     "Measures the pipelines on the device that 'hedron render' would use for SCENE.json (-: "
     "standard input) or the built-in scene. It also varies the lanes of a CPU, and the work groups "
-    "and registers of a GPU. Options such as --pipeline or --block keep their values.\n\n"
+    "and registers of a GPU. What --pipeline, --lanes, --block or --grid fix stays.\n\n"
     "It prints the time of a picture for each candidate and the ratio to the default. The best "
-    "goes to the cache folder: 'hedron render' uses it for similar scenes with the same options, "
-    "and says so with --verbose. Strict pictures keep their bytes.")
+    "goes to the cache folder: 'hedron render' uses it for similar scenes with the same options. "
+    "Strict pictures keep their bytes.")
 ROW(HD_COMMAND_COMPARE, "compare", "FIRST SECOND", NULL, 2,
     "measure the difference of two pictures",
     "Compares two pictures of the same size: PNG, OpenEXR or PFM. It prints RMSE, PSNR, mean and "
@@ -61,12 +58,12 @@ ROW(HD_COMMAND_COMPARE, "compare", "FIRST SECOND", NULL, 2,
     "pixels off by more than 1/255 and 8/255. The error of a pixel is that of its worst "
     "channel.\n\n"
     "Display errors are of values clamped to 0..1 and encoded by the transfer curve, in 1/255 "
-    "units. Linear errors are of light; 1 is white. They are clamped to 0..1 if one picture is a "
-    "PNG. Other channels that both OpenEXR pictures have are compared by value. Without --curve, "
-    "the curve is sRGB if a PNG says so or both are PFM, else linear.\n\n"
+    "units. Without --curve that is sRGB if a PNG says so or both are PFM, else linear. Linear "
+    "errors are of light with 1 as white, clamped to 0..1 if one picture is a PNG. Other "
+    "channels that both OpenEXR pictures have are compared by value.\n\n"
     "The heat map of --diff has a logarithmic scale in 1/255 units: black below 1/4, dark violet "
-    "from 1/4, purple (1), red (4), orange (16), yellow (128), pale yellow (255). Cyan marks NaN "
-    "and infinite values.\n\n"
+    "(1/4), purple (1), red (4), orange (16), yellow (128), pale yellow (255); cyan for NaN and "
+    "infinite values.\n\n"
     "The exit code is 1 if a colour is NaN or infinite, or if the maximum display error is above "
     "--fail-above.")
 ROW(HD_COMMAND_HELP, "help", "[TOPIC]", NULL, 1, "explain a command or a topic",
@@ -75,8 +72,8 @@ ROW(HD_COMMAND_HELP, "help", "[TOPIC]", NULL, 1, "explain a command or a topic",
     "or fish.")
 ROW(HD_COMMAND_COMPLETE, "complete", "-- WORD...", NULL, -1, "list completions for a shell",
     "Prints the completions of the last WORD, which may be empty: one a line, then a tab and its "
-    "meaning. ':.json' stands for all file names with that ending, ':' for all file names. The "
-    "scripts of 'hedron help completion' call it.")
+    "meaning. ':.json' stands for file names with that ending, ':' for all file names. For the "
+    "scripts of 'hedron help completion'.")
 ROW(HD_COMMAND_CLASSIC, NULL, "< INPUT", NULL, 0, "the classic mode",
     "The classic mode reads a configuration from standard input. It prints one line for each "
     "frame, and nothing else: frame TAB milliseconds TAB rays.")

@@ -96,8 +96,8 @@ static void print_object(const HdObjectType *type, const char *path) {
     char expected[HD_EXPECTED_SIZE], standard[128], text[HD_EXPLANATION_SIZE];
     printf("\n%s:\n", path[0] != '\0' ? path : "Keys");
     if (type->note != NULL) {
-        printf("  ");
-        hd_print_wrapped(type->note, 2, 2);
+        printf("    ");
+        hd_print_wrapped(type->note, 4, 4);
     }
     for (int i = 0; i < type->field_count; i++) {
         const HdField *field = &type->fields[i];

@@ -48,16 +48,16 @@ const HdExplained hd_exit_codes[] = {
 const HdExplained hd_variables[] = {
     {"HEDRON_CACHE",
      "Folder for compiled kernels and measured settings, at most 128 MiB; off: none. Default: "
-     "$XDG_CACHE_HOME/hedron, else ~/.cache/hedron"},
+     "$XDG_CACHE_HOME/hedron, else ~/.cache/hedron."},
     {"HEDRON_NVRTC",
      "File of the NVRTC library that compiles for CUDA; off: none. Default: the newest one that "
-     "suits the driver. hedron also looks in CUDA_HOME, CUDA_PATH, VIRTUAL_ENV and CONDA_PREFIX"},
+     "suits the driver. hedron also looks in CUDA_HOME, CUDA_PATH, VIRTUAL_ENV and CONDA_PREFIX."},
     {"HEDRON_FFMPEG_PATIENCE",
-     "Time in whole seconds that FFmpeg may stand still, 1 to 86400. Default: 600. More for a slow "
-     "disk"},
+     "Whole seconds that FFmpeg may stand still, 1 to 86400. Default: 600. Use: more for a slow "
+     "disk."},
     {"HEDRON_STOP_PATIENCE",
-     "Time in seconds from a signal to the end of the program, even if something hangs, 0.1 to "
-     "86400. Default: 1.5"},
+     "Seconds from a signal to the end of the program, even if something hangs, 0.1 to 86400. "
+     "Default: 1.5."},
     {NULL, NULL},
 };
 
@@ -67,13 +67,26 @@ const char hd_scene_rules[] =
     "radians. Colours are [red, green, blue], linear; positions are [x, y, z].\n\n"
     "Any object may have a comment, \"$comment\": \"...\". 'hedron new' writes a scene with "
     "comments, 'hedron check' reports errors, and 'hedron check --schema' prints the JSON Schema "
-    "for editors. --set reaches each value by its path: --set solids[0].kind=cube.";
+    "for editors. --set reaches each value by its path: '--set solids[0].kind=cube'.";
+
+const char hd_option_rules[] =
+    "In parentheses are the commands that take an option; without them it belongs to render, view, "
+    "tune and the classic mode. Options stand before or after names of files; behind '--' there "
+    "are only names. If an option comes twice, its last value counts, unless it can be repeated.";
+
+/* Returns whether a word may not begin a line, since Markdown would make a list or heading of it:
+   "+", "-", "#", "1.". */
+static bool is_marker(const char *word, int length) {
+    const int digits = (int)strspn(word, "0123456789");
+    return (length == 1 && strchr("+-*>", word[0]) != NULL) || word[0] == '#' ||
+           (digits > 0 && length == digits + 1 && word[digits] == '.');
+}
 
 void hd_print_wrapped(const char *text, int indent, int column) {
     for (;;) {
         text += strspn(text, " ");
         int length = (int)strcspn(text, " \n");
-        if (column > indent && column + 1 + length > LINE_WIDTH) {
+        if (column > indent && column + 1 + length > LINE_WIDTH && !is_marker(text, length)) {
             printf("\n%*s", indent, "");
             column = indent;
         }
@@ -117,12 +130,15 @@ void hd_option_explain(const HdOptionSpec *spec, char text[HD_EXPLANATION_SIZE])
     if (spec->standard != NULL)
         hd_add_text(text, HD_EXPLANATION_SIZE, " ", "Default: %s.", spec->standard);
     if (spec->use != NULL)
-        hd_add_text(text, HD_EXPLANATION_SIZE, " ", "%s.", spec->use);
+        hd_add_text(text, HD_EXPLANATION_SIZE, " ", "Use: %s.", spec->use);
 }
 
+/* Lists the commands that take an option; "" for the usual ones. */
 static void list_commands(unsigned commands, char text[256]) {
     unsigned all = 0;
     text[0] = '\0';
+    if (commands == HD_USUAL_COMMANDS)
+        return;
     for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++) {
         const HdCommandSpec *spec = &hd_command_specs[i];
         all |= (unsigned)spec->command;
@@ -133,11 +149,15 @@ static void list_commands(unsigned commands, char text[256]) {
         snprintf(text, 256, "all commands");
 }
 
-void hd_list_options(HdOptionVisit *visit) {
-    char commands[256];
+void hd_list_options(HdEntry *entry) {
+    char heading[64], text[HD_EXPLANATION_SIZE], commands[256];
     for (const HdOptionSpec *spec = hd_option_specs; spec->name != NULL; spec++) {
+        hd_option_heading(spec, heading);
+        hd_option_explain(spec, text);
         list_commands(spec->commands, commands);
-        visit(spec, commands);
+        if (commands[0] != '\0')
+            hd_add_text(text, sizeof text, " ", "(%s)", commands);
+        entry(heading, text);
     }
 }
 

@@ -31,11 +31,6 @@ void hd_command_usage(const HdCommandSpec *spec, char text[128]);
 /* Writes all about an option: effect, values, default, when to use it. */
 void hd_option_explain(const HdOptionSpec *spec, char text[HD_EXPLANATION_SIZE]);
 
-/* Visits each option once. `commands` names those that take it: "render, view". If a name has
-   several meanings, each comes once, one after the other. */
-typedef void HdOptionVisit(const HdOptionSpec *spec, const char *commands);
-void hd_list_options(HdOptionVisit *visit);
-
 /* Writes the default of a key of a scene: "60", "required"; "" if there is none. */
 void hd_field_default(const HdField *field, char text[128]);
 
@@ -45,6 +40,11 @@ void hd_field_path(const HdField *field, const char *path, char out[128]);
 /* Writes a term and its meaning in one of the forms. */
 typedef void HdEntry(const char *term, const char *meaning);
 void hd_list_explained(const HdExplained *list, HdEntry *entry);
+
+/* Lists each option once, with the commands that take it. If a name has two meanings, each comes
+   once. hd_option_rules explains the list. */
+void hd_list_options(HdEntry *entry);
+extern const char hd_option_rules[];
 
 /* Visits an object of a scene and those in it, each once, with its path ("": the scene). */
 typedef void HdObjectVisit(const HdObjectType *type, const char *path);

@@ -61,14 +61,6 @@ static void man_command(const HdCommandSpec *spec) {
     man_line(spec->description);
 }
 
-static void man_option(const HdOptionSpec *spec, const char *commands) {
-    char heading[64], text[HD_EXPLANATION_SIZE], all[2 * HD_EXPLANATION_SIZE];
-    hd_option_heading(spec, heading);
-    hd_option_explain(spec, text);
-    snprintf(all, sizeof all, "(%s) %s", commands, text);
-    man_entry(heading, all);
-}
-
 static void man_object(const HdObjectType *type, const char *path) {
     char expected[HD_EXPECTED_SIZE], standard[128], text[HD_EXPLANATION_SIZE];
     printf(".SS ");
@@ -102,8 +94,8 @@ void hd_print_man_page(void) {
     for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
         man_command(&hd_command_specs[i]);
     printf(".SH OPTIONS\n");
-    man_line("In parentheses are the commands that take the option.");
-    hd_list_options(man_option);
+    man_line(hd_option_rules);
+    hd_list_options(man_entry);
     printf(".SH SCENE FILES\n");
     man_line(hd_scene_rules);
     hd_visit_scene(man_object);

@@ -5,8 +5,8 @@
    none. OPTION(MEMBER, ROW...): one with a member of its own. */
 
 OPTION(bool gpu, "--gpu", NULL, NULL,
-       "Trace on a GPU; if none is suitable, hedron says so and traces on the CPU",
-       HD_COMMAND_CLASSIC, FLAG(gpu), .standard = "yes", .only_one_of = modes)
+       "Trace on a GPU, the default; if none is suitable, on the CPU with a note",
+       HD_COMMAND_CLASSIC, FLAG(gpu), .only_one_of = modes)
 OPTION(bool cpu, "--cpu", NULL, NULL, "Trace on the CPU only", HD_COMMAND_CLASSIC, FLAG(cpu),
        .only_one_of = modes)
 OPTION(bool prints_default, "--default", NULL, NULL,
@@ -21,7 +21,7 @@ ROW("--output", "-o", "OUT",
     HD_COMMAND_RENDER, TEXTS(store.names, store.count, HD_MAX_OUTPUTS),
     .check = hd_output_check_name, .expected = "the name of a file",
     .standard = "that of the scene, else hedron.mp4, or hedron.png for one frame",
-    .use = "Repeat it to write several formats in one run", .takes_file = true)
+    .use = "more than one for several formats", .takes_file = true)
 ROW("--output", "-o", "SCENE", "Scene file to write", HD_COMMAND_CONVERT,
     TEXTS(store.names, store.count, 1), .expected = "the name of a file",
     .standard = "standard output", .takes_file = true)
@@ -29,12 +29,12 @@ ROW("--layers", NULL, "LIST",
     "More channels for OpenEXR: depth and normal of the first hit, its object number, samples "
     "taken by the pixel, bound on its truncation error",
     HD_COMMAND_RENDER, .type = HD_OPTION_SET, AT(store.layers), .choices = hd_layer_names,
-    .use = "For compositing, or to see where samples go")
+    .use = "for compositing, or to see where samples go")
 ROW("--set", NULL, "PATH=VALUE",
     "Replace a value of the scene file, for example camera.field_of_view=40; up to 64 times",
     HD_COMMAND_RENDER | HD_COMMAND_TUNE | HD_COMMAND_VIEW,
     TEXTS(scene.changes, scene.change_count, HD_MAX_CHANGES), .check = check_change,
-    .use = "To try a value without editing the file", .role = HD_DECIDES_PIXELS)
+    .use = "to try a value without editing the file", .role = HD_DECIDES_PIXELS)
 OPTION(const char *frames, "--frames", "-f", "LIST", "Render only these frames, such as 0-9,20",
        MEASURING, TEXT(frames, NULL), .standard = "all")
 ROW("--again", NULL, NULL,
@@ -45,19 +45,19 @@ ROW("--no-sync", NULL, NULL,
     "Do not wait until files are on the disk. They survive the end of the program, but not a power "
     "cut",
     HD_COMMAND_CLASSIC | HD_COMMAND_RENDER, FLAG(store.no_sync),
-    .use = "For many small frames on a slow disk")
+    .use = "for many small frames on a slow disk")
 OPTION(bool terminal, "--terminal", NULL, NULL,
        "Show the scene in this terminal instead of a window", HD_COMMAND_VIEW, FLAG(terminal),
-       .use = "Over ssh, or without a display")
+       .use = "over ssh, or without a display")
 ROW("--size", NULL, "WxH", "Size of the picture in pixels", SHOWING, .type = HD_OPTION_SIZE,
     AT(scene.size), .expected = "WIDTHxHEIGHT such as 640x480, each 1 to 65535",
     .standard = OF_SCENE, .role = HD_DECIDES_NUMBERS)
 ROW("--samples", NULL, "N", "N x N samples for each pixel", SHOWING,
     INTEGER(scene.samples, 1, HD_MAX_SAMPLES_PER_SIDE), .standard = OF_SCENE,
-    .use = "Few for a preview, more for smooth edges", .role = HD_DECIDES_NUMBERS)
+    .use = "few for a preview, more for smooth edges", .role = HD_DECIDES_NUMBERS)
 ROW("--depth", NULL, "N", "Maximum ray depth: reflections and transmissions in a row", SHOWING,
     INTEGER(scene.depth, 0, HD_MAX_DEPTH), .standard = OF_SCENE,
-    .use = "More for mirrors inside a solid, less for speed", .role = HD_DECIDES_NUMBERS)
+    .use = "more for mirrors inside a solid, less for speed", .role = HD_DECIDES_NUMBERS)
 ROW("--cutoff", NULL, "W", "End rays whose weight is below W in every channel; 0: never", SHOWING,
     REAL(scene.cutoff, 0.0, 1.0), .below_high = true, .standard = OF_SCENE,
     .role = HD_DECIDES_NUMBERS)
@@ -68,31 +68,27 @@ ROW("--aa", NULL, "NAME",
     .use = "adaptive for many samples", .role = HD_DECIDES_PIXELS)
 ROW("--max-error", NULL, "E",
     "Maximum truncation error of a pixel, in 1/255 units. Depth, cut-off and lights follow from it "
-    "instead of from the scene. With --aa adaptive also the target of the sampling error",
+    "instead of from the scene. With '--aa adaptive' also the target of the sampling error",
     RENDERING | HD_COMMAND_VIEW, REAL(scene.max_error, HD_LEAST_ERROR, HD_MAX_ERROR),
-    .standard = OF_SCENE, .use = "To choose accuracy rather than depth", .role = HD_DECIDES_PIXELS)
+    .standard = OF_SCENE, .use = "to choose accuracy rather than depth", .role = HD_DECIDES_PIXELS)
 OPTION(bool reference, "--reference", NULL, NULL,
        "Render a reference picture: double precision, 32 x 32 low-discrepancy samples (or those of "
-       "--samples), --max-error 1/64",
+       "--samples), '--max-error 1/64'",
        HD_COMMAND_RENDER, FLAG(reference),
-       .use = "To measure the error of other pictures; slow, so with a small --size or --crop",
+       .use = "to measure the error of other pictures; slow, so with a small --size or --crop",
        .role = HD_DECIDES_PIXELS)
 ROW("--crop", NULL, "WxH+X+Y", "Render only W x H pixels, from column X and row Y on",
     HD_COMMAND_RENDER, .type = HD_OPTION_CROP, AT(scene.crop),
     .expected = "WIDTHxHEIGHT+X+Y such as 64x64+320+200", .role = HD_DECIDES_NUMBERS)
-ROW("--backend", NULL, "NAME", "Backend to use; auto: the best device of any", SHOWING,
-    ONE_OF(HD_OPTION_WORD, devices.backend, "auto", "c", "opencl", "cuda"), .standard = "auto")
-ROW("--backend", NULL, "NAME", "Backend to test; auto: all of them", HD_COMMAND_SELFTEST,
+ROW("--backend", NULL, "NAME", "Backend; auto: the best device of any, for 'selftest' all",
+    SHOWING | HD_COMMAND_SELFTEST,
     ONE_OF(HD_OPTION_WORD, devices.backend, "auto", "c", "opencl", "cuda"), .standard = "auto")
 ROW("--device", NULL, "DEVICE",
-    "Device: " DEVICE_NAMES ". all, or a list such as cuda:0,cuda:1,c:0, shares the frames among "
-    "several",
-    RENDERING, TEXT(devices.device, "a number, BACKEND:NUMBER or part of a name"),
-    .standard = "the best one", .use = "all for a film on a machine with several GPUs")
-ROW("--device", NULL, "DEVICE", "Device: " DEVICE_NAMES, HD_COMMAND_TUNE | HD_COMMAND_VIEW,
-    TEXT(devices.device, "a number, BACKEND:NUMBER or part of a name"), .standard = "the best one")
-ROW("--device", NULL, "DEVICE", "Device to test: " DEVICE_NAMES, HD_COMMAND_SELFTEST,
-    TEXT(devices.device, "a number, BACKEND:NUMBER or part of a name"), .standard = "all")
+    "Device: its number in 'hedron devices', BACKEND:NUMBER, or part of its name. For 'render' and "
+    "the classic mode also all, or a list such as cuda:0,c:0, which share the frames",
+    SHOWING | HD_COMMAND_SELFTEST,
+    TEXT(devices.device, "a number, BACKEND:NUMBER or part of a name"),
+    .standard = "the best one, for 'selftest' all", .use = "all for a film on several GPUs")
 OPTION(bool quick, "--quick", NULL, NULL,
        "Test with 8192 operands and one kind of kernels, in a second or two once these are "
        "compiled",
@@ -100,7 +96,7 @@ OPTION(bool quick, "--quick", NULL, NULL,
 OPTION(bool deep, "--deep", NULL, NULL,
        "Also compare 2400 random scenes with the C backend, in each precision and pipeline. A "
        "mismatch is reported with its pixel, sample and ray depth",
-       HD_COMMAND_SELFTEST, FLAG(deep), .use = "For a new driver or card; takes minutes")
+       HD_COMMAND_SELFTEST, FLAG(deep), .use = "for a new driver or card; takes minutes")
 ROW("--lanes", NULL, "N", "Rays traced together on a CPU, up to what a vector register holds",
     SHOWING, .type = HD_OPTION_NUMERAL, AT(devices.render.lanes), .choices = lane_counts,
     .standard = OF_DEVICE)
@@ -120,14 +116,14 @@ ROW("--grid", NULL, "N", "Maximum number of work groups in one GPU launch", SHOW
 ROW("--max-launch", NULL, "MS",
     "Maximum duration of one GPU launch, in ms. A display of that GPU stands still meanwhile",
     SHOWING, REAL(devices.render.launch_ms, HD_MIN_LAUNCH_MS, HD_MAX_LAUNCH_MS),
-    .standard = "50 if the GPU may drive a display, else 500", .use = "Less for a smooth desktop")
+    .standard = "50 if the GPU may drive a display, else 500", .use = "less for a smooth desktop")
 ROW("--geometry", NULL, "NAME",
     "solids: half-spaces with patterns on their faces; triangles: everything as triangles, which "
     "gives nearly the same picture",
     SHOWING, CHOICE(scene.geometry, "solids", "triangles"), .standard = "solids",
     .use = "triangles to measure meshes", .role = HD_DECIDES_PIXELS)
 ROW("--divisions", NULL, "N",
-    "With --geometry triangles: cut each side of a triangle into N, the triangle into N x N",
+    "With '--geometry triangles': cut each side of a triangle into N, the triangle into N x N",
     SHOWING, INTEGER(scene.divisions, 1, HD_MAX_DIVISIONS), .standard = "1",
     .role = HD_DECIDES_PIXELS)
 ROW("--accel", NULL, "NAME",
@@ -153,9 +149,9 @@ ROW("--quiet", "-q", NULL, "Report errors only: no progress, no notes", RENDERIN
     FLAG(telling.quiet), .only_one_of = loudness)
 ROW("--frame-lines", NULL, NULL,
     "Print a line on standard error for each frame that is stored; with --quiet nothing else",
-    HD_COMMAND_RENDER, FLAG(telling.tells_frames), .use = "For programs that watch a run")
+    HD_COMMAND_RENDER, FLAG(telling.tells_frames), .use = "for programs that watch a run")
 OPTION(bool schema, "--schema", NULL, NULL, "Print the JSON Schema of scene files, and exit",
-       HD_COMMAND_CHECK, FLAG(schema), .use = "For completion in an editor")
+       HD_COMMAND_CHECK, FLAG(schema), .use = "for completion in an editor")
 OPTION(bool json, "--json", NULL, NULL, "Print the result as JSON",
        HD_COMMAND_CHECK | HD_COMMAND_DEVICES | HD_COMMAND_SELFTEST | HD_COMMAND_TUNE |
            HD_COMMAND_COMPARE,

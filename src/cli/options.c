@@ -59,7 +59,7 @@ const HdCommandSpec *hd_command_spec(HdCommand command) {
 enum {
     RENDERING = HD_COMMAND_CLASSIC | HD_COMMAND_RENDER,
     MEASURING = RENDERING | HD_COMMAND_TUNE,
-    SHOWING = MEASURING | HD_COMMAND_VIEW,
+    SHOWING = HD_USUAL_COMMANDS,
     EVERYTHING = SHOWING | HD_COMMAND_CHECK | HD_COMMAND_CONVERT | HD_COMMAND_DEVICES |
                  HD_COMMAND_COMPARE | HD_COMMAND_NEW | HD_COMMAND_COMPLETE | HD_COMMAND_HELP |
                  HD_COMMAND_SELFTEST
@@ -71,9 +71,8 @@ static const char *const lane_counts[] = {HD_LANE_COUNTS(QUOTED) NULL};
 const char *const hd_curve_names[] = {"linear", "srgb", NULL};
 
 /* Words that several rows of the table share. */
-#define OF_SCENE     "that of the scene"
-#define OF_DEVICE    "what suits the device"
-#define DEVICE_NAMES "its number in 'hedron devices', BACKEND:NUMBER, or part of its name"
+#define OF_SCENE  "the scene's"
+#define OF_DEVICE "depends on the device"
 
 static const char modes[] = "--gpu, --cpu and --default";
 static const char loudness[] = "--verbose and --quiet";
@@ -552,23 +551,32 @@ static HdStatus parse_argument(Parser *parser, HdError *error) {
     return apply_option(parser->options, spec, value, error);
 }
 
-static HdStatus check_topic(const char *name, HdError *error) {
-    HdNearest nearest = {.word = name};
-    char suggestion[128], topics[256] = "";
-    if (hd_command_named(name) != NULL || hd_help_topic_named(name) >= 0)
-        return HD_OK;
+/* Offers the topics of help, and lists them: "render, view or scene". */
+static void offer_topics(HdNearest *nearest, char list[256]) {
+    const char *names[HD_COMMAND_SPEC_COUNT + HD_HELP_TOPIC_COUNT + 1] = {NULL};
+    int count = 0;
     for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
         if (hd_command_specs[i].name != NULL)
-            hd_add_text(topics, sizeof topics, ", ", "%s", hd_command_specs[i].name);
+            names[count++] = hd_command_specs[i].name;
     for (int i = 0; i < HD_HELP_TOPIC_COUNT; i++)
-        if (hd_help_topics[i].about != NULL) {
-            hd_nearest_offer(&nearest, hd_help_topics[i].name);
-            hd_add_text(topics, sizeof topics, ", ", "%s", hd_help_topics[i].name);
-        }
-    offer_commands(&nearest);
-    suggest(&nearest, "hedron help ", hd_command_spec(HD_COMMAND_HELP), suggestion);
-    return hd_fail(error, HD_BAD_INPUT, "there is no help on '%s'; %s\n  topics: %s", name,
-                   suggestion, topics);
+        if (hd_help_topics[i].about != NULL)
+            names[count++] = hd_help_topics[i].name;
+    for (int i = 0; i < count; i++)
+        hd_nearest_offer(nearest, names[i]);
+    list_choices(names, list);
+}
+
+static HdStatus check_topic(const char *name, HdError *error) {
+    HdNearest nearest = {.word = name};
+    char list[256];
+    if (hd_command_named(name) != NULL || hd_help_topic_named(name) >= 0)
+        return HD_OK;
+    offer_topics(&nearest, list);
+    if (nearest.name != NULL)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "there is no help on '%s', expected %s; did you mean 'hedron help %s'?",
+                       name, list, nearest.name);
+    return hd_fail(error, HD_BAD_INPUT, "there is no help on '%s', expected %s", name, list);
 }
 
 /* What can only be told once all arguments are known. */

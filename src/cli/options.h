@@ -28,6 +28,10 @@ typedef enum HdCommand {
     HD_COMMAND_VIEW = 4096
 } HdCommand;
 
+/* Commands that render or measure: most options belong to them. */
+#define HD_USUAL_COMMANDS                                                                          \
+    (HD_COMMAND_CLASSIC | HD_COMMAND_RENDER | HD_COMMAND_TUNE | HD_COMMAND_VIEW)
+
 /* What the command line said: the parts of the plan, each for its reader, and what belongs to a
    single command. Where an option is not given, its member is 0, false or NULL, or negative where 0
    is a value. */

@@ -78,7 +78,7 @@ static void format_range(const HdField *field, char text[128]) {
     hd_short_number(field->high, high);
     hd_short_number(field->least_but_zero, least);
     if (field->least_but_zero > 0.0)
-        snprintf(text, 128, "0, or %s..%s", least, high);
+        snprintf(text, 128, "0 or %s..%s", least, high);
     else if (field->above_low || field->below_high)
         snprintf(text, 128, "%s %s, %s %s", field->above_low ? "above" : "at least", low,
                  field->below_high ? "below" : "at most", high);
@@ -181,28 +181,18 @@ static void print_command(const HdCommandSpec *spec) {
     print_paragraph(spec->description);
 }
 
-static void print_option(const HdOptionSpec *spec, const char *commands) {
-    char heading[64], text[HD_EXPLANATION_SIZE], all[2 * HD_EXPLANATION_SIZE];
-    hd_option_heading(spec, heading);
-    hd_option_explain(spec, text);
-    snprintf(all, sizeof all, "%s (%s)", text, commands);
-    print_item(heading, all);
-}
-
 void hd_print_command_reference(void) {
     print_title("Command line");
     printf("## Commands\n\n");
     for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
         print_command(&hd_command_specs[i]);
     printf("## Options\n\n");
-    print_paragraph("In parentheses are the commands that take the option. Options may stand "
-                    "before or after names of files; behind '--' there are only names. Of several "
-                    "values of one option the last counts, unless it may be repeated.");
-    hd_list_options(print_option);
+    print_paragraph(hd_option_rules);
+    hd_list_options(print_item);
     printf("\n## Exit codes\n\n");
     hd_list_explained(hd_exit_codes, print_item);
     printf("\n");
-    print_paragraph("A command that only prints ends silently by SIGPIPE (in a shell: 141) if the "
+    print_paragraph("A command that only prints ends silently by SIGPIPE (141 in a shell) if the "
                     "reader of its output is gone.");
     printf("## Environment\n\n");
     hd_list_explained(hd_variables, print_item);
@@ -244,19 +234,21 @@ static void print_statistics_example(void) {
 
 void hd_print_statistics_reference(void) {
     print_title("Statistics");
-    print_paragraph("--stats FILE writes a line of JSON for each frame once it is stored. Missing "
-                    "folders are made, and an older FILE is replaced. hedron refuses a FILE that "
-                    "is the scene, an output, or other JSON. With --stats - the lines go to "
-                    "standard output. A line, broken here:");
+    print_paragraph("'--stats FILE' writes a line of JSON for each frame once it is stored. "
+                    "Missing folders are made, and an older FILE is replaced. hedron refuses a "
+                    "FILE that is the scene, an output, or other JSON. With '--stats -' the lines "
+                    "go to standard output. A line, broken here:");
     printf("```\n");
     print_statistics_example();
     printf("```\n\n| key | unit | meaning |\n|---|---|---|\n");
-    for (const HdStatisticsKey *key = hd_statistics_keys; key->key != NULL; key++)
+    for (const HdStatisticsKey *key = hd_statistics_keys; key->key != NULL; key++) {
+        char about[PARAGRAPH_SIZE];
+        add_code(key->about, about);
         printf("| `%s%s%s` | %s | %s |\n", key->part != NULL ? key->part : "",
-               key->part != NULL ? "." : "", key->key, key->unit != NULL ? key->unit : "",
-               key->about);
+               key->part != NULL ? "." : "", key->key, key->unit != NULL ? key->unit : "", about);
+    }
     printf("\n");
-    print_paragraph("Stages of different frames overlap: began and seconds together are a timeline "
-                    "of the run. It starts when the device is open. The milliseconds of the "
-                    "classic mode are prepare, trace and copy together.");
+    print_paragraph("'began' counts from the begin of the run, when the device is open. Stages of "
+                    "different frames overlap: 'began' and 'seconds' together are a timeline. The "
+                    "milliseconds of the classic mode are prepare, trace and copy together.");
 }

@@ -38,7 +38,7 @@ __attribute__((format(printf, 2, 3)))
 #endif
 static void
 complain(const Walk *walk, const char *format, ...) {
-    char name[256], text[512];
+    char name[256], text[1024];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
@@ -133,7 +133,10 @@ static void complain_of_missing(const Walk *walk, json_t *parent, const char *mi
         hd_nearest_offer(&nearest, key);
     }
     if (nearest.name == NULL) {
-        complain(walk, "%.*s is missing, expected it in the scene", length, walk->change);
+        char keys[HD_KEYS_SIZE];
+        hd_json_list_keys(parent, keys);
+        complain(walk, "%.*s is missing, expected %s%s", length, walk->change,
+                 keys[0] != '\0' ? "one of " : "it in the scene", keys);
         return;
     }
     hd_quoted(nearest.name, quoted);
