@@ -53,10 +53,10 @@ ROW(HD_COMMAND_TUNE, "tune", "[SCENE.json]", ".json", 1,
     "Strict pictures keep their bytes.")
 ROW(HD_COMMAND_COMPARE, "compare", "FIRST SECOND", NULL, 2,
     "measure the difference of two pictures",
-    "Compares two pictures of the same size: PNG, OpenEXR or PFM. It prints RMSE, PSNR, mean and "
-    "maximum error with its pixel, the error that one pixel in 1000 exceeds, and the shares of "
-    "pixels off by more than 1/255 and 8/255. The error of a pixel is that of its worst "
-    "channel.\n\n"
+    "Compares two pictures of the same size: PNG, OpenEXR or PFM. It prints RMSE, PSNR, mean "
+    "error, and maximum error with its pixel. It also prints the error that one pixel in 1000 "
+    "exceeds, and the shares of pixels off by more than 1/255 and 8/255. The error of a pixel is "
+    "that of its worst channel.\n\n"
     "Display errors are of values clamped to 0..1 and encoded by the transfer curve, in 1/255 "
     "units. Without --curve that is sRGB if a PNG says so or both are PFM, else linear. Linear "
     "errors are of light with 1 as white, clamped to 0..1 if one picture is a PNG. Other "

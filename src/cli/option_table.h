@@ -15,9 +15,7 @@ OPTION(bool prints_default, "--default", NULL, NULL,
 ROW("--variant", NULL, "N", "Which three solids the input describes",
     HD_COMMAND_CLASSIC | HD_COMMAND_CONVERT, INTEGER(scene.variant, 1, HD_CLASSIC_VARIANTS),
     .standard = "4, which is tetrahedron, octahedron, dodecahedron", .role = HD_DECIDES_PIXELS)
-ROW("--output", "-o", "OUT",
-    "Film, picture or numbered sequence, such as film.mp4, picture.png or out/%04d.png; up to 8 "
-    "times",
+ROW("--output", "-o", "OUT", "Film, picture or numbered sequence of pictures; up to 8 times",
     HD_COMMAND_RENDER, TEXTS(store.names, store.count, HD_MAX_OUTPUTS),
     .check = hd_output_check_name, .expected = "the name of a file",
     .standard = "that of the scene, else hedron.mp4, or hedron.png for one frame",
@@ -31,7 +29,7 @@ ROW("--layers", NULL, "LIST",
     HD_COMMAND_RENDER, .type = HD_OPTION_SET, AT(store.layers), .choices = hd_layer_names,
     .use = "for compositing, or to see where samples go")
 ROW("--set", NULL, "PATH=VALUE",
-    "Replace a value of the scene file, for example camera.field_of_view=40; up to 64 times",
+    "Replace a value of the scene, such as camera.field_of_view=40; up to 64 times",
     HD_COMMAND_RENDER | HD_COMMAND_TUNE | HD_COMMAND_VIEW,
     TEXTS(scene.changes, scene.change_count, HD_MAX_CHANGES), .check = check_change,
     .use = "to try a value without editing the file", .role = HD_DECIDES_PIXELS)

@@ -162,13 +162,16 @@ void hd_print_scene_reference(void) {
     print_title("Scene files");
     print_paragraph("A scene is a JSON file (RFC 8259) in UTF-8, at most 32 MiB.");
     print_paragraph(hd_scene_rules);
+    print_paragraph("A key with dots, brackets or = stands in double quotes: '--set "
+                    "materials.\"my.glass\".diffuse=0.5'. The object or array element that holds "
+                    "the value must exist, but image, camera and output are made if missing.");
     print_paragraph("hedron reports every error of a file with its path, the value and what is "
                     "expected, for example: "
                     "'solids[1].circumradius is -1, expected a number from 1e-12 to 1e12'.");
     printf("The scene of `hedron new`:\n\n```json\n%.*s```\n\n", (int)size, text);
     hd_visit_scene(print_section);
-    printf("More: [how each value decides a pixel](../model.md), [files that a scene "
-           "names](files.md).\n");
+    printf("More: [orientations, edges and how each value decides a pixel](../model.md), "
+           "[files that a\nscene names](files.md).\n");
 }
 
 /* ---- the command line ---- */
@@ -248,7 +251,7 @@ void hd_print_statistics_reference(void) {
                key->part != NULL ? "." : "", key->key, key->unit != NULL ? key->unit : "", about);
     }
     printf("\n");
-    print_paragraph("'began' counts from the begin of the run, when the device is open. Stages of "
+    print_paragraph("'began' counts from the start of the run, when the device is open. Stages of "
                     "different frames overlap: 'began' and 'seconds' together are a timeline. The "
                     "milliseconds of the classic mode are prepare, trace and copy together.");
 }

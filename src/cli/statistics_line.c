@@ -63,7 +63,7 @@ static bool has_bound(const Source *source) {
     { "seconds", #name, "s", text, seconds, offsetof(HdFrameTimes, name), NULL }
 #define BEGAN(name)                                                                                \
     {                                                                                              \
-        "began", #name, "s", "Begin of " #name "; null: it did nothing", began,                    \
+        "began", #name, "s", "Start of " #name "; null: it did nothing", began,                    \
             offsetof(HdFrameTimes, name), NULL                                                     \
     }
 
@@ -84,7 +84,7 @@ const HdStatisticsKey hd_statistics_keys[] = {
     STAGE(copy, "Wait after tracing: pixels back to the host, and for OpenEXR its further layers"),
     STAGE(convert, "Conversion to 8 bits for films; 0 if the device does it"),
     STAGE(store, "Encoding and writing of pictures"),
-    STAGE(film, "Frame to FFmpeg, from the first film's begin to the last one's end"),
+    STAGE(film, "Frame to FFmpeg, from the start of the first film to the end of the last"),
     BEGAN(prepare),
     BEGAN(trace),
     BEGAN(copy),

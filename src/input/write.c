@@ -563,7 +563,7 @@ static void print_object(Printer *printer, const HdObjectType *type) {
     for (int i = 0; i < type->field_count; i++)
         print_field(printer, &type->fields[i]);
     put_open_at(printer, HD_COMMENT_KEY, '{');
-    print_pair(printer, "description", "For people");
+    print_pair(printer, "description", "Comment for people");
     print_pair(printer, "type", "string");
     put_close(printer, '}');
     put_close(printer, '}');
