@@ -174,9 +174,7 @@ void hd_field_default(const HdField *field, char text[128]) {
         snprintf(text, 128, "%s", hd_field_choice(field, (int)field->standard[0]));
     else if (field->type == HD_FIELD_BOOLEAN)
         snprintf(text, 128, "%s", field->standard[0] != 0.0 ? "true" : "false");
-    else if (field->type == HD_FIELD_SCALE)
-        snprintf(text, 128, "%s", numbers[0]);
-    else if (hd_field_parts(field) == 3)
+    else if (hd_field_parts(field) == 3 && field->type != HD_FIELD_SCALE)
         snprintf(text, 128, field->type == HD_FIELD_VECTORS ? "[[%s, %s, %s]]" : "[%s, %s, %s]",
                  numbers[0], numbers[1], numbers[2]);
     else
