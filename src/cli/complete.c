@@ -19,7 +19,7 @@ typedef struct Line {
 
 /* ---- what the words before say ---- */
 
-/* Of the command. */
+/* Returns the option of the line's command that a word names, or NULL. */
 static const HdOptionSpec *find_option(const Line *line, const char *word, const char **value) {
     const HdCommand command = line->command->command;
     const HdOptionSpec *spec = hd_option_find(word, command, value);
@@ -152,13 +152,18 @@ static void offer_value(const Line *line) {
         offer_devices(line);
 }
 
+static void offer_topics(const Line *line) {
+    for (int i = 0; i < HD_HELP_TOPIC_COUNT; i++)
+        if (hd_help_topics[i].about != NULL)
+            offer(line, hd_help_topics[i].name, hd_help_topics[i].about);
+}
+
 static void offer_operands(const Line *line) {
     const HdCommandSpec *command = line->command;
     if (command->command == HD_COMMAND_HELP || (command->name == NULL && line->is_first))
         offer_commands(line);
     if (command->command == HD_COMMAND_HELP)
-        for (int i = 0; i < HD_HELP_TOPIC_COUNT; i++)
-            offer(line, hd_help_topics[i].name, hd_help_topics[i].about);
+        offer_topics(line);
     else if (command->name != NULL && command->max_operands != 0)
         printf(":%s\n", command->ending != NULL ? command->ending : "");
 }

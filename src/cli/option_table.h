@@ -4,160 +4,163 @@
    ROW(...): an option that sets a member of a part of the plan (run/plan.h), another option's, or
    none. OPTION(MEMBER, ROW...): one with a member of its own. */
 
-OPTION(bool gpu, "--gpu", NULL, NULL, "trace on the GPU (this is the default of the classic mode)",
+OPTION(bool gpu, "--gpu", NULL, NULL,
+       "Trace on a GPU, the default; if none is suitable, on the CPU with a note",
        HD_COMMAND_CLASSIC, FLAG(gpu), .only_one_of = modes)
-OPTION(bool cpu, "--cpu", NULL, NULL, "trace on the CPU only", HD_COMMAND_CLASSIC, FLAG(cpu),
+OPTION(bool cpu, "--cpu", NULL, NULL, "Trace on the CPU only", HD_COMMAND_CLASSIC, FLAG(cpu),
        .only_one_of = modes)
 OPTION(bool prints_default, "--default", NULL, NULL,
-       "print the most colourful configuration in the input format, and exit", HD_COMMAND_CLASSIC,
-       FLAG(prints_default), .only_one_of = modes)
-ROW("--variant", NULL, "1..10",
-    "which three solids the input means (default 4: tetrahedron, octahedron, dodecahedron)",
+       "Print the configuration with the most colourful result, in the input format, and exit",
+       HD_COMMAND_CLASSIC, FLAG(prints_default), .only_one_of = modes)
+ROW("--variant", NULL, "N", "Which three solids the input describes",
     HD_COMMAND_CLASSIC | HD_COMMAND_CONVERT, INTEGER(scene.variant, 1, HD_CLASSIC_VARIANTS),
-    .role = HD_DECIDES_PIXELS)
-ROW("--output", "-o", "OUT",
-    "film.mp4, picture.png or a sequence such as out/%04d.png; up to 8 times", HD_COMMAND_RENDER,
-    TEXTS(store.names, store.count, HD_MAX_OUTPUTS), .check = hd_output_check_name,
-    .expected = "the name of a file", .takes_file = true)
-ROW("--output", "-o", "SCENE", "the scene file to be written (default: standard output)",
-    HD_COMMAND_CONVERT, TEXTS(store.names, store.count, 1), .expected = "the name of a file",
-    .takes_file = true)
+    .standard = "4, which is tetrahedron, octahedron, dodecahedron", .role = HD_DECIDES_PIXELS)
+ROW("--output", "-o", "OUT", "Film, picture or numbered sequence of pictures; up to 8 times",
+    HD_COMMAND_RENDER, TEXTS(store.names, store.count, HD_MAX_OUTPUTS),
+    .check = hd_output_check_name, .expected = "the name of a file",
+    .standard = "that of the scene, else hedron.mp4, or hedron.png for one frame",
+    .use = "more than one for several formats", .takes_file = true)
+ROW("--output", "-o", "SCENE", "Scene file to write", HD_COMMAND_CONVERT,
+    TEXTS(store.names, store.count, 1), .expected = "the name of a file",
+    .standard = "standard output", .takes_file = true)
 ROW("--layers", NULL, "LIST",
-    "further channels of the OpenEXR outputs, such as depth,object: depth and normal of what is "
-    "met first, its number (object), how many samples the pixel took (samples), what was left "
-    "out of it at most (bound)",
-    HD_COMMAND_RENDER, .type = HD_OPTION_SET, AT(store.layers), .choices = hd_layer_names)
+    "More channels for OpenEXR: depth and normal of the first hit, its object number, samples "
+    "taken by the pixel, bound on its truncation error",
+    HD_COMMAND_RENDER, .type = HD_OPTION_SET, AT(store.layers), .choices = hd_layer_names,
+    .use = "for compositing, or to see where samples go")
 ROW("--set", NULL, "PATH=VALUE",
-    "replace a value of the scene file, for example camera.field_of_view=40; up to 64 times",
+    "Replace a value of the scene, such as camera.field_of_view=40; up to 64 times",
     HD_COMMAND_RENDER | HD_COMMAND_TUNE | HD_COMMAND_VIEW,
     TEXTS(scene.changes, scene.change_count, HD_MAX_CHANGES), .check = check_change,
-    .role = HD_DECIDES_PIXELS)
-OPTION(const char *frames, "--frames", "-f", "LIST", "render these frames only, for example 0-9,20",
-       MEASURING, TEXT(frames, NULL))
+    .use = "to try a value without editing the file", .role = HD_DECIDES_PIXELS)
+OPTION(const char *frames, "--frames", "-f", "LIST", "Render only these frames, such as 0-9,20",
+       MEASURING, TEXT(frames, NULL), .standard = "all")
 ROW("--again", NULL, NULL,
-    "render all frames; otherwise those of numbered PNG pictures that are finished already, with "
-    "the same pixels, are left as they are",
+    "Render all frames. Without it, finished pictures of a numbered PNG sequence are kept if their "
+    "pixels would be the same",
     HD_COMMAND_RENDER, FLAG(store.again))
 ROW("--no-sync", NULL, NULL,
-    "do not wait until files are on the disk: what was stored outlives the program, but not a "
-    "power cut",
-    HD_COMMAND_CLASSIC | HD_COMMAND_RENDER, FLAG(store.no_sync))
+    "Do not wait until files are on the disk. They survive the end of the program, but not a power "
+    "cut",
+    HD_COMMAND_CLASSIC | HD_COMMAND_RENDER, FLAG(store.no_sync),
+    .use = "for many small frames on a slow disk")
 OPTION(bool terminal, "--terminal", NULL, NULL,
-       "show the scene in this terminal instead of a window", HD_COMMAND_VIEW, FLAG(terminal))
-ROW("--size", NULL, "WxH", "size of the picture in pixels", SHOWING, .type = HD_OPTION_SIZE,
+       "Show the scene in this terminal instead of a window", HD_COMMAND_VIEW, FLAG(terminal),
+       .use = "over ssh, or without a display")
+ROW("--size", NULL, "WxH", "Size of the picture in pixels", SHOWING, .type = HD_OPTION_SIZE,
     AT(scene.size), .expected = "WIDTHxHEIGHT such as 640x480, each 1 to 65535",
-    .role = HD_DECIDES_NUMBERS)
+    .standard = OF_SCENE, .role = HD_DECIDES_NUMBERS)
 ROW("--samples", NULL, "N", "N x N samples for each pixel", SHOWING,
-    INTEGER(scene.samples, 1, HD_MAX_SAMPLES_PER_SIDE), .role = HD_DECIDES_NUMBERS)
-ROW("--depth", NULL, "N", "how often a ray may be mirrored or pass a face", SHOWING,
-    INTEGER(scene.depth, 0, HD_MAX_DEPTH), .role = HD_DECIDES_NUMBERS)
-ROW("--cutoff", NULL, "W", "end rays that weigh less than W, 0..1 (0: never)", SHOWING,
-    REAL(scene.cutoff, 0.0, 1.0), .below_high = true, .role = HD_DECIDES_NUMBERS)
+    INTEGER(scene.samples, 1, HD_MAX_SAMPLES_PER_SIDE), .standard = OF_SCENE,
+    .use = "few for a preview, more for smooth edges", .role = HD_DECIDES_NUMBERS)
+ROW("--depth", NULL, "N", "Maximum ray depth: reflections and transmissions in a row", SHOWING,
+    INTEGER(scene.depth, 0, HD_MAX_DEPTH), .standard = OF_SCENE,
+    .use = "more for mirrors inside a solid, less for speed", .role = HD_DECIDES_NUMBERS)
+ROW("--cutoff", NULL, "W", "End rays whose weight is below W in every channel; 0: never", SHOWING,
+    REAL(scene.cutoff, 0.0, 1.0), .below_high = true, .standard = OF_SCENE,
+    .role = HD_DECIDES_NUMBERS)
 ROW("--aa", NULL, "NAME",
-    "grid: all N x N samples in each pixel; adaptive: only as many of them as it needs, which is "
-    "an estimate and no promise (default grid)",
-    RENDERING | HD_COMMAND_VIEW, CHOICE(scene.sampling, "grid", "adaptive"),
-    .role = HD_DECIDES_PIXELS)
+    "Antialiasing. grid: all N x N samples in each pixel; adaptive: as many of them as the pixel "
+    "needs, by an estimate without guarantee",
+    RENDERING | HD_COMMAND_VIEW, CHOICE(scene.sampling, "grid", "adaptive"), .standard = OF_SCENE,
+    .use = "adaptive for many samples", .role = HD_DECIDES_PIXELS)
 ROW("--max-error", NULL, "E",
-    "leave out of each pixel what cannot change it by more than E steps of 255, and nothing else: "
-    "depth, cut-off and lights follow from that promise; with --aa adaptive also the error that "
-    "sampling aims at",
+    "Maximum truncation error of a pixel, in 1/255 units. Depth, cut-off and lights follow from it "
+    "instead of from the scene. With '--aa adaptive' also the target of the sampling error",
     RENDERING | HD_COMMAND_VIEW, REAL(scene.max_error, HD_MIN_ERROR, HD_MAX_ERROR),
-    .role = HD_DECIDES_PIXELS)
+    .standard = OF_SCENE, .use = "to choose accuracy rather than depth", .role = HD_DECIDES_PIXELS)
 OPTION(bool reference, "--reference", NULL, NULL,
-       "as near to the truth as can be: double precision, 32 x 32 samples of a low-discrepancy set "
-       "(or N x N), --max-error 1/64; slow, so take a small picture or --crop",
-       HD_COMMAND_RENDER, FLAG(reference), .role = HD_DECIDES_PIXELS)
-ROW("--crop", NULL, "WxH+X+Y", "render only so many pixels from column X and row Y on",
+       "Render a reference picture: double precision, 32 x 32 low-discrepancy samples (or those of "
+       "--samples), '--max-error 1/64'",
+       HD_COMMAND_RENDER, FLAG(reference),
+       .use = "to measure the error of other pictures; slow, so with a small --size or --crop",
+       .role = HD_DECIDES_PIXELS)
+ROW("--crop", NULL, "WxH+X+Y", "Render only W x H pixels, from column X and row Y on",
     HD_COMMAND_RENDER, .type = HD_OPTION_CROP, AT(scene.crop),
     .expected = "WIDTHxHEIGHT+X+Y such as 64x64+320+200", .role = HD_DECIDES_NUMBERS)
-ROW("--backend", NULL, "NAME", "auto, c, opencl or cuda (default auto: the best one found)",
-    SHOWING, ONE_OF(HD_OPTION_WORD, devices.backend, "auto", "c", "opencl", "cuda"))
+ROW("--backend", NULL, "NAME", "Backend; auto: the best device of any, for 'selftest' all",
+    SHOWING | HD_COMMAND_SELFTEST,
+    ONE_OF(HD_OPTION_WORD, devices.backend, "auto", "c", "opencl", "cuda"), .standard = "auto")
 ROW("--device", NULL, "DEVICE",
-    "number of the device as listed by 'hedron devices', also as c:0, or part of its name; "
-    "several that share the frames: all, or a list such as cuda:0,cuda:1,c:0",
-    RENDERING, TEXT(devices.device, "a number, BACKEND:NUMBER or part of a name"))
-ROW("--device", NULL, "DEVICE",
-    "number of the device as listed by 'hedron devices', also as c:0, or part of its name",
-    HD_COMMAND_TUNE | HD_COMMAND_VIEW,
-    TEXT(devices.device, "a number, BACKEND:NUMBER or part of a name"))
-ROW("--backend", NULL, "NAME", "auto, c, opencl or cuda (default auto: all of them)",
-    HD_COMMAND_SELFTEST, ONE_OF(HD_OPTION_WORD, devices.backend, "auto", "c", "opencl", "cuda"))
-ROW("--device", NULL, "DEVICE",
-    "number of the device as listed by 'hedron devices', also as c:0, or part of its name; all "
-    "(the default)",
-    HD_COMMAND_SELFTEST, TEXT(devices.device, "a number, BACKEND:NUMBER or part of a name"))
-OPTION(
-    bool quick, "--quick", NULL, NULL,
-    "test with 8192 operands and one kind of kernels, which takes a second or two once these are "
-    "compiled",
-    HD_COMMAND_SELFTEST, FLAG(quick))
+    "Device: its number in 'hedron devices', BACKEND:NUMBER, or part of its name. For 'render' and "
+    "the classic mode also all, or a list such as cuda:0,c:0, which share the frames",
+    SHOWING | HD_COMMAND_SELFTEST,
+    TEXT(devices.device, "a number, BACKEND:NUMBER or part of a name"),
+    .standard = "the best one, for 'selftest' all", .use = "all for a film on several GPUs")
+OPTION(bool quick, "--quick", NULL, NULL,
+       "Test with 8192 operands and one kind of kernels, in a second or two once these are "
+       "compiled",
+       HD_COMMAND_SELFTEST, FLAG(quick))
 OPTION(bool deep, "--deep", NULL, NULL,
-       "also compare 2400 random scenes with plain C, in each precision and pipeline, which takes "
-       "minutes; what differs is reported with the pixel, the sample and the depth of the ray",
-       HD_COMMAND_SELFTEST, FLAG(deep))
-ROW("--lanes", NULL, "N",
-    "rays traced together on a CPU: " HD_LANE_COUNTS_IN_WORDS " (default: what suits it)", SHOWING,
-    .type = HD_OPTION_NUMERAL, AT(devices.render.lanes), .choices = lane_counts)
-ROW("--threads", "-j", "N", "threads of the C backend (default: one for each core)", SHOWING,
-    INTEGER(devices.render.threads, 1, HD_MAX_THREADS))
+       "Also compare 2400 random scenes with the C backend, in each precision and pipeline. A "
+       "mismatch is reported with its pixel, sample and ray depth",
+       HD_COMMAND_SELFTEST, FLAG(deep), .use = "for a new driver or card; takes minutes")
+ROW("--lanes", NULL, "N", "Rays traced together on a CPU, up to what a vector register holds",
+    SHOWING, .type = HD_OPTION_NUMERAL, AT(devices.render.lanes), .choices = lane_counts,
+    .standard = OF_DEVICE)
+ROW("--threads", "-j", "N", "Threads of the C backend", SHOWING,
+    INTEGER(devices.render.threads, 1, HD_MAX_THREADS), .standard = "one for each core")
 ROW("--pipeline", NULL, "NAME",
-    "mega: a packet follows its whole tree of rays; wavefront: all rays of a level, closed up; "
-    "wavefront-uncompacted: with its dead rays, for comparison (default auto: what suits device "
-    "and scene)",
-    SHOWING, .type = HD_OPTION_CHOICE, AT(devices.render.pipeline), .choices = hd_pipeline_names)
-ROW("--block", NULL, "N",
-    "threads of a GPU's work group, a multiple of 32 (default: what suits it)", SHOWING,
-    INTEGER(devices.render.block, HD_BLOCK_STEP, HD_MAX_BLOCK), .step = HD_BLOCK_STEP)
-ROW("--grid", NULL, "N", "work groups of one launch on a GPU, at most (default: what suits it)",
-    SHOWING, INTEGER(devices.render.grid, 1, HD_MAX_GRID))
+    "mega: each packet traces its whole ray tree; wavefront: one ray depth at a time, compacted "
+    "between; wavefront-uncompacted: the same with ended rays kept, for comparison; auto: what "
+    "suits device and scene",
+    SHOWING, .type = HD_OPTION_CHOICE, AT(devices.render.pipeline), .choices = hd_pipeline_names,
+    .standard = "auto")
+ROW("--block", NULL, "N", "Threads of a GPU's work group", SHOWING,
+    INTEGER(devices.render.block, HD_BLOCK_STEP, HD_MAX_BLOCK), .step = HD_BLOCK_STEP,
+    .standard = OF_DEVICE)
+ROW("--grid", NULL, "N", "Maximum number of work groups in one GPU launch", SHOWING,
+    INTEGER(devices.render.grid, 1, HD_MAX_GRID), .standard = OF_DEVICE)
 ROW("--max-launch", NULL, "MS",
-    "longest launch on a GPU in milliseconds, 1 to 10000: while it runs, a display that the GPU "
-    "draws stands still (default 50 where one may be there, else 500)",
-    SHOWING, REAL(devices.render.launch_ms, HD_MIN_LAUNCH_MS, HD_MAX_LAUNCH_MS))
+    "Maximum duration of one GPU launch, in ms. A display of that GPU stands still meanwhile",
+    SHOWING, REAL(devices.render.launch_ms, HD_MIN_LAUNCH_MS, HD_MAX_LAUNCH_MS),
+    .standard = "50 if the GPU may drive a display, else 500", .use = "less for a smooth desktop")
 ROW("--geometry", NULL, "NAME",
-    "solids: half-spaces with patterns on their faces; triangles: all of it as triangles, which "
-    "gives nearly the same picture (default solids)",
-    SHOWING, CHOICE(scene.geometry, "solids", "triangles"), .role = HD_DECIDES_PIXELS)
+    "solids: half-spaces with patterns on their faces; triangles: everything as triangles, which "
+    "gives nearly the same picture",
+    SHOWING, CHOICE(scene.geometry, "solids", "triangles"), .standard = "solids",
+    .use = "triangles to measure meshes", .role = HD_DECIDES_PIXELS)
 ROW("--divisions", NULL, "N",
-    "with --geometry triangles: cut the side of each triangle into N, the triangle into N x N "
-    "(default 1)",
-    SHOWING, INTEGER(scene.divisions, 1, HD_MAX_DIVISIONS), .role = HD_DECIDES_PIXELS)
+    "With '--geometry triangles': cut each side of a triangle into N, the triangle into N x N",
+    SHOWING, INTEGER(scene.divisions, 1, HD_MAX_DIVISIONS), .standard = "1",
+    .role = HD_DECIDES_PIXELS)
 ROW("--accel", NULL, "NAME",
-    "how triangles are searched; brute: each of them; bvh: by a bounding volume hierarchy "
-    "(default auto: brute for a handful)",
-    SHOWING, CHOICE(scene.accel, "auto", "brute", "bvh"), .role = HD_DECIDES_PIXELS)
-ROW("--precision", NULL, "P", "float or double (default float)", SHOWING,
-    CHOICE(devices.render.precision, "float", "double"), .role = HD_DECIDES_PIXELS)
+    "Search for triangles. brute: all of them; bvh: by a bounding volume hierarchy; auto: brute "
+    "for a handful",
+    SHOWING, CHOICE(scene.accel, "auto", "brute", "bvh"), .standard = "auto",
+    .role = HD_DECIDES_PIXELS)
+ROW("--precision", NULL, "P", "Precision of the kernels", SHOWING,
+    CHOICE(devices.render.precision, "float", "double"), .standard = "float",
+    .role = HD_DECIDES_PIXELS)
 ROW("--math", NULL, "M",
-    "strict: the same bytes everywhere; fast: the device's own, which plain C has not (default "
-    "strict)",
-    SHOWING, CHOICE(devices.render.math, "strict", "fast"), .role = HD_DECIDES_PIXELS)
+    "strict: the same bytes on every device; fast: the device's native arithmetic, not available "
+    "on the C backend",
+    SHOWING, CHOICE(devices.render.math, "strict", "fast"), .standard = "strict",
+    .use = "fast if equal bytes do not matter", .role = HD_DECIDES_PIXELS)
 ROW("--stats", NULL, "FILE",
-    "write a line of JSON about each frame, its times and rays, to FILE; -: standard output, "
+    "Write a line of JSON for each frame, with its times and rays, to FILE; -: standard output, "
     "which then has nothing else",
     RENDERING, TEXT(store.statistics, "a file or -"), .takes_file = true)
-ROW("--verbose", "-v", NULL, "tell what was chosen and why", RENDERING, FLAG(telling.verbose),
+ROW("--verbose", "-v", NULL, "Report what was chosen, and why", RENDERING, FLAG(telling.verbose),
     .only_one_of = loudness)
-ROW("--quiet", "-q", NULL, "no progress and no notes; errors only", RENDERING, FLAG(telling.quiet),
-    .only_one_of = loudness)
+ROW("--quiet", "-q", NULL, "Report errors only: no progress, no notes", RENDERING,
+    FLAG(telling.quiet), .only_one_of = loudness)
 ROW("--frame-lines", NULL, NULL,
-    "progress for programs: a line on standard error for each frame that is stored; with --quiet "
-    "nothing else",
-    HD_COMMAND_RENDER, FLAG(telling.tells_frames))
-OPTION(bool schema, "--schema", NULL, NULL, "print the JSON Schema of scene files, and exit",
-       HD_COMMAND_CHECK, FLAG(schema))
-OPTION(bool json, "--json", NULL, NULL, "print the list as JSON",
-       HD_COMMAND_CHECK | HD_COMMAND_DEVICES | HD_COMMAND_SELFTEST | HD_COMMAND_TUNE, FLAG(json))
-ROW("--json", NULL, NULL, "print the figures as JSON", HD_COMMAND_COMPARE, FLAG(json))
-OPTION(const char *diff, "--diff", NULL, "OUT.png", "write a heat map of the display error",
+    "Print a line on standard error for each frame that is stored; with --quiet nothing else",
+    HD_COMMAND_RENDER, FLAG(telling.tells_frames), .use = "for programs that watch a run")
+OPTION(bool schema, "--schema", NULL, NULL, "Print the JSON Schema of scene files, and exit",
+       HD_COMMAND_CHECK, FLAG(schema), .use = "for completion in an editor")
+OPTION(bool json, "--json", NULL, NULL, "Print the result as JSON",
+       HD_COMMAND_CHECK | HD_COMMAND_DEVICES | HD_COMMAND_SELFTEST | HD_COMMAND_TUNE |
+           HD_COMMAND_COMPARE,
+       FLAG(json))
+OPTION(const char *diff, "--diff", NULL, "OUT.png", "Write a heat map of the display error",
        HD_COMMAND_COMPARE, TEXT(diff, NULL), .check = check_diff, .takes_file = true)
 OPTION(double fail_above, "--fail-above", NULL, "X",
-       "end with exit code 1 if the largest display error is above X steps of 255",
+       "Exit with code 1 if the maximum display error is above X, in 1/255 units",
        HD_COMMAND_COMPARE, REAL(fail_above, 0.0, HD_MAX_ERROR))
 OPTION(int curve, "--curve", NULL, "NAME",
-       "the curve that PNG pictures are on and display values are put on: linear or srgb, whatever "
-       "the files say",
+       "Transfer curve of PNG pictures and of display values, whatever the files say",
        HD_COMMAND_COMPARE, .type = HD_OPTION_CHOICE, AT(curve), .choices = hd_curve_names)
-ROW("--help", "-h", NULL, "print this help", EVERYTHING, COMMAND(HD_COMMAND_HELP))
-ROW("--version", "-V", NULL, "print the version", RENDERING, COMMAND(HD_COMMAND_VERSION))
+ROW("--help", "-h", NULL, "Print the help of the command", EVERYTHING, COMMAND(HD_COMMAND_HELP))
+ROW("--version", "-V", NULL, "Print the version", RENDERING, COMMAND(HD_COMMAND_VERSION))

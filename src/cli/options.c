@@ -4,6 +4,9 @@
 
 #include <errno.h>
 #include <math.h>
+#include <poll.h>
+#include <pthread.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,7 +30,10 @@ const HdHelpTopic hd_help_topics[HD_HELP_TOPIC_COUNT] = {
     [HD_HELP_MAN] = {"man", "the man page"},
     [HD_HELP_BASH] = {"completion", "completion for bash"},
     [HD_HELP_ZSH] = {"completion-zsh", "completion for zsh"},
-    [HD_HELP_FISH] = {"completion-fish", "completion for fish"}};
+    [HD_HELP_FISH] = {"completion-fish", "completion for fish"},
+    [HD_HELP_REFERENCE_SCENE] = {"reference-scene", NULL},
+    [HD_HELP_REFERENCE_COMMANDS] = {"reference-command-line", NULL},
+    [HD_HELP_REFERENCE_STATISTICS] = {"reference-statistics", NULL}};
 
 int hd_help_topic_named(const char *name) {
     int topic = HD_HELP_TOPIC_COUNT - 1;
@@ -53,7 +59,7 @@ const HdCommandSpec *hd_command_spec(HdCommand command) {
 enum {
     RENDERING = HD_COMMAND_CLASSIC | HD_COMMAND_RENDER,
     MEASURING = RENDERING | HD_COMMAND_TUNE,
-    SHOWING = MEASURING | HD_COMMAND_VIEW,
+    SHOWING = HD_USUAL_COMMANDS,
     EVERYTHING = SHOWING | HD_COMMAND_CHECK | HD_COMMAND_CONVERT | HD_COMMAND_DEVICES |
                  HD_COMMAND_COMPARE | HD_COMMAND_NEW | HD_COMMAND_COMPLETE | HD_COMMAND_HELP |
                  HD_COMMAND_SELFTEST
@@ -63,6 +69,10 @@ enum {
 static const char *const lane_counts[] = {HD_LANE_COUNTS(QUOTED) NULL};
 
 const char *const hd_curve_names[] = {"linear", "srgb", NULL};
+
+/* Words that several rows of the table share. */
+#define OF_SCENE  "the scene's"
+#define OF_DEVICE "depends on the device"
 
 static const char modes[] = "--gpu, --cpu and --default";
 static const char loudness[] = "--verbose and --quiet";
@@ -141,6 +151,33 @@ void hd_option_heading(const HdOptionSpec *spec, char text[64]) {
     snprintf(text, 64, "%s%s%s%s%s", spec->short_name ? spec->short_name : "",
              spec->short_name ? ", " : "", spec->name, spec->value ? " " : "",
              spec->value ? spec->value : "");
+}
+
+/* "auto, c, opencl or cuda" */
+static void list_choices(const char *const *choices, char text[256]) {
+    text[0] = '\0';
+    for (int i = 0; choices[i] != NULL; i++)
+        hd_add_text(text, 256, choices[i + 1] == NULL ? " or " : ", ", "%s", choices[i]);
+}
+
+void hd_option_values(const HdOptionSpec *spec, char text[256]) {
+    text[0] = '\0';
+    if (spec->type == HD_OPTION_INTEGER || spec->type == HD_OPTION_REAL) {
+        char low[HD_NUMBER_SIZE], high[HD_NUMBER_SIZE];
+        hd_short_number(spec->low, low);
+        hd_short_number(spec->high, high);
+        hd_add_text(text, 256, "", "%s to %s%s", low, spec->below_high ? "below " : "", high);
+        if (spec->step != 0)
+            hd_add_text(text, 256, ", ", "a multiple of %d", spec->step);
+    } else if (spec->type == HD_OPTION_SIZE) {
+        hd_add_text(text, 256, "", "each 1 to %d", HD_MAX_IMAGE_SIDE);
+    } else if (spec->type == HD_OPTION_SET) {
+        for (int i = 0; spec->choices[i] != NULL; i++)
+            hd_add_text(text, 256, ",", "%s", spec->choices[i]);
+        hd_add_text(text, 256, "", " or some of them");
+    } else if (spec->choices != NULL) {
+        list_choices(spec->choices, text);
+    }
 }
 
 /* ---- from the text behind an option to the member that it sets ---- */
@@ -245,13 +282,6 @@ static int choice_of(const char *const *choices, const char *word, size_t length
         if (strncmp(choices[i], word, length) == 0 && choices[i][length] == '\0')
             return i;
     return -1;
-}
-
-/* "auto, c, opencl or cuda" */
-static void list_choices(const char *const *choices, char text[256]) {
-    text[0] = '\0';
-    for (int i = 0; choices[i] != NULL; i++)
-        hd_add_text(text, 256, choices[i + 1] == NULL ? " or " : ", ", "%s", choices[i]);
 }
 
 /* With the first choice that begins with the text; nothing completes an empty one. */
@@ -521,16 +551,32 @@ static HdStatus parse_argument(Parser *parser, HdError *error) {
     return apply_option(parser->options, spec, value, error);
 }
 
+/* Offers the topics of help, and lists them: "render, view or scene". */
+static void offer_topics(HdNearest *nearest, char list[256]) {
+    const char *names[HD_COMMAND_SPEC_COUNT + HD_HELP_TOPIC_COUNT + 1] = {NULL};
+    int count = 0;
+    for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
+        if (hd_command_specs[i].name != NULL)
+            names[count++] = hd_command_specs[i].name;
+    for (int i = 0; i < HD_HELP_TOPIC_COUNT; i++)
+        if (hd_help_topics[i].about != NULL)
+            names[count++] = hd_help_topics[i].name;
+    for (int i = 0; i < count; i++)
+        hd_nearest_offer(nearest, names[i]);
+    list_choices(names, list);
+}
+
 static HdStatus check_topic(const char *name, HdError *error) {
     HdNearest nearest = {.word = name};
-    char suggestion[128];
+    char list[256];
     if (hd_command_named(name) != NULL || hd_help_topic_named(name) >= 0)
         return HD_OK;
-    for (int i = 0; i < HD_HELP_TOPIC_COUNT; i++)
-        hd_nearest_offer(&nearest, hd_help_topics[i].name);
-    offer_commands(&nearest);
-    suggest(&nearest, "hedron help ", hd_command_spec(HD_COMMAND_HELP), suggestion);
-    return hd_fail(error, HD_BAD_INPUT, "there is no help on '%s'; %s", name, suggestion);
+    offer_topics(&nearest, list);
+    if (nearest.name != NULL)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "there is no help on '%s', expected %s; did you mean 'hedron help %s'?",
+                       name, list, nearest.name);
+    return hd_fail(error, HD_BAD_INPUT, "there is no help on '%s', expected %s", name, list);
 }
 
 /* What can only be told once all arguments are known. */
@@ -603,9 +649,32 @@ HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdErr
 
 /* ---- from the arguments to the exit code ---- */
 
+/* Whether the reader of standard output has closed its end of a pipe. */
+static bool is_output_closed(void) {
+    struct pollfd output = {.fd = STDOUT_FILENO, .events = POLLOUT};
+    return poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
+}
+
+/* Ends by the signal of a closed pipe, silently, as programs do that do not ignore it. */
+static void end_by_closed_pipe(void) {
+    sigset_t set;
+    signal(SIGPIPE, SIG_DFL);
+    sigemptyset(&set);
+    sigaddset(&set, SIGPIPE);
+    pthread_sigmask(SIG_UNBLOCK, &set, NULL);
+    raise(SIGPIPE);
+}
+
+/* Whether a command does nothing but print. */
+static bool only_prints(const HdOptions *options) {
+    return options->prints_default ||
+           (options->command & (HD_COMMAND_RENDER | HD_COMMAND_VIEW | HD_COMMAND_CLASSIC)) == 0;
+}
+
 int hd_program_run(int count, char **arguments, HdCommandFunction *run) {
     static HdError error;
-    HdOptions options;
+    HdOptions options = defaults;
+    options.command = HD_COMMAND_CLASSIC;
     hd_interrupt_install();
     HdStatus status = hd_check_stack(&error);
     if (status == HD_OK)
@@ -620,6 +689,8 @@ int hd_program_run(int count, char **arguments, HdCommandFunction *run) {
         status = hd_fail(&error, HD_FAILED, "cannot write to standard output");
     if (status == HD_OK)
         return 0;
+    if (status == HD_FAILED && only_prints(&options) && is_output_closed())
+        end_by_closed_pipe();
     fprintf(stderr, "hedron: %s\n", error.message);
     if (status == HD_INTERRUPTED)
         return 128 + hd_interrupt_signal();

@@ -28,6 +28,10 @@ typedef enum HdCommand {
     HD_COMMAND_VIEW = 4096
 } HdCommand;
 
+/* Commands that render or measure: most options belong to them. */
+#define HD_USUAL_COMMANDS                                                                          \
+    (HD_COMMAND_CLASSIC | HD_COMMAND_RENDER | HD_COMMAND_TUNE | HD_COMMAND_VIEW)
+
 /* What the command line said: the parts of the plan, each for its reader, and what belongs to a
    single command. Where an option is not given, its member is 0, false or NULL, or negative where 0
    is a value. */
@@ -49,10 +53,21 @@ typedef struct HdOptions {
 
 /* ---- commands ---- */
 
-/* What there is help about, apart from commands. */
-enum { HD_HELP_SCENE, HD_HELP_MAN, HD_HELP_BASH, HD_HELP_ZSH, HD_HELP_FISH, HD_HELP_TOPIC_COUNT };
+/* Topics of help that are not commands. */
+enum {
+    HD_HELP_SCENE,
+    HD_HELP_MAN,
+    HD_HELP_BASH,
+    HD_HELP_ZSH,
+    HD_HELP_FISH,
+    HD_HELP_REFERENCE_SCENE, /* pages of docs/reference, in Markdown, for ./dev docs */
+    HD_HELP_REFERENCE_COMMANDS,
+    HD_HELP_REFERENCE_STATISTICS,
+    HD_HELP_TOPIC_COUNT
+};
 typedef struct HdHelpTopic {
-    const char *name, *about;
+    const char *name;
+    const char *about; /* NULL: not listed */
 } HdHelpTopic;
 extern const HdHelpTopic hd_help_topics[HD_HELP_TOPIC_COUNT];
 int hd_help_topic_named(const char *name); /* negative: none has it */
@@ -114,8 +129,10 @@ typedef struct HdOptionSpec {
     const char *name;       /* NULL ends the table */
     const char *short_name; /* NULL: none */
     const char *value;      /* what stands for the value in the help; NULL: takes none */
-    const char *help;
-    unsigned commands; /* those that take it */
+    const char *help;       /* effect: sentences, the last one without a full stop */
+    unsigned commands;      /* those that take it */
+    const char *standard;   /* default; NULL: none, or off */
+    const char *use;        /* when to use it, as a sentence without a full stop; NULL: plain */
     HdOptionRole role;
     HdOptionType type;
     size_t offset;              /* of its member of HdOptions */
@@ -145,8 +162,11 @@ const HdOptionSpec *hd_option_next(const HdOptionSpec *spec, HdCommand command);
    belongs to another. */
 const HdOptionSpec *hd_option_find(const char *argument, HdCommand command, const char **value);
 
-/* "-o, --output OUT" */
+/* Writes "-o, --output OUT". */
 void hd_option_heading(const HdOptionSpec *spec, char text[64]);
+
+/* Writes the values that an option takes: "1 to 64", "float or double"; "" for a free text. */
+void hd_option_values(const HdOptionSpec *spec, char text[256]);
 
 /* Parses the arguments of main, whose order it changes. Fails with HD_BAD_INPUT and a sentence that
    names the argument, and the nearest right one where there is one. */

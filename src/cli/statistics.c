@@ -6,7 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "input/json.h"
+#include "cli/statistics_line.h"
 #include "system/atomic_file.h"
 #include "system/interrupt.h"
 
@@ -76,56 +76,9 @@ HdStatus hd_statistics_open(HdStatistics *statistics, HdError *error) {
     return statistics->stream != NULL ? HD_OK : fail_to_write(statistics, error);
 }
 
-static json_t *describe_seconds(const HdSpan *span) {
-    return json_real(span->seconds);
-}
-
-static json_t *describe_begin(const HdSpan *span) {
-    return span->began < 0.0 ? json_null() : json_real(span->began);
-}
-
-/* By the keys of docs/reference/statistics.md. */
-static json_t *describe_spans(const HdFrameTimes *times, json_t *(*describe)(const HdSpan *span)) {
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "prepare", describe(&times->prepare),
-                     "trace", describe(&times->trace), "copy", describe(&times->copy), "convert",
-                     describe(&times->convert), "store", describe(&times->store), "film",
-                     describe(&times->film));
-}
-
-/* json_pack gives up as a whole where a part is missing. */
-static json_t *describe_frame(const HdScene *scene, const HdDevice *device, const char *line,
-                              const HdStoredFrame *stored) {
-    const HdFrame *frame = stored->frame;
-    const double launch = stored->times.longest_launch; /* of GPUs only */
-    return json_pack(
-        "{s:i, s:s, s:i, s:o, s:o, s:i, s:i, s:i, s:i, s:o, s:o, s:o, s:{s:I, s:I, s:I}, s:I, s:I}",
-        "frame", stored->number, "backend", device->backend->name, "index", device->index, "device",
-        hd_json_device_text(device->name), "renderer", hd_json_device_text(line), "width",
-        frame->width, "height", frame->height, "samples", scene->samples_per_side, "depth",
-        scene->depth, "seconds", describe_spans(&stored->times, describe_seconds), "began",
-        describe_spans(&stored->times, describe_begin), "longest_launch_ms",
-        launch < 0.0 ? json_null() : json_real(1e3 * launch), "rays", "primary",
-        (json_int_t)frame->primary_rays, "mirrored", (json_int_t)frame->mirrored_rays,
-        "transmitted", (json_int_t)frame->transmitted_rays, "shadow_tests",
-        (json_int_t)frame->shadow_tests, "clamps", (json_int_t)frame->clamps);
-}
-
-/* Of surveyed scenes only. */
-static json_t *add_bound(json_t *line, const HdFrame *frame) {
-    if (!frame->has_bound ||
-        json_object_set_new(line, "missing",
-                            json_pack("{s:f, s:f}", "largest", frame->largest_bound, "mean",
-                                      frame->mean_bound)) == 0)
-        return line;
-    json_decref(line);
-    return NULL;
-}
-
 HdStatus hd_statistics_add(HdStatistics *statistics, const HdScene *scene, const HdDevice *device,
                            const char *line, const HdStoredFrame *stored, HdError *error) {
-    json_t *told = stored->was_finished
-                       ? json_pack("{s:i, s:b}", "frame", stored->number, "resumed", 1)
-                       : add_bound(describe_frame(scene, device, line, stored), stored->frame);
+    json_t *told = hd_statistics_line(&(HdStatisticsSource){scene, device, line, stored});
     if (told == NULL)
         return HD_NO_ROOM(error, "a line of statistics");
     bool can_write = hd_wait_to_write(fileno(statistics->stream));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A line of JSON about each frame (docs/reference/statistics.md). */
+/* Statistics: a line of JSON for each frame (docs/reference/statistics.md). */
 #ifndef HD_CLI_STATISTICS_H
 #define HD_CLI_STATISTICS_H
 

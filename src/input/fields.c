@@ -8,13 +8,13 @@
 
 #define COUNT_OF(array) ((int)(sizeof(array) / sizeof(array)[0]))
 
-#define TYPE_OF(struct_name, table, writes_all)                                                    \
+#define TYPE_OF(struct_name, table, writes_all, note_text)                                         \
     {                                                                                              \
         .fields = (table), .field_count = COUNT_OF(table), .size = sizeof(struct_name),            \
-        .is_complete = (writes_all)                                                                \
+        .is_complete = (writes_all), .note = (note_text)                                           \
     }
-#define TYPE(struct_name, table)          TYPE_OF(struct_name, table, false)
-#define COMPLETE_TYPE(struct_name, table) TYPE_OF(struct_name, table, true)
+#define TYPE(struct_name, table, note_text)          TYPE_OF(struct_name, table, false, note_text)
+#define COMPLETE_TYPE(struct_name, table, note_text) TYPE_OF(struct_name, table, true, note_text)
 
 /* What begins a field: its place, its key, and what it is about. */
 #define AT(struct_name, member, key_text, about_text)                                              \
@@ -34,10 +34,14 @@
 #define TEXT                .type = HD_FIELD_TEXT
 #define ANY_NUMBER          NUMBER(-HD_MAX_NUMBER, HD_MAX_NUMBER)
 #define POSITION            VECTOR(-HD_MAX_NUMBER, HD_MAX_NUMBER)
-#define COLOUR              VECTOR(0.0, 1.0), .is_light = true
+#define COLOUR              VECTOR(0.0, 1.0), .is_light = true, MEASURE("linear RGB")
 #define DEFAULT(number)     .standard = {(number)}
 #define WHITE               .standard = {1.0, 1.0, 1.0}
 #define REQUIRED            .required = true
+#define MEASURE(text)       .measure = (text)
+#define EXAMPLE(text)       .example = (text)
+#define WORLD               MEASURE("world units")
+#define DEGREES             MEASURE("degrees")
 
 /* Enums are stored as int. */
 _Static_assert(sizeof(HdSolidKind) == sizeof(int), "an HdSolidKind is as large as an int");
@@ -57,111 +61,127 @@ static const HdChoice samplings[] = {
 _Static_assert(sizeof(HdSampling) == sizeof(int), "an HdSampling is as large as an int");
 
 static const HdField image_fields[] = {
-    {AT(HdScene, width, "width", "Pixels in a row"), INTEGER(1, HD_MAX_IMAGE_SIDE), DEFAULT(640)},
-    {AT(HdScene, height, "height", "Rows of pixels"), INTEGER(1, HD_MAX_IMAGE_SIDE), DEFAULT(480)},
-    {AT(HdScene, samples_per_side, "samples",
-        "n of the n x n samples that every pixel is the mean of"),
+    {AT(HdScene, width, "width", "Width of the picture"), INTEGER(1, HD_MAX_IMAGE_SIDE),
+     MEASURE("pixels"), DEFAULT(640)},
+    {AT(HdScene, height, "height", "Height of the picture"), INTEGER(1, HD_MAX_IMAGE_SIDE),
+     MEASURE("pixels"), DEFAULT(480)},
+    {AT(HdScene, samples_per_side, "samples", "n: each pixel is the mean of n x n samples"),
      INTEGER(1, HD_MAX_SAMPLES_PER_SIDE), .said = "samples per side", DEFAULT(3)},
-    {AT(HdScene, depth, "depth", "How many times a ray may go on, mirrored or passing through"),
+    {AT(HdScene, depth, "depth", "Maximum ray depth: reflections and transmissions in a row"),
      INTEGER(0, HD_MAX_DEPTH), DEFAULT(8)},
-    {AT(HdScene, cutoff, "cutoff", "Rays whose weight falls below it in every channel end; 0: off"),
+    {AT(HdScene, cutoff, "cutoff",
+        "Rays end when their weight is below this in every channel; 0: never"),
      NUMBER(0.0, 1.0), .below_high = true, DEFAULT(0.0)},
     {AT(HdScene, sampling, "aa",
-        "Which of the n x n samples a pixel gets: all of the grid, or as many as it needs"),
+        "Antialiasing: the whole grid of n x n samples, or as many of them as the pixel needs"),
      CHOICE(samplings, HD_SAMPLING_GRID)},
     {AT(HdScene, max_error, "max_error",
-        "What may be left out of a pixel, in steps of 255: depth, cutoff and lights follow from "
-        "it; "
-        "0: off"),
-     NUMBER(0.0, HD_MAX_ERROR), .least_but_zero = HD_MIN_ERROR, .said = "max_error", DEFAULT(0.0)},
-    {AT(HdScene, exposure, "exposure", "What every pixel is multiplied by"),
-     NUMBER(0.0, HD_MAX_EXPOSURE), .above_low = true, DEFAULT(1.0)},
+        "Maximum truncation error of a pixel; 0: off. Otherwise rays and lights end by this bound, "
+        "and depth and cutoff are ignored unless the command line has them"),
+     NUMBER(0.0, HD_MAX_ERROR), MEASURE("1/255"), .least_but_zero = HD_MIN_ERROR,
+     .said = "max_error", DEFAULT(0.0)},
+    {AT(HdScene, exposure, "exposure", "Factor of every pixel value"), NUMBER(0.0, HD_MAX_EXPOSURE),
+     .above_low = true, DEFAULT(1.0)},
 };
-static const HdObjectType image = COMPLETE_TYPE(HdScene, image_fields);
+static const HdObjectType image =
+    COMPLETE_TYPE(HdScene, image_fields, "A picture has at most 2^29 pixels.");
 
-#define CYLINDER(member, about_text)                                                               \
-    { AT(HdPath, cylinder.member, #member, about_text), ANY_NUMBER }
+#define CYLINDER(member, unit_text, about_text)                                                    \
+    { AT(HdPath, cylinder.member, #member, about_text), ANY_NUMBER, MEASURE(unit_text) }
 
 static const HdField cylinder_fields[] = {
-    CYLINDER(r0, "Mean distance from the z axis"),
-    CYLINDER(z0, "Mean height"),
-    CYLINDER(phi0, "Angle about the z axis at the start, in radians"),
-    CYLINDER(r_amplitude, "How far the distance swings"),
-    CYLINDER(z_amplitude, "How far the height swings"),
-    CYLINDER(r_frequency, "Swings of the distance in the whole sequence"),
-    CYLINDER(z_frequency, "Swings of the height in the whole sequence"),
-    CYLINDER(phi_frequency, "Turns about the z axis"),
-    CYLINDER(r_phase, "Phase of the distance's swing, in radians"),
-    CYLINDER(z_phase, "Phase of the height's swing, in radians"),
+    CYLINDER(r0, "world units", "Mean distance from the z axis"),
+    CYLINDER(z0, "world units", "Mean height"),
+    CYLINDER(phi0, "radians", "Angle about the z axis at the start; 0 is the x axis"),
+    CYLINDER(r_amplitude, "world units", "Amplitude of the distance"),
+    CYLINDER(z_amplitude, "world units", "Amplitude of the height"),
+    CYLINDER(r_frequency, "cycles", "Oscillations of the distance in the sequence"),
+    CYLINDER(z_frequency, "cycles", "Oscillations of the height in the sequence"),
+    CYLINDER(phi_frequency, "turns", "Turns about the z axis in the sequence"),
+    CYLINDER(r_phase, "radians", "Phase of the distance"),
+    CYLINDER(z_phase, "radians", "Phase of the height"),
 };
-static const HdObjectType cylinder = TYPE(HdPath, cylinder_fields);
+static const HdObjectType cylinder =
+    TYPE(HdPath, cylinder_fields,
+         "A camera path on a cylinder about the z axis of the world. t goes from 0 to 2 pi in the "
+         "sequence. r(t) = r0 + r_amplitude sin(r_frequency t + r_phase), and z(t) likewise; "
+         "phi(t) = phi0 + phi_frequency t. The film loops without a jump if all frequencies are "
+         "whole numbers.");
 
 #define PATH                                                                                       \
     .type = HD_FIELD_PATH, .low = -HD_MAX_NUMBER, .high = HD_MAX_NUMBER, .object = &cylinder
 
 static const HdField camera_fields[] = {
-    {AT(HdScene, field_of_view_degrees, "field_of_view", "Horizontal field of view, in degrees"),
-     NUMBER(0.0, HD_MAX_FIELD_OF_VIEW), .above_low = true, .unit = " degrees", DEFAULT(60.0)},
-    {AT(HdScene, frame_count, "frames", "Frames of the whole sequence"), INTEGER(1, HD_MAX_FRAMES),
-     .said = "frame count", DEFAULT(1)},
-    {AT(HdScene, eye, "eye", "Where the eye is: a point, or a path on a cylinder"), PATH, REQUIRED,
+    {AT(HdScene, field_of_view_degrees, "field_of_view", "Horizontal field of view"),
+     NUMBER(0.0, HD_MAX_FIELD_OF_VIEW), .above_low = true, .unit = " degrees", DEGREES,
+     DEFAULT(60.0)},
+    {AT(HdScene, frame_count, "frames", "Number of frames in the sequence"),
+     INTEGER(1, HD_MAX_FRAMES), .said = "frame count", DEFAULT(1)},
+    {AT(HdScene, eye, "eye", "Position of the eye: a point, or a path on a cylinder"), PATH, WORLD,
+     EXAMPLE("{\"r0\": 6, \"z0\": 1.1, \"phi0\": -0.75, \"phi_frequency\": 1}"), REQUIRED,
      DEFAULT(1.0)},
-    {AT(HdScene, target, "target", "What the eye looks at: a point, or a path on a cylinder"), PATH,
-     DEFAULT(0.0)},
+    {AT(HdScene, target, "target",
+        "Position that the eye looks at: a point, or a path on a cylinder; never that of the eye"),
+     PATH, WORLD, DEFAULT(0.0)},
 };
-static const HdObjectType camera = COMPLETE_TYPE(HdScene, camera_fields);
+static const HdObjectType camera = COMPLETE_TYPE(HdScene, camera_fields, NULL);
 
 static const HdField output_fields[] = {
     {AT(HdSceneFile, output.path, "path",
-        "File of the picture or film; #### or %04d stands for the number of a frame"),
-     TEXT},
-    {AT(HdSceneFile, output.style.frames_per_second, "frames_per_second", "Speed of a film"),
-     INTEGER(1, HD_MAX_FRAMES_PER_SECOND), DEFAULT(HD_DEFAULT_FRAMES_PER_SECOND)},
+        "File of the picture, sequence or film; #### or %04d stands for the frame number"),
+     TEXT, EXAMPLE("\"out/%04d.png\"")},
+    {AT(HdSceneFile, output.style.frames_per_second, "frames_per_second", "Frame rate of a film"),
+     INTEGER(1, HD_MAX_FRAMES_PER_SECOND), MEASURE("frames/s"),
+     DEFAULT(HD_DEFAULT_FRAMES_PER_SECOND)},
     {AT(HdSceneFile, output.style.picture.curve, "curve",
-        "Transfer curve of the numbers in the file"),
+        "Transfer curve of the values in the file; never linear for a GIF"),
      CHOICE(curves, HD_CURVE_SRGB)},
     {AT(HdSceneFile, output.style.picture.bits, "bits",
-        "Bits of a channel: of PNG 8 or 16; 32: OpenEXR in float, otherwise in half"),
-     CHOICE(bits, 8)},
+        "Bits of a channel: 8 or 16 for PNG; 32 makes OpenEXR float instead of half"),
+     CHOICE(bits, 8), MEASURE("bits")},
 };
-static const HdObjectType output = COMPLETE_TYPE(HdSceneFile, output_fields);
+static const HdObjectType output = COMPLETE_TYPE(HdSceneFile, output_fields, NULL);
 
 #define INNER_SIDE .flag_offset = offsetof(HdMaterial, has_inner_side)
 
 static const HdField material_fields[] = {
-    {AT(HdMaterial, colour, "colour", "Tint of diffuse light and of what passes through, linear"),
-     COLOUR, WHITE},
-    {AT(HdMaterial, mirror_tint, "mirror_tint", "Tint of the mirror image, linear"), COLOUR, WHITE},
-    {AT(HdMaterial, ambient, "ambient", "Coefficient of the light that is everywhere"),
+    {AT(HdMaterial, colour, "colour", "Tint of diffuse light and of transmitted rays"), COLOUR,
+     WHITE},
+    {AT(HdMaterial, mirror_tint, "mirror_tint", "Tint of reflected rays"), COLOUR, WHITE},
+    {AT(HdMaterial, ambient, "ambient", "Coefficient of ambient light, the same everywhere"),
      NUMBER(0.0, HD_MAX_COEFFICIENT), DEFAULT(0.0)},
     {AT(HdMaterial, diffuse, "diffuse", "Coefficient of diffuse light"),
      NUMBER(0.0, HD_MAX_COEFFICIENT), DEFAULT(0.0)},
     {AT(HdMaterial, specular, "specular", "Coefficient of the highlight"),
      NUMBER(0.0, HD_MAX_COEFFICIENT), DEFAULT(0.0)},
-    {AT(HdMaterial, shininess, "shininess", "Exponent of the highlight"),
+    {AT(HdMaterial, shininess, "shininess",
+        "Exponent of the highlight; a larger one makes it smaller"),
      INTEGER(1, HD_MAX_SHININESS), DEFAULT(64)},
-    {AT(HdMaterial, reflection, "reflection",
-        "Share that is mirrored; at most 1 together with the transmission"),
+    {AT(HdMaterial, reflection, "reflection", "Share of the light that is reflected"),
      NUMBER(0.0, 1.0), DEFAULT(0.0)},
-    {AT(HdMaterial, transmission, "transmission", "Share that passes through"), NUMBER(0.0, 1.0),
-     DEFAULT(0.0)},
+    {AT(HdMaterial, transmission, "transmission", "Share of the light that passes through"),
+     NUMBER(0.0, 1.0), DEFAULT(0.0)},
     {AT(HdMaterial, inner_reflection, "inner_reflection",
-        "Reflection of rays from inside the solid; as outside unless given"),
+        "Reflection of rays inside the solid; as outside unless given"),
      NUMBER(0.0, 1.0), INNER_SIDE},
     {AT(HdMaterial, inner_transmission, "inner_transmission",
-        "Transmission of rays from inside the solid; as outside unless given"),
+        "Transmission of rays inside the solid; as outside unless given"),
      NUMBER(0.0, 1.0), INNER_SIDE},
     {AT(HdMaterial, index_of_refraction, "index_of_refraction",
-        "Inside the solid, 1 outside; 1: rays go straight on"),
+        "Index inside the solid; outside it is 1. With 1 rays go straight on"),
      NUMBER(HD_MIN_INDEX_OF_REFRACTION, HD_MAX_INDEX_OF_REFRACTION), DEFAULT(1.0)},
     {AT(HdMaterial, lit_from_behind, "lit_from_behind",
-        "Whether lights behind the face shine through it"),
+        "Whether lights behind a face shine through it"),
      .type = HD_FIELD_BOOLEAN, DEFAULT(0)},
 };
-const HdObjectType hd_material_fields = TYPE(HdMaterial, material_fields);
+const HdObjectType hd_material_fields = TYPE(
+    HdMaterial, material_fields,
+    "Reflection and transmission add up to at most 1, outside and inside. A solid that refracts "
+    "must not overlap another solid or the floor. One-way mirrors show the infinity effect: little "
+    "reflection and much transmission outside, an inner_reflection of about 0.9.");
 
 #define MATERIAL .type = HD_FIELD_MATERIAL, REQUIRED
-#define LENGTH   NUMBER(HD_MIN_LENGTH, HD_MAX_NUMBER)
+#define LENGTH   NUMBER(HD_MIN_LENGTH, HD_MAX_NUMBER), WORLD
 
 #define FALLOFF(struct_name)                                                                       \
     {AT(struct_name, falloff.distance, "falloff_distance",                                         \
@@ -169,34 +189,36 @@ const HdObjectType hd_material_fields = TYPE(HdMaterial, material_fields);
      LENGTH, .zero_is_absent = true},                                                              \
     {                                                                                              \
         AT(struct_name, falloff.end, "falloff_end",                                                \
-           "d1 of the falloff (1 - (d / d1)^2)^2, which ends at d1; no falloff unless given"),     \
+           "d1 of the falloff (1 - (d / d1)^2)^2, dark beyond d1; not with falloff_distance"),     \
             LENGTH, .zero_is_absent = true, .instead_of = "falloff_distance"                       \
     }
 
 static const HdField rim_fields[] = {
-    {AT(HdSolid, rim_width, "width", "Measured in the face, from the edge inwards"), LENGTH,
-     REQUIRED},
-    {AT(HdSolid, rim, "material", "Name of its material, which must be opaque"), MATERIAL},
+    {AT(HdSolid, rim_width, "width",
+        "Width of the rim in the face, from the edge inwards; below the inradius of the face"),
+     LENGTH, REQUIRED},
+    {AT(HdSolid, rim, "material", "Name of the rim's material, which must be opaque"), MATERIAL},
 };
-static const HdObjectType rim = TYPE(HdSolid, rim_fields);
+static const HdObjectType rim = TYPE(HdSolid, rim_fields, NULL);
 
 static const HdField edge_light_fields[] = {
     {AT(HdEdgeLights, per_edge, "per_edge", "Lights on each edge, evenly spaced"),
      INTEGER(0, HD_MAX_LIGHTS), .said = "number of lights per edge", REQUIRED},
-    {AT(HdEdgeLights, colours, "colours", "The edges take these in turn; linear"),
+    {AT(HdEdgeLights, colours, "colours", "Colours of the edges, repeated in order"),
      .type = HD_FIELD_VECTORS, .low = 0.0, .high = 1.0, .least = 1, .most = HD_MAX_EDGE_COLOURS,
      .count_offset = offsetof(HdEdgeLights, colour_count), .said = "edge lights' colour",
-     .is_light = true, WHITE},
+     .is_light = true, MEASURE("linear RGB"), EXAMPLE("[[1, 0.1, 0], [0, 0.3, 1]]"), WHITE},
     {AT(HdEdgeLights, intensity, "intensity",
-        "Of each light, times its colour; 0: it lights nothing"),
+        "Factor of the colour for the light that each casts; 0: it lights nothing"),
      NUMBER(0.0, HD_MAX_NUMBER), .said = "edge lights' intensity", DEFAULT(0.0)},
-    {AT(HdEdgeLights, disc_radius, "disc_radius", "Each light is seen as a disc of this radius"),
-     NUMBER(0.0, HD_MAX_NUMBER), .said = "edge lights' disc radius", DEFAULT(0.0)},
-    {AT(HdEdgeLights, disc_radiance, "disc_radiance", "Brightness of the disc, times the colour"),
+    {AT(HdEdgeLights, disc_radius, "disc_radius", "Radius of the visible disc of each light"),
+     NUMBER(0.0, HD_MAX_NUMBER), WORLD, .said = "edge lights' disc radius", DEFAULT(0.0)},
+    {AT(HdEdgeLights, disc_radiance, "disc_radiance",
+        "Factor of the colour for the disc; above 1 its distant images still shine"),
      NUMBER(0.0, HD_MAX_NUMBER), .said = "edge lights' disc radiance", DEFAULT(0.0)},
     FALLOFF(HdEdgeLights),
 };
-static const HdObjectType edge_lights = TYPE(HdEdgeLights, edge_light_fields);
+static const HdObjectType edge_lights = TYPE(HdEdgeLights, edge_light_fields, NULL);
 
 static bool has_rim(const void *owner) {
     return ((const HdSolid *)owner)->rim_width > 0.0;
@@ -206,64 +228,67 @@ static bool has_edge_lights(const void *owner) {
     return ((const HdSolid *)owner)->lights.colour_count > 0;
 }
 
+#define ROTATION_TEXT "Rotation about the world's x axis, then its y axis, then its z axis"
+#define ROTATION      VECTOR(-HD_MAX_ROTATION, HD_MAX_ROTATION), DEGREES, DEFAULT(0.0)
+
 static const HdField solid_fields[] = {
-    {AT(HdSolid, kind, "kind", "Which of the five platonic solids"), CHOICE(kinds, HD_TETRAHEDRON),
+    {AT(HdSolid, kind, "kind", "One of the five platonic solids"), CHOICE(kinds, HD_TETRAHEDRON),
      REQUIRED},
-    {AT(HdSolid, centre, "centre", "Its centre"), POSITION, DEFAULT(0.0)},
-    {AT(HdSolid, circumradius, "circumradius", "From the centre to a corner"), LENGTH,
+    {AT(HdSolid, centre, "centre", "Position of the centre"), POSITION, WORLD, DEFAULT(0.0)},
+    {AT(HdSolid, circumradius, "circumradius", "Distance from the centre to a vertex"), LENGTH,
      .said = "radius", DEFAULT(1.0)},
-    {AT(HdSolid, rotation_degrees, "rotation",
-        "Degrees about the x axis, then the y axis, then the z axis"),
-     VECTOR(-HD_MAX_ROTATION, HD_MAX_ROTATION), DEFAULT(0.0)},
+    {AT(HdSolid, rotation_degrees, "rotation", ROTATION_TEXT), ROTATION, EXAMPLE("[0, 0, 30]")},
     {AT(HdSolid, face, "material", "Name of the faces' material"), MATERIAL},
-    {HERE("rim", "A frame along the edges of every face"), PART(rim), .is_given = has_rim},
+    {HERE("rim", "Frame along the edges of every face"), PART(rim), .is_given = has_rim},
     {AT(HdSolid, lights, "edge_lights", "Point lights along the edges"), PART(edge_lights),
      .is_given = has_edge_lights},
 };
-static const HdObjectType solid = TYPE(HdSolid, solid_fields);
+static const HdObjectType solid = TYPE(HdSolid, solid_fields, NULL);
 
 static const HdField mesh_fields[] = {
-    {AT(HdMeshEntry, file, "file", "Wavefront OBJ; counts from the scene's folder"),
-     .type = HD_FIELD_FILE, REQUIRED},
-    {AT(HdMeshEntry, instance.position, "position", "Where the mesh's origin comes to lie"),
-     POSITION, DEFAULT(0.0)},
-    {AT(HdMeshEntry, instance.rotation_degrees, "rotation",
-        "Degrees about the x axis, then the y axis, then the z axis"),
-     VECTOR(-HD_MAX_ROTATION, HD_MAX_ROTATION), DEFAULT(0.0)},
+    {AT(HdMeshEntry, file, "file", "Wavefront OBJ file, relative to the scene's folder"),
+     .type = HD_FIELD_FILE, EXAMPLE("\"teapot.obj\""), REQUIRED},
+    {AT(HdMeshEntry, instance.position, "position", "Position of the mesh's origin in the world"),
+     POSITION, WORLD, DEFAULT(0.0)},
+    {AT(HdMeshEntry, instance.rotation_degrees, "rotation", ROTATION_TEXT), ROTATION},
     {AT(HdMeshEntry, instance.scale, "scale",
-        "What coordinates are multiplied by before the rotation: one number, or one for each axis"),
+        "Factor from object to world units: one number, or one for each axis of the object"),
      .type = HD_FIELD_SCALE, .low = HD_MIN_LENGTH, .high = HD_MAX_NUMBER, WHITE},
     {AT(HdMeshEntry, normals, "normals",
-        "Those of the file, which is flat where it has none; flat; or smooth but for sharp edges"),
+        "Shading normals: those of the file, flat if it has none; flat; or smooth except at "
+        "creases"),
      CHOICE(normals, HD_NORMALS_FILE)},
     {AT(HdMeshEntry, crease_degrees, "crease",
-        "Smooth normals keep edges where faces meet at more degrees"),
-     NUMBER(0.0, 180.0), DEFAULT(40.0)},
+        "Smooth normals keep an edge if its faces meet at a larger angle"),
+     NUMBER(0.0, 180.0), DEGREES, DEFAULT(40.0)},
     {AT(HdMeshEntry, instance.material, "material",
-        "Name of a material in place of all that the file has"),
+        "Name of a material that replaces those of the file, except for Ke and map_Kd"),
      .type = HD_FIELD_MATERIAL, .flag_offset = offsetof(HdMeshEntry, instance.has_material)},
 };
-static const HdObjectType mesh = TYPE(HdMeshEntry, mesh_fields);
+static const HdObjectType mesh =
+    TYPE(HdMeshEntry, mesh_fields,
+         "The vertices of the file are in object space. They are scaled, then rotated, then moved. "
+         "Entries with the same file, normals and crease share one mesh in memory.");
 
 static const HdField light_fields[] = {
-    {AT(HdLight, position, "position", "Its place"), POSITION, REQUIRED},
-    {AT(HdLight, intensity, "colour", "Linear"), .type = HD_FIELD_UNSCALED, .low = 0.0, .high = 1.0,
-     WHITE},
-    {AT(HdLight, intensity, "intensity", "What the colour is multiplied by"),
-     .type = HD_FIELD_FACTOR, .low = 0.0, .high = HD_MAX_NUMBER, .is_light = true, DEFAULT(1.0)},
+    {AT(HdLight, position, "position", "Position of the light"), POSITION, WORLD,
+     EXAMPLE("[3, -4, 5]"), REQUIRED},
+    {AT(HdLight, intensity, "colour", "Colour of the light"), .type = HD_FIELD_UNSCALED, .low = 0.0,
+     .high = 1.0, MEASURE("linear RGB"), WHITE},
+    {AT(HdLight, intensity, "intensity", "Factor of the colour"), .type = HD_FIELD_FACTOR,
+     .low = 0.0, .high = HD_MAX_NUMBER, .is_light = true, DEFAULT(1.0)},
     FALLOFF(HdLight),
 };
-static const HdObjectType light = TYPE(HdLight, light_fields);
+static const HdObjectType light = TYPE(HdLight, light_fields, NULL);
 
 static const HdField texture_fields[] = {
     {AT(HdSceneFile, texture_path, "file",
-        "PNG, JPEG or the data format; counts from the scene's folder; \"builtin:floor\" is built "
-        "in"),
+        "PNG, JPEG or data file, relative to the scene's folder; \"builtin:floor\" is built in"),
      TEXT, REQUIRED},
-    {AT(HdSceneFile, texture_curve, "curve", "Transfer curve of the numbers in the file"),
+    {AT(HdSceneFile, texture_curve, "curve", "Transfer curve of the values in the file"),
      CHOICE(curves, HD_CURVE_SRGB)},
 };
-static const HdObjectType texture = TYPE(HdSceneFile, texture_fields);
+static const HdObjectType texture = TYPE(HdSceneFile, texture_fields, NULL);
 
 static bool has_texture(const void *owner) {
     return ((const HdSceneFile *)owner)->texture_path[0] != '\0';
@@ -271,39 +296,46 @@ static bool has_texture(const void *owner) {
 
 static const HdField floor_fields[] = {
     {AT(HdSceneFile, scene.floor.corners, "corners",
-        "Of a flat and convex quadrilateral, in their order around it, from the texture's top "
+        "Corners of a flat, convex quadrilateral in their order; the first is the texture's top "
         "left"),
      .type = HD_FIELD_VECTORS, .low = -HD_MAX_NUMBER, .high = HD_MAX_NUMBER, .least = 4, .most = 4,
-     .said = "corner", REQUIRED},
-    {AT(HdSceneFile, scene.floor.material, "material", "Name of its material"), MATERIAL},
+     WORLD, EXAMPLE("[[-5, 5, -1], [5, 5, -1], [5, -5, -1], [-5, -5, -1]]"), .said = "corner",
+     REQUIRED},
+    {AT(HdSceneFile, scene.floor.material, "material", "Name of the floor's material"), MATERIAL},
     {HERE("texture", "Picture that tints the floor"), PART(texture), .is_given = has_texture},
 };
-static const HdObjectType floor_object = TYPE(HdSceneFile, floor_fields);
+static const HdObjectType floor_object = TYPE(HdSceneFile, floor_fields, NULL);
 
 static const HdField scene_fields[] = {
-    {AT(HdSceneFile, schema, "$schema", "Where the JSON Schema is, for editors"), TEXT},
+    {AT(HdSceneFile, schema, "$schema", "Address of the JSON Schema, for editors"), TEXT},
     {AT(HdSceneFile, version, "hedron", "Version of the format"), CHOICE(versions, 1), REQUIRED,
      .is_unseen = true},
-    {AT(HdSceneFile, scene, "image", "The picture and what it may cost"), PART(image)},
-    {AT(HdSceneFile, scene, "camera", "The view"), PART(camera), REQUIRED},
-    {HERE("output", "What becomes of the frames"), PART(output), .is_unseen = true},
-    {AT(HdSceneFile, scene.background, "background", "Where a ray meets nothing; linear"),
-     VECTOR(0.0, HD_MAX_NUMBER), .is_light = true, DEFAULT(0.0)},
+    {AT(HdSceneFile, scene, "image", "Size, samples and accuracy of the picture"), PART(image)},
+    {AT(HdSceneFile, scene, "camera", "View, and its path in a film"), PART(camera), REQUIRED},
+    {HERE("output", "File of the frames and its style"), PART(output), .is_unseen = true},
+    {AT(HdSceneFile, scene.background, "background", "Radiance of rays that hit nothing"),
+     VECTOR(0.0, HD_MAX_NUMBER), .is_light = true, MEASURE("linear RGB"), DEFAULT(0.0)},
     {HERE("materials", "Materials by their names"), .type = HD_FIELD_MATERIALS,
      .object = &hd_material_fields, .most = HD_MAX_MATERIALS},
     {AT(HdSceneFile, scene.solids, "solids", "Platonic solids"), .type = HD_FIELD_LIST,
      .object = &solid, .most = HD_MAX_SOLIDS,
      .count_offset = offsetof(HdSceneFile, scene.solid_count)},
-    {AT(HdSceneFile, mesh_entries, "meshes", "Meshes of triangles, each in its place"),
+    {AT(HdSceneFile, mesh_entries, "meshes", "Meshes of triangles, each with its position"),
      .type = HD_FIELD_LIST, .object = &mesh, .most = HD_MAX_INSTANCES,
      .said = "meshes in their places", .count_offset = offsetof(HdSceneFile, mesh_entry_count)},
-    {AT(HdSceneFile, scene.lights, "lights", "Point lights"), .type = HD_FIELD_LIST,
-     .object = &light, .most = HD_MAX_LIGHTS,
+    {AT(HdSceneFile, scene.lights, "lights", "Point lights; edge lights count towards the limit"),
+     .type = HD_FIELD_LIST, .object = &light, .most = HD_MAX_LIGHTS,
      .count_offset = offsetof(HdSceneFile, scene.light_count)},
-    {HERE("floor", "A flat floor; none unless given"), PART(floor_object),
+    {HERE("floor", "Flat floor; none unless given"), PART(floor_object),
      .flag_offset = offsetof(HdSceneFile, scene.floor.present)},
 };
-const HdObjectType hd_scene_fields = TYPE(HdSceneFile, scene_fields);
+const HdObjectType hd_scene_fields = TYPE(HdSceneFile, scene_fields, NULL);
+
+void hd_field_describe(const HdField *field, char out[HD_DESCRIPTION_SIZE]) {
+    const bool has_measure = field->measure != NULL;
+    snprintf(out, HD_DESCRIPTION_SIZE, "%s%s%s%s", field->about, has_measure ? " (" : "",
+             has_measure ? field->measure : "", has_measure ? ")" : "");
+}
 
 const HdField *hd_field(const HdObjectType *type, const char *key) {
     for (int i = 0; i < type->field_count; i++)

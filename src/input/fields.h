@@ -9,7 +9,12 @@
 
 #include "input/scene_file.h"
 
-enum { HD_MAX_MATERIALS = 1024, HD_EXPECTED_SIZE = 256, HD_SAID_SIZE = 48 };
+enum {
+    HD_MAX_MATERIALS = 1024,
+    HD_EXPECTED_SIZE = 256,
+    HD_SAID_SIZE = 48,
+    HD_DESCRIPTION_SIZE = 512
+};
 
 /* The key that every object may have, with a text for people. */
 #define HD_COMMENT_KEY "$comment"
@@ -43,7 +48,7 @@ typedef struct HdObjectType HdObjectType;
 
 typedef struct HdField {
     const char *key;
-    const char *about; /* for the schema: a sentence without a full stop */
+    const char *about; /* effect, without a full stop; for help, schema and reference */
     HdFieldType type;
     bool required;
     bool above_low, below_high; /* that bound itself is out of the range */
@@ -52,6 +57,8 @@ typedef struct HdField {
     bool is_unseen;             /* says nothing of what pixels look like */
     bool is_light;              /* vectors are red, green and blue, not x, y and z */
     const char *said, *unit;    /* how the checks call it (NULL: its key) and end (NULL: not) */
+    const char *measure;        /* unit of its numbers, or their space; NULL: none */
+    const char *example;        /* value in JSON, for the reference; NULL: none */
     double standard[3];         /* the default; where it is required, a valid stand-in */
     size_t offset;              /* in the struct of the object that the field belongs to */
     size_t count_offset;        /* of the number of elements; 0: `most`, always */
@@ -71,6 +78,7 @@ struct HdObjectType {
     int field_count;
     size_t size;      /* of the struct */
     bool is_complete; /* the writer leaves out no default */
+    const char *note; /* rules between its keys, for help and reference; NULL: none */
 };
 
 /* The whole file; its struct is HdSceneFile. */
@@ -102,6 +110,9 @@ int hd_field_count(const HdField *field, const void *owner);
 
 /* Whether the number is in the field's range. */
 bool hd_field_holds(const HdField *field, double value);
+
+/* Writes its effect and its unit: "Horizontal field of view (degrees)". */
+void hd_field_describe(const HdField *field, char out[HD_DESCRIPTION_SIZE]);
 
 /* How many numbers it has: 3 as a vector or more of them, 1, or 0. */
 int hd_field_parts(const HdField *field);

@@ -86,6 +86,24 @@ void hd_quoted(const char *text, char out[HD_WORDS_SIZE]) {
     snprintf(out, HD_WORDS_SIZE, "\"%s%s\"", start, text[taken] != '\0' ? "..." : "");
 }
 
+void hd_json_list_keys(const json_t *object, char out[HD_KEYS_SIZE]) {
+    enum { ENOUGH = 300 }; /* bytes; another name and the rest fit behind them */
+    const char *key;
+    json_t *ignored;
+    size_t left = json_object_size(object);
+    out[0] = '\0';
+    json_object_foreach((json_t *)object, key, ignored) {
+        char name[HD_WORDS_SIZE];
+        if (strlen(out) > ENOUGH)
+            break;
+        hd_quoted(key, name);
+        hd_add_text(out, HD_KEYS_SIZE, ", ", "%s", name);
+        left--;
+    }
+    if (left > 0)
+        hd_add_text(out, HD_KEYS_SIZE, " ", "and %zu more", left);
+}
+
 void hd_json_words(const json_t *value, char out[HD_WORDS_SIZE]) {
     const size_t count = json_array_size(value);
     char text[HD_WORDS_SIZE];

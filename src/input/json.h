@@ -32,6 +32,11 @@ const char *hd_json_hint(const char *text, size_t position);
 /* `text` in double quotes, escaped, and cut where it is long. */
 void hd_quoted(const char *text, char out[HD_WORDS_SIZE]);
 
+/* Writes the keys of an object as messages list them: "\"glass\", \"frame\" and 3 more"; "" if it
+   has none. */
+enum { HD_KEYS_SIZE = 512 };
+void hd_json_list_keys(const json_t *object, char out[HD_KEYS_SIZE]);
+
 /* What follows "is": "-1", "a string, \"blue\"", "an array of 2 elements". */
 void hd_json_words(const json_t *value, char out[HD_WORDS_SIZE]);
 

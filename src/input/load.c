@@ -247,10 +247,16 @@ static void report_unknown_material(Reader *reader, const HdField *field, const 
     for (int i = 0; i < reader->material_count; i++)
         if (!hd_problems_are_full(reader->report.problems))
             hd_nearest_offer(&nearest, reader->materials[i].name);
-    if (nearest.name == NULL)
-        refuse(reader, field, value, 0);
-    else
+    if (nearest.name != NULL) {
         hd_report_mistaken(&reader->report, value, nearest.name);
+        return;
+    }
+    char expected[HD_EXPECTED_SIZE + HD_KEYS_SIZE], names[HD_KEYS_SIZE];
+    hd_json_list_keys(reader->numbers, names);
+    hd_field_expected(field, 0, expected);
+    hd_add_text(expected, sizeof expected, "", "%s%s", names[0] != '\0' ? ": " : "; there are none",
+                names);
+    hd_report_value(&reader->report, value, expected);
 }
 
 static void read_material(Reader *reader, const HdField *field, const json_t *value, void *owner) {

@@ -38,7 +38,7 @@ __attribute__((format(printf, 2, 3)))
 #endif
 static void
 complain(const Walk *walk, const char *format, ...) {
-    char name[256], text[512];
+    char name[256], text[1024];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
@@ -123,7 +123,9 @@ static bool check_parent(const Walk *walk, const json_t *parent, const Step *ste
     return false;
 }
 
-static void complain_of_missing(const Walk *walk, json_t *parent, const char *missing) {
+/* `is_named`: the keys of `parent` are names that the author chose. */
+static void complain_of_missing(const Walk *walk, json_t *parent, const char *missing,
+                                bool is_named) {
     const int length = (int)(walk->at - walk->change);
     char quoted[HD_WORDS_SIZE];
     HdNearest nearest = {.word = missing};
@@ -133,23 +135,31 @@ static void complain_of_missing(const Walk *walk, json_t *parent, const char *mi
         hd_nearest_offer(&nearest, key);
     }
     if (nearest.name == NULL) {
-        complain(walk, "%.*s is missing, expected it in the scene", length, walk->change);
+        char keys[HD_KEYS_SIZE];
+        hd_json_list_keys(parent, keys);
+        is_named = is_named && keys[0] != '\0';
+        complain(walk, "%.*s is missing, expected %s%s", length, walk->change,
+                 is_named ? "one of " : "it in the scene", is_named ? keys : "");
         return;
     }
     hd_quoted(nearest.name, quoted);
     complain(walk, "%.*s is missing; did you mean %s?", length, walk->change, quoted);
 }
 
-static json_t *find_child(const Walk *walk, json_t *parent, const Step *step, bool is_first) {
+/* `length`: bytes of the path before the step. */
+static json_t *find_child(const Walk *walk, json_t *parent, const Step *step, int length) {
+    static const char names[] = "materials";
+    const bool is_named =
+        length == (int)sizeof names - 1 && strncmp(walk->change, names, sizeof names - 1) == 0;
     if (step->key[0] == '\0')
         return json_array_get(parent, step->index);
     json_t *child = json_object_get(parent, step->key);
-    if (child == NULL && may_be_made(step, is_first)) {
+    if (child == NULL && may_be_made(step, length == 0)) {
         json_object_set_new(parent, step->key, json_object());
         child = json_object_get(parent, step->key);
     }
     if (child == NULL)
-        complain_of_missing(walk, parent, step->key);
+        complain_of_missing(walk, parent, step->key, is_named);
     return child;
 }
 
@@ -201,7 +211,7 @@ void hd_scene_change_apply(json_t *root, HdSceneChange change, HdProblems *probl
             put(&walk, parent, &step);
             return;
         }
-        parent = find_child(&walk, parent, &step, length == 0);
+        parent = find_child(&walk, parent, &step, length);
     }
 }
 

@@ -514,8 +514,10 @@ static void print_default(Printer *printer, const HdField *field) {
 }
 
 static void print_field(Printer *printer, const HdField *field) {
+    char description[HD_DESCRIPTION_SIZE];
+    hd_field_describe(field, description);
     put_open_at(printer, field->key, '{');
-    print_pair(printer, "description", field->about);
+    print_pair(printer, "description", description);
     print_type(printer, field);
     print_default(printer, field);
     put_close(printer, '}');
@@ -561,7 +563,7 @@ static void print_object(Printer *printer, const HdObjectType *type) {
     for (int i = 0; i < type->field_count; i++)
         print_field(printer, &type->fields[i]);
     put_open_at(printer, HD_COMMENT_KEY, '{');
-    print_pair(printer, "description", "For people");
+    print_pair(printer, "description", "Comment for people");
     print_pair(printer, "type", "string");
     put_close(printer, '}');
     put_close(printer, '}');

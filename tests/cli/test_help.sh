@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The help of each command mentions every option, as does the man page, which every formatter takes without warnings.
+# The help of each command has every option, the man page each once, and the generated references are up to date.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -36,6 +36,33 @@ expect_help '--help --schema --json' check --help
 expect_help '--help --output --variant' convert --help
 expect_help '--help --json --diff --fail-above --curve' compare --help
 expect_help '--help' new --help
+
+# ---- first what to do, the classic mode last
+expect_exit 0 "$hedron" help
+order=$(grep -n -E '^(Start|Usage|Classic mode|Options of the classic mode):$' "$logs/stdout" | cut -d: -f2 | tr '\n' ' ')
+[[ $order == 'Start Usage Classic mode Options of the classic mode ' ]] || fail "the parts of the help are '$order'"
+[[ $(sed -n '3,4p' "$logs/stdout") == $'Start:\n  hedron render'* ]] || fail 'the help does not begin with what to do'
+
+# ---- a topic that does not exist: the error lists those that do
+expect_refusal 2 "$hedron" help nosuch
+for topic in render compare scene man completion-fish; do
+    expect_stderr_contains "$topic"
+done
+
+# ---- the references are what the program prints
+for page in scene command-line statistics; do
+    expect_exit 0 "$hedron" help "reference-$page"
+    cmp -s "$logs/stdout" "$project/docs/reference/$page.md" ||
+        fail "docs/reference/$page.md is out of date; ./dev docs writes it"
+done
+
+# ---- a reader that goes away ends what only prints, silently: by SIGPIPE
+for words in 'help man' 'help reference-scene' --default 'check --schema' devices 'devices --json'; do
+    # shellcheck disable=SC2086 # a command and its arguments
+    { sleep 0.1 && "$hedron" $words </dev/null 2>"$logs/stderr" || echo $? >"$logs/code"; } | true
+    [[ $(cat "$logs/code") == 141 ]] || fail "'hedron $words' ends with $(cat "$logs/code") if its reader is gone"
+    expect_silent_stderr
+done
 
 # ---- each variable that the program reads is explained, in the help and in the man page
 variables=$(grep -rh -o 'getenv("HEDRON_[A-Z_]*")' "$project/src" | grep -o 'HEDRON_[A-Z_]*' | sort -u)
@@ -85,7 +112,12 @@ formatted() {
         '130, 143' 'hedron convert' check devices selftest tune compare $rendering --output --layers --set; do
         grep -q -F -e "$word" "$work/page" || fail "the man page lacks '$word'"
     done
+    for word in 'SCENE FILES' 'SEE ALSO' index_of_refraction; do
+        grep -q -F -e "$word" "$work/page" || fail "the man page lacks '$word'"
+    done
 }
+repeated=$(sed -n '/^\.SH OPTIONS/,/^\.SH SCENE/p' "$work/hedron.1" | sed -n 's/^\\fB.*\(\\-\\-[a-z\\-]*\).*\\fR$/\1/p' | grep -v 'output' | sort | uniq -d)
+[[ -z $repeated ]] || fail "the man page has more than once: $repeated"
 if command -v groff >"$logs/which"; then
     formatted groff -man -Tascii -ww
 fi

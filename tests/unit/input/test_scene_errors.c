@@ -98,7 +98,8 @@ static const struct {
     {"output.curve", "gamma", "is a string, \"gamma\", expected \"srgb\" or \"linear\""},
     {"output.bits", "10", "is 10, expected 8, 16 or 32"},
     {"materials.glass.lit_from_behind", "1", "is 1, expected true or false"},
-    {"solids[0].material", "steel", "is a string, \"steel\", expected the name of one of the "},
+    {"solids[0].material", "steel",
+     "is a string, \"steel\", expected the name of one of the materials: \"glass\""},
     {"meshes[0].file", "5", "is 5, expected a string that is not empty"},
     {"output.path", "", "is a string, \"\", expected a string that is not empty"},
     {"image", "[]", "is an array of 0 elements, expected an object"},
@@ -154,6 +155,7 @@ TEST(test_changes_that_cannot_be_made) {
         {"image[0]=1", "image is an object, expected an array with an element 0"},
         {"solids.kind=1", "solids is an array of 3 elements, expected an object"},
         {"materials.glas.diffuse=1", "materials.glas is missing; did you mean \"glass\"?"},
+        {"materials.steel.diffuse=1", "materials.steel is missing, expected one of \"glass\""},
         {"solids.0.centre=[1,2,3]", "solids is an array of 3 elements; write solids[0]"},
         {"solids[1].edge_lights.colours.1=[1,2,3]",
          "solids[1].edge_lights.colours is an array of 2 "
