@@ -146,7 +146,7 @@ static void note_lights(const Glimpse *seen, HdProblems *notes) {
 static void note_reasons(const Glimpse *seen, HdProblems *notes) {
     const double exposure = seen->scene->exposure, needed = exposure / seen->largest;
     const int before = notes->count;
-    if (seen->bright == 0 && needed <= most_exposure * fmin(exposure, 1.0)) {
+    if (seen->bright == 0 && needed <= most_exposure) {
         because(seen, notes, "image.exposure is %.3g, and with %.3g the brightest pixel is white",
                 exposure, needed);
         return;

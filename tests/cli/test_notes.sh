@@ -72,6 +72,11 @@ expect_exit 0 "${nothing[@]}" "$hedron" render --size 320x180 --samples 6 --thre
 expect_note 'device +c 0, .*: no GPU can do this; passed over: cuda: .*; opencl: .*'
 expect_exit 0 "${nothing[@]}" "$hedron" render "${small[@]}" --verbose --frames 0 -o a.data --device 0
 expect_note 'device +c 0, .*: named by --device; passed over: .*'
+# why a picture is black
+expect_exit 0 "${render[@]}" --verbose --frames 1 -o a.data --set image.exposure=1e-6
+expect_note 'hedron: all that is in view in frame 1 is nearly black: image.exposure is 1e-06, and with .*'
+expect_exit 0 "${render[@]}" --frames 1 -o a.data --set image.exposure=1e-6
+! grep -q 'black' "$logs/stderr" || fail 'nobody asked why the picture is black'
 rm a.data
 expect_exit 0 "$hedron" --cpu --verbose "${small[@]}" --frames 0 <"$work/official.in"
 expect_note 'scene +standard input: 3 solids, .*'
