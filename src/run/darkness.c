@@ -144,11 +144,11 @@ static void note_lights(const Glimpse *seen, HdProblems *notes) {
 }
 
 static void note_reasons(const Glimpse *seen, HdProblems *notes) {
-    const double exposure = seen->scene->exposure, needed = exposure / seen->largest;
+    const double exposure = seen->scene->exposure;
     const int before = notes->count;
-    if (seen->bright == 0 && needed <= most_exposure) {
+    if (seen->bright == 0 && exposure <= most_exposure * seen->largest) {
         because(seen, notes, "image.exposure is %.3g, and with %.3g the brightest pixel is white",
-                exposure, needed);
+                exposure, exposure / seen->largest);
         return;
     }
     if (!any_shows_light(seen->scene))

@@ -94,7 +94,8 @@ TEST(materials_of_meshes_count) {
         const char *library, *notes;
     } cases[] = {{"newmtl m\nKd 0 0 0\n", BLACK NO_MATERIAL},
                  {"newmtl m\nKd 1 1 1\n", ""},
-                 {"newmtl m\nKd 0 0 0\nKe 0 0 1\n", ""}};
+                 {"newmtl m\nKd 0 0 0\nKe 0 0 1\n", ""},
+                 {"newmtl m\nKd 0 0 0\nKe 0 0 1e-9\n", NEARLY_BLACK NO_WAY}};
     static const char mesh[] = "mtllib g.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     write_bytes("g.obj", mesh, sizeof mesh - 1);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
