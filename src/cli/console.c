@@ -22,6 +22,9 @@ enum { BAR_WIDTH = 24, SECONDS_BETWEEN_LINES = 5, MAX_HOURS = 99999, USUAL_COLUM
    wait until so much more of a frame is done, so that an hour's frame has a hundred of them. */
 static const double LONG_FRAME = 1.0, GLANCE = 0.2, MIN_PART = 0.01;
 
+/* Seconds of preparing devices that are worth a word in the last line. */
+static const double LEAST_PREPARING = 0.1;
+
 /* ---- progress ---- */
 
 /* "m:ss", or "h:mm:ss" from an hour on; rounded to the nearest second. */
@@ -38,14 +41,18 @@ static double frames_of(const HdProgress *progress) {
     return progress->done + progress->part;
 }
 
+/* Without what came before the first frame: opening devices, building kernels. */
+static double seconds_rendering(const HdProgress *progress) {
+    return progress->seconds - progress->seconds_preparing;
+}
+
 static double seconds_left(const HdProgress *progress) {
     const double frames = frames_of(progress);
-    const double tracing = progress->seconds - progress->seconds_preparing;
-    return (progress->total - frames) * tracing / frames;
+    return (progress->total - frames) * seconds_rendering(progress) / frames;
 }
 
 void hd_progress_line(const HdProgress *progress, char text[128]) {
-    const double seconds = progress->seconds, part = progress->part;
+    const double seconds = seconds_rendering(progress), part = progress->part;
     const bool is_end = progress->done == progress->total;
     char time[32];
     snprintf(text, 128, "%d/%d frames", progress->done, progress->total);
@@ -58,8 +65,10 @@ void hd_progress_line(const HdProgress *progress, char text[128]) {
     if (progress->done > 0)
         hd_add_text(text, 128, ", ", "%.2f frames/s",
                     seconds > 0.0 ? progress->done / seconds : 0.0);
-    format_time(is_end ? seconds : seconds_left(progress), time);
+    format_time(is_end ? progress->seconds : seconds_left(progress), time);
     hd_add_text(text, 128, ", ", "%s %s", time, is_end ? "in all" : "left");
+    if (is_end && progress->seconds_preparing >= LEAST_PREPARING)
+        hd_add_text(text, 128, ", ", "%.1f s of it to prepare", progress->seconds_preparing);
 }
 
 void hd_progress_bar(const HdProgress *progress, const char *line, int columns, char text[160]) {
@@ -395,11 +404,13 @@ static void end_watch(HdConsole *console) {
 /* After all frames: a last plain line, with the rays of all of them for each second. */
 static void report_rate(const HdConsole *console) {
     char line[128];
-    const double elapsed = hd_monotonic_seconds() - console->start_seconds;
-    const HdProgress all = {.done = console->total, .total = console->total, .seconds = elapsed};
+    HdProgress all = progress_of(console, hd_monotonic_seconds());
+    const double seconds = seconds_rendering(&all);
+    all.done = all.total;
+    all.part = 0.0;
     hd_progress_line(&all, line);
     fprintf(stderr, "%s, %.2f M rays/s\n", line,
-            elapsed > 0.0 ? 1e-6 * (double)console->rays / elapsed : 0.0);
+            seconds > 0.0 ? 1e-6 * (double)console->rays / seconds : 0.0);
 }
 
 void hd_console_end(HdConsole *console, const HdScene *scene, const HdDeviceTeam *team,

@@ -90,8 +90,9 @@ void hd_console_end(HdConsole *console, const HdScene *scene, const HdDeviceTeam
    and is cut where it is too long itself. */
 void hd_progress_bar(const HdProgress *progress, const char *line, int columns, char text[160]);
 
-/* "12/120 frames, 1.41 frames/s, 1:16 left"; with all of them done, "..., 1:25 in all"; with a
-   part, "12/120 frames, 40 % of the next, ...". */
+/* "12/120 frames, 1.41 frames/s, 1:16 left"; with all of them done, "..., 1:25 in all, 2.1 s of it
+   to prepare"; with a part, "12/120 frames, 40 % of the next, ...". The rate counts rendering
+   alone, without preparing. */
 void hd_progress_line(const HdProgress *progress, char text[128]);
 
 #endif

@@ -13,6 +13,7 @@
 #include "input/classic.h"
 #include "input/files.h"
 #include "output/fingerprint.h"
+#include "run/darkness.h"
 #include "run/load_scene.h"
 #include "run/sequence.h"
 #include "system/interrupt.h"
@@ -173,6 +174,14 @@ static HdStatus settle(Run *run, const HdOptions *options, HdError *error) {
                                 run->frames.frames[0], error);
 }
 
+/* Says why the first frame is black, if it is. */
+static void explain_darkness(const Run *run) {
+    HdProblems notes = {.count = 0};
+    hd_note_darkness(&run->file->scene, run->outputs.style.picture.curve, run->frames.frames[0],
+                     &notes);
+    hd_problems_print(&notes, stderr, "hedron", ": ");
+}
+
 /* Names of folders are nobody else's matter, and differ between machines: pictures tell the last
    part of the scene's name. */
 static HdStatus render_frames(Run *run, const HdOptions *options, HdError *error) {
@@ -189,6 +198,8 @@ static HdStatus render_frames(Run *run, const HdOptions *options, HdError *error
         hd_console_start(&run->console, &run->resume);
         status = render_missing(run, &options->devices, error);
     }
+    if (status == HD_OK && options->telling.verbose)
+        explain_darkness(run);
     hd_resume_free(&run->resume);
     return status == HD_OK && !run->is_classic ? print_names(run, error) : status;
 }

@@ -13,6 +13,7 @@
 #include "input/files.h"
 #include "input/json.h"
 #include "input/write.h"
+#include "run/darkness.h"
 #include "run/load_scene.h"
 #include "system/atomic_file.h"
 
@@ -80,6 +81,8 @@ static HdStatus check_scene(const char *operand, json_t **list, HdError *error) 
     const char *name = hd_scene_name(operand);
     HdSceneFile file;
     HdStatus status = hd_read_scene(&file, operand, &source, error);
+    if (status == HD_OK)
+        hd_note_darkness(&file.scene, file.output.style.picture.curve, 0, &notes);
     if (list != NULL)
         *list = hd_json_append(*list, describe_scene(name, status, &notes, &file.scene, error));
     else if (status == HD_OK)

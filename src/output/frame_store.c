@@ -471,17 +471,30 @@ static HdStatus close_films(HdFrameStore *store, HdError *error) {
     return HD_OK;
 }
 
+/* Reports an interruption, and which frames are kept. From here on `is_finished` says which frames
+   need not be rendered again; pictures without a fingerprint stay too, but need `--frames`. */
 static void report_interrupted(const HdFrameStore *store, HdError *error) {
     const HdOutputPlan *outputs = store->plan.outputs;
-    const bool can_resume = outputs->can_resume && outputs->has_fingerprint;
-    int kept = 0; /* of the frames that were stored those that another run would not render again */
-    char more[80] = "";
-    for (int i = 0; i < store->stored && can_resume; i++)
-        kept += hd_resume_keeps(store->plan.resume, outputs, i);
-    if (kept > 0)
-        snprintf(more, sizeof more, "; the same command goes on, with %d of them finished", kept);
+    HdResume *resume = store->plan.resume;
+    const bool is_marked = outputs->can_resume && outputs->has_fingerprint;
+    char kept[HD_FRAMES_TEXT], others[HD_FRAMES_TEXT], more[256] = "";
+    for (int i = 0; i < resume->all->count; i++)
+        resume->is_finished[i] = i >= store->stored ? resume->is_finished[i]
+                                 : is_marked        ? hd_resume_keeps(resume, outputs, i)
+                                                    : outputs->film_count == 0;
+    hd_frame_list_write(resume->all, resume->is_finished, true, kept);
+    hd_frame_list_write(resume->all, resume->is_finished, false, others);
+    if (kept[0] == '\0' && store->stored > 0)
+        snprintf(more, sizeof more, "; the same command renders all frames again");
+    else if (kept[0] != '\0' && is_marked)
+        snprintf(more, sizeof more, "; frames kept: %s; the same command%s goes on with %s", kept,
+                 outputs->resumes ? "" : " without --again",
+                 others[0] != '\0' ? others : "the films");
+    else if (kept[0] != '\0' && others[0] != '\0')
+        snprintf(more, sizeof more, "; frames kept: %s; --frames %s renders the others", kept,
+                 others);
     hd_fail(error, HD_INTERRUPTED, "interrupted after %d of %d frames%s", store->stored,
-            store->plan.resume->all->count, more);
+            resume->all->count, more);
 }
 
 /* What fails in the store comes before what its caller met: its frames are earlier ones. */

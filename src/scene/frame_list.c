@@ -10,6 +10,10 @@
 #include <string.h>
 
 #include "base/growth.h"
+#include "base/text.h"
+
+/* Characters of a range with its comma, and of what stands for those that have no room. */
+enum { MOST_RANGE = 28 };
 
 /* Both ends belong to it. */
 typedef struct Range {
@@ -120,6 +124,26 @@ HdStatus hd_frame_list_parse(HdFrameList *list, const char *text, int frame_coun
         return parse_text(list, text, frame_count, error);
     Range all = {0, frame_count - 1};
     return fill_list(list, &all, 1, error);
+}
+
+void hd_frame_list_write(const HdFrameList *list, const bool *marks, bool wanted,
+                         char text[HD_FRAMES_TEXT]) {
+    int first = 0;
+    text[0] = '\0';
+    for (int i = 0; i < list->count; i++) {
+        const int frame = list->frames[i];
+        if (marks[i] != wanted)
+            continue;
+        if (i == 0 || marks[i - 1] != wanted || list->frames[i - 1] != frame - 1)
+            first = frame;
+        if (i + 1 < list->count && marks[i + 1] == wanted && list->frames[i + 1] == frame + 1)
+            continue;
+        if (strlen(text) + MOST_RANGE >= HD_FRAMES_TEXT) {
+            hd_add_text(text, HD_FRAMES_TEXT, ",", "...");
+            return;
+        }
+        hd_add_text(text, HD_FRAMES_TEXT, ",", first < frame ? "%d-%d" : "%d", first, frame);
+    }
 }
 
 void hd_frame_list_free(HdFrameList *list) {

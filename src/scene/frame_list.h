@@ -3,6 +3,8 @@
 #ifndef HD_SCENE_FRAME_LIST_H
 #define HD_SCENE_FRAME_LIST_H
 
+#include <stdbool.h>
+
 #include "base/error.h"
 
 typedef struct HdFrameList {
@@ -13,6 +15,13 @@ typedef struct HdFrameList {
 /* Parses `text` (numbers and ascending ranges, separated by commas; overlaps are merged) against a
    sequence of `frame_count` frames, at least one; NULL stands for all of them. */
 HdStatus hd_frame_list_parse(HdFrameList *list, const char *text, int frame_count, HdError *error);
+
+/* Writes the frames whose mark is `wanted`, one mark for each of the list, as the parser takes
+   them. False: there is no room for all of them, and the text ends in ",...". */
+enum { HD_FRAMES_TEXT = 64 };
+void hd_frame_list_write(const HdFrameList *list, const bool *marks, bool wanted,
+                         char text[HD_FRAMES_TEXT]);
+
 void hd_frame_list_free(HdFrameList *list);
 
 #endif

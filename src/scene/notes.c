@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/trigonometry.h"
 #include "scene/camera.h"
 #include "scene/contact.h"
 #include "scene/scene.h"
@@ -13,45 +14,12 @@ static const double narrow_field_of_view = 5.0;
 /* The cosine between a floor's normal and the z axis; below it the floor is rather a wall. */
 static const double steepest_floor = 0.5;
 
-static bool is_black(HdVec3 colour) {
-    return colour.x == 0.0 && colour.y == 0.0 && colour.z == 0.0;
-}
-
-static bool glows(const HdMaterial *material) {
-    return material->ambient > 0.0 && !is_black(material->colour);
-}
-
 static bool edges_light(const HdEdgeLights *lights) {
     return lights->per_edge > 0 && lights->intensity > 0.0;
 }
 
 static bool edges_show(const HdEdgeLights *lights) {
     return lights->per_edge > 0 && lights->disc_radius > 0.0 && lights->disc_radiance > 0.0;
-}
-
-static bool meshes_give_light(const HdScene *scene) {
-    bool is_lit = false;
-    for (int i = 0; i < scene->mesh_count; i++)
-        for (int k = 0; k < scene->meshes[i].material_count; k++) {
-            const HdMeshMaterial *material = &scene->meshes[i].materials[k];
-            is_lit |= glows(&material->material) || !is_black(material->emission);
-        }
-    for (int i = 0; i < scene->instance_count; i++)
-        is_lit |= scene->instances[i].has_material && glows(&scene->instances[i].material);
-    return is_lit;
-}
-
-static bool gives_light(const HdScene *scene) {
-    bool is_lit = !is_black(scene->background);
-    for (int i = 0; i < scene->light_count; i++)
-        is_lit |= !is_black(scene->lights[i].intensity);
-    for (int i = 0; i < scene->solid_count; i++) {
-        const HdSolid *solid = &scene->solids[i];
-        is_lit |= edges_light(&solid->lights) || edges_show(&solid->lights) || glows(&solid->face);
-        is_lit |= solid->rim_width > 0.0 && glows(&solid->rim);
-    }
-    is_lit |= meshes_give_light(scene);
-    return is_lit || (scene->floor.present && glows(&scene->floor.material));
 }
 
 static void note_edge_lights(const HdSolid *solid, int index, HdProblems *notes) {
@@ -143,13 +111,57 @@ static void note_contacts(const HdScene *scene, HdProblems *notes) {
                    overlapping.solid, overlapping.other, others_of(&overlapping, others));
 }
 
+/* A picture that shifts by less is not seen to jump, as a share of the distance to the target. */
+static const double least_jump = 1e-3;
+
+/* What turns or swings less often in a film is not meant to come back. */
+static const double least_rounds = 0.9;
+
+static void note_radians(const char *path, const char *key, double angle, HdProblems *notes) {
+    if (fabs(angle) > 2.0 * HD_PI)
+        hd_problem(notes,
+                   "camera.%s.%s is %.6g, which are radians, not degrees: %.6g degrees are %.4g",
+                   path, key, angle, angle, angle * (HD_PI / 180.0));
+}
+
+static void note_frequency(const char *path, const char *key, double frequency, HdProblems *notes) {
+    if (frequency != floor(frequency))
+        hd_problem(
+            notes,
+            "camera.%s.%s is %.6g, so the film jumps from its end to its begin; %.0f or %.0f "
+            "makes it a loop",
+            path, key, frequency, floor(frequency), ceil(frequency));
+}
+
+static void note_path(const HdPath *path, const char *name, int frames, double distance,
+                      HdProblems *notes) {
+    const HdCylinderPath *law = &path->cylinder;
+    const double phi = law->phi_frequency;
+    const double r = law->r_amplitude != 0.0 ? law->r_frequency : 0.0;
+    const double z = law->z_amplitude != 0.0 ? law->z_frequency : 0.0;
+    const HdVec3 begin = hd_path_point(path, 0, frames), end = hd_path_point(path, frames, frames);
+    if (path->is_fixed)
+        return;
+    note_radians(name, "phi0", law->phi0, notes);
+    note_radians(name, "r_phase", law->r_phase, notes);
+    note_radians(name, "z_phase", law->z_phase, notes);
+    if (frames == 1 || hd_length(hd_sub(end, begin)) <= least_jump * distance ||
+        fmax(fabs(phi), fmax(fabs(r), fabs(z))) < least_rounds)
+        return;
+    note_frequency(name, "phi_frequency", phi, notes);
+    note_frequency(name, "r_frequency", r, notes);
+    note_frequency(name, "z_frequency", z, notes);
+}
+
 void hd_scene_notes(const HdScene *scene, HdProblems *notes) {
-    if (!gives_light(scene))
-        hd_problem(notes, "every picture is black: there is no light, no ambient material, no disc "
-                          "of an edge light, and the background is black");
+    const int frames = scene->frame_count;
+    const double distance = hd_length(
+        hd_sub(hd_path_point(&scene->target, 0, frames), hd_path_point(&scene->eye, 0, frames)));
     if (scene->field_of_view_degrees < narrow_field_of_view)
         hd_problem(notes, "camera.field_of_view is %.6g, which are degrees, not radians",
                    scene->field_of_view_degrees);
+    note_path(&scene->eye, "eye", frames, distance, notes);
+    note_path(&scene->target, "target", frames, distance, notes);
     note_eye_below_floor(scene, notes);
     for (int i = 0; i < scene->solid_count; i++)
         note_edge_lights(&scene->solids[i], i, notes);

@@ -259,11 +259,12 @@ static HdStatus open_window(Window *w, HdError *error) {
     return HD_OK;
 }
 
-/* Where there is no display SDL takes a driver that shows nothing, if it has one. */
+/* Without a display SDL takes a driver that shows nothing, if it has one. */
 static HdStatus open_display(HdError *error) {
     const char *why = SDL_Init(SDL_INIT_VIDEO) != 0 ? SDL_GetError() : NULL;
     const char *driver = why == NULL ? SDL_GetCurrentVideoDriver() : "";
-    if (strcmp(driver, "offscreen") == 0 || strcmp(driver, "dummy") == 0)
+    if (strcmp(driver, "offscreen") == 0 || strcmp(driver, "dummy") == 0 ||
+        strcmp(driver, "evdev") == 0)
         why = "only a driver that shows nothing";
     if (why == NULL)
         return HD_OK;

@@ -52,6 +52,9 @@ expect_svg triangles/triangles.svg
 
 # ---- pipelines
 expect_run pipelines --device c --quick --repeats 1 -- "${small[@]}"
+expect_stderr_contains '; the time left is known after this run'
+expect_stderr_contains 'run 2 of 9: c:0, '
+expect_stderr_contains ' left of the timing'
 expect_value pipelines/pipelines.json '[[e["pipeline"], e["ratio_to_mega"] == 1] for e in r["pipelines"] if e["processor_ratio_to_mega"] > 0][6:] + [len(r["pipelines"])]' \
     '[["mega", true], ["wavefront", false], ["wavefront-uncompacted", false], 9]'
 expect_svg pipelines/pipelines.svg
@@ -100,5 +103,8 @@ expect_value out/triangles.json 'all(row["reason"] for row in r["rows"])' true
 expect_bench_refusal 2 'a part that is none of' accuracy --hedron "$hedron" --out out --parts wrong
 expect_bench_refusal 2 './dev build' speed --hedron no/hedron --out out
 expect_bench_refusal 2 'cannot stand after --' triangles -- --accel=brute
+expect_bench_refusal 2 "options of hedron render go behind --, as in 'bench/study pipelines -- --size 320x180'" pipelines --samples 2
+expect_bench_refusal 2 'unrecognized arguments: -o' pipelines -o out
+! grep -q 'go behind --' "$logs/stderr" || fail 'an option that cannot stand behind -- is sent there'
 expect_bench_refusal 2 'at least 3 frames' devices --frames 2
 finish

@@ -8,6 +8,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 use_official_input
 render=("$hedron" render --backend c "${small[@]}")
 time='([0-9]+:)?[0-9]+:[0-9]{2}'
+all='in all(, [0-9.]+ s of it to prepare)?, [0-9.]+ M rays/s'
 rate='[0-9]+\.[0-9]{2} frames/s'
 
 expect_note() { # REGEX: one line of standard error matches as a whole
@@ -16,8 +17,8 @@ expect_note() { # REGEX: one line of standard error matches as a whole
 
 # ---- progress: plain lines where there is no terminal; the last one tells the whole time
 expect_exit 0 "${render[@]}" --frames 0-2 -o '%d.data'
-expect_note "3/3 frames, $rate, $time in all, [0-9.]+ M rays/s"
-! grep -v -q -x -E "[0-9]+/3 frames, $rate, $time (left|in all, [0-9.]+ M rays/s)" "$logs/stderr" ||
+expect_note "3/3 frames, $rate, $time $all"
+! grep -v -q -x -E "[0-9]+/3 frames, $rate, $time (left|$all)" "$logs/stderr" ||
     fail "standard error has other lines than those of progress"
 rm ./*.data
 
@@ -71,6 +72,11 @@ expect_exit 0 "${nothing[@]}" "$hedron" render --size 320x180 --samples 6 --thre
 expect_note 'device +c 0, .*: no GPU can do this; passed over: cuda: .*; opencl: .*'
 expect_exit 0 "${nothing[@]}" "$hedron" render "${small[@]}" --verbose --frames 0 -o a.data --device 0
 expect_note 'device +c 0, .*: named by --device; passed over: .*'
+# why a picture is black
+expect_exit 0 "${render[@]}" --verbose --frames 1 -o a.data --set image.exposure=1e-6
+expect_note 'hedron: all that is in view in frame 1 is nearly black: image.exposure is 1e-06, and with .*'
+expect_exit 0 "${render[@]}" --frames 1 -o a.data --set image.exposure=1e-6
+! grep -q 'black' "$logs/stderr" || fail 'nobody asked why the picture is black'
 rm a.data
 expect_exit 0 "$hedron" --cpu --verbose "${small[@]}" --frames 0 <"$work/official.in"
 expect_note 'scene +standard input: 3 solids, .*'

@@ -9,6 +9,7 @@ need_python
 use_official_input
 size=(--size 160x120 --frames 0)
 time='([0-9]+:)?[0-9]+:[0-9]{2}'
+all='in all(, [0-9.]+ s of it to prepare)?, [0-9.]+ M rays/s'
 part="0/1 frames, [0-9]+ % of the next, $time left"
 
 # on_terminal COMMAND...: standard error is a terminal, of which the file screen has what it got; not the output.
@@ -38,7 +39,7 @@ sort -n -c parts 2>"$logs/which" || fail "what is done does not grow: $(tr '\n' 
 # In a pipe: the same bytes, and few, plain lines.
 mv long.png before.png
 expect_exit 0 "${render[@]}" --samples "$samples"
-! grep -v -q -x -E "$part|1/1 frames, [0-9.]+ frames/s, $time in all, [0-9.]+ M rays/s" "$logs/stderr" ||
+! grep -v -q -x -E "$part|1/1 frames, [0-9.]+ frames/s, $time $all" "$logs/stderr" ||
     fail 'a pipe gets other lines than those of progress'
 (($(wc -l <"$logs/stderr") <= 101)) || fail 'a pipe gets too many lines'
 expect_same long.png before.png

@@ -75,6 +75,9 @@ if command -v jq >"$logs/which"; then
 else
     echo "not tested: what 'check --json' prints, for there is no jq"
 fi
+sed 's/"depth"/"exposure": 1e-6, "depth"/' scenes/cube.json >scenes/both.json
+expect_exit 0 "$hedron" check scenes/both.json
+expect_stdout_lines 2 '.*/both\.json: (fine, .*|note: all that is in view in frame 0 is nearly black: image\.exposure is 1e-06, .*)'
 rm scenes/both.json
 # Complete scenes in the documents, which give no cause for a note either, and those that come with the program.
 awk -v folder="$PWD" '/^```json/ { text = "\n"; next }

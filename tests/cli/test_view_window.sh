@@ -14,7 +14,7 @@ expect_exit 3 env PATH=/usr/bin:/bin alone/hedron view --backend c
 expect_sentence
 expect_stderr_contains 'hedron-view, cannot be started'
 window=$(dirname "$hedron")/hedron-view
-for driver in '' x11 dummy; do
+for driver in '' x11 dummy offscreen evdev; do
     expect_exit 3 timeout 60 env -u DISPLAY -u WAYLAND_DISPLAY XDG_RUNTIME_DIR="$PWD" SDL_VIDEODRIVER=$driver "$hedron" view --backend c
     expect_sentence
     expect_stderr_contains '--terminal'

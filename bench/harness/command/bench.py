@@ -20,14 +20,16 @@ NEWS_SECONDS = 10  # between lines of progress if the error output is no termina
 
 class News:
     """Progress: one line that changes on a terminal, or a line every few seconds."""
-    told = None
+    told, knows_time = None, False
 
     def __call__(self, words, seconds_left=None):
+        is_due = self.told is None or time.monotonic() - self.told >= NEWS_SECONDS
         if seconds_left is not None:
             words += f"; about {int(seconds_left // 60)}:{int(seconds_left % 60):02} left of the timing"
+            is_due, self.knows_time = is_due or not self.knows_time, True
         if os.isatty(2):
             print(f"\r\033[K{words}", end="", file=sys.stderr, flush=True)
-        elif self.told is None or time.monotonic() - self.told >= NEWS_SECONDS:
+        elif is_due:
             self.told = time.monotonic()
             print(words, file=sys.stderr, flush=True)
 

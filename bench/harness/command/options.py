@@ -60,7 +60,9 @@ class Command:
         parser = argparse.ArgumentParser(prog=self.title(), usage=usage, description=self.about, epilog=self.codes,
                                          allow_abbrev=False)
         self.add_options(parser)
-        arguments = parser.parse_args(words)
+        arguments, unknown = parser.parse_known_args(words)
+        if unknown:
+            self.refuse(parser, unknown)
         for option in options:
             if option.split("=")[0] in self.own_options or option.startswith("-o"):
                 parser.error(f"{option} cannot stand after --, because {self.title()} sets it itself")
@@ -70,6 +72,13 @@ class Command:
         except ValueError as error:
             parser.error(str(error))
         return arguments
+
+    def refuse(self, parser, unknown):
+        """Ends the program; an option that may be meant for hedron is told its place."""
+        hint = ""
+        if self.own_options is not None and unknown[0].startswith("-") and unknown[0].split("=")[0] not in self.own_options:
+            hint = f"; options of hedron render go behind --, as in '{self.title()} -- --size 320x180'"
+        parser.error(f"unrecognized arguments: {' '.join(unknown)}{hint}")
 
     def main(self, words):
         arguments = self.parse(words)

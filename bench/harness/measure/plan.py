@@ -159,8 +159,10 @@ class Plan(Rows):
     def turn(self, repeat, repeats, words, wanted):
         for place, job in enumerate(self.jobs):
             if wanted(job):
+                seconds_left = self.seconds_left(repeat, repeats)
+                unknown = "; the time left is known after this run" if seconds_left is None else ""
                 self.news(f"{words}, run {place + 1} of {len(self.jobs)}: {job['device']}, "
-                          f"{job.get('part') or ' '.join([job['scene'], *job['options']])}", self.seconds_left(repeat, repeats))
+                          f"{job.get('part') or ' '.join([job['scene'], *job['options']])}{unknown}", seconds_left)
                 self.measure(job, repeat)
 
     def is_disturbed(self, job, repeat, repeats, tries):

@@ -150,29 +150,3 @@ TEST(test_textures) {
     assert_int_equal(file.scene.picture_count, 1);
     hd_scene_file_free(&file);
 }
-
-/* A material that glows is light enough. */
-TEST(test_light_of_meshes) {
-    static const struct {
-        const char *library, *entry;
-        bool is_lit;
-    } cases[] = {
-        {"newmtl m\n", "{\"file\": \"g.obj\"}", false},
-        {"newmtl m\nKa 1 1 1\n", "{\"file\": \"g.obj\"}", true},
-        {"newmtl m\nKe 0 0 1\n", "{\"file\": \"g.obj\"}", true},
-        {"newmtl m\n", "{\"file\": \"g.obj\", \"material\": \"m\"}", true},
-    };
-    write_text("g.obj", "mtllib g.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        char text[512];
-        notes = (HdProblems){.count = 0};
-        const HdSceneSource source = {
-            .name = "a.json", .folder = "", .loads_files = true, .notes = &notes};
-        snprintf(text, sizeof text, SCENE("%s"), cases[i].entry);
-        write_text("g.mtl", cases[i].library);
-        if (hd_scene_file_parse(&file, text, strlen(text), &source, &error) != HD_OK)
-            fail_msg("%s", error.message);
-        assert_int_equal(strstr(notes.text, "every picture is black") == NULL, cases[i].is_lit);
-        hd_scene_file_free(&file);
-    }
-}

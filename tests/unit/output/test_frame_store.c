@@ -109,14 +109,30 @@ TEST(a_picture_that_cannot_be_written_ends_it) {
     assert_int_equal(count_entries("other"), 8);
 }
 
-TEST(an_interruption_tells_how_far_it_came) {
-    assert_int_equal(start("run/%d.png", NULL, -1, false), HD_OK);
-    for (int i = 0; i < 2; i++)
-        give(take());
-    assert_int_equal(hd_frame_store_end(store, HD_INTERRUPTED, &error), HD_INTERRUPTED);
-    assert_string_equal(error.message, "interrupted after 2 of 30 frames; the same command goes "
-                                       "on, with 2 of them finished");
-    expect_files(2);
+TEST(an_interruption_tells_what_is_kept_and_how_to_go_on) {
+    static const struct {
+        const char *name;
+        bool resumes;
+        const char *message;
+    } cases[] = {
+        {"run/%d.png", true, "frames kept: 100-101; the same command goes on with 102-129"},
+        {"run/%d.png", false,
+         "frames kept: 100-101; the same command without --again goes on with 102-129"},
+        {"run/%d.data", true, "frames kept: 100-101; --frames 102-129 renders the others"},
+        {"run/a.mkv", true, "the same command renders all frames again"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char expected[160];
+        fake_films(WIDTH * HEIGHT * 4, 0);
+        assert_int_equal(start(cases[i].name, NULL, -1, cases[i].resumes), HD_OK);
+        for (int k = 0; k < 2; k++)
+            give(take());
+        assert_int_equal(hd_frame_store_end(store, HD_INTERRUPTED, &error), HD_INTERRUPTED);
+        snprintf(expected, sizeof expected, "interrupted after 2 of 30 frames; %s",
+                 cases[i].message);
+        assert_string_equal(error.message, expected);
+        expect_files(i < 3 ? 2 : 0);
+    }
 }
 
 TEST(what_cannot_be_begun_leaves_nothing) {

@@ -26,6 +26,24 @@ TEST(frames_are_listed_once_and_in_order) {
     }
 }
 
+TEST(frames_are_written_as_they_are_read) {
+    static const int numbers[] = {0, 1, 2, 7, 8, 10};
+    static const bool marks[] = {true, true, true, false, true, true};
+    const HdFrameList list = {.count = 6, .frames = (int *)numbers};
+    static int many[100];
+    static const bool none[100];
+    const HdFrameList long_list = {.count = 100, .frames = many};
+    char text[HD_FRAMES_TEXT];
+    hd_frame_list_write(&list, marks, true, text);
+    assert_string_equal(text, "0-2,8,10");
+    hd_frame_list_write(&list, marks, false, text);
+    assert_string_equal(text, "7");
+    for (int i = 0; i < 100; i++)
+        many[i] = 1000000 + 2 * i;
+    hd_frame_list_write(&long_list, none, false, text);
+    assert_string_equal(text, "1000000,1000002,1000004,1000006,1000008,...");
+}
+
 static void expect_refused(const char *text, int frame_count, const char *part,
                            const char *other_part) {
     HdError error = {0};
