@@ -16,10 +16,10 @@ static const double small_cutoff = 1.0 / 256.0;
 
 /* Values below so many steps of 255 are black to the eye, and a picture is black if a smaller share
    of what it shows is brighter. */
-static const double least_step = 3.0, least_share = 0.01;
+static const double min_step = 3.0, min_share = 0.01;
 
 /* A higher one is no cure: the picture is dark for another reason. */
-static const double most_exposure = 1e5;
+static const double max_exposure = 1e5;
 
 /* What the small picture shows. */
 typedef struct Glimpse {
@@ -31,7 +31,7 @@ typedef struct Glimpse {
 } Glimpse;
 
 static bool is_bright(HdCurve curve, double value) {
-    return 255.0 * hd_curve_to_display(curve, value) >= least_step;
+    return 255.0 * hd_curve_to_display(curve, value) >= min_step;
 }
 
 static void count_pixels(Glimpse *seen, const HdFrame *frame, HdCurve curve) {
@@ -55,7 +55,7 @@ static HdStatus look(Glimpse *seen, HdCurve curve, HdError *error) {
     HdCamera camera;
     HdFrame frame;
     int count;
-    hd_scene_drop_survey(&small);
+    hd_scene_drop_error_bound(&small);
     small.width = hd_max(1, (int)(factor * small.width));
     small.height = hd_max(1, (int)(factor * small.height));
     small.samples_per_side = 1;
@@ -146,7 +146,7 @@ static void note_lights(const Glimpse *seen, HdProblems *notes) {
 static void note_reasons(const Glimpse *seen, HdProblems *notes) {
     const double exposure = seen->scene->exposure;
     const int before = notes->count;
-    if (seen->bright == 0 && exposure <= most_exposure * seen->largest) {
+    if (seen->bright == 0 && exposure <= max_exposure * seen->largest) {
         because(seen, notes, "image.exposure is %.3g, and with %.3g the brightest pixel is white",
                 exposure, exposure / seen->largest);
         return;
@@ -168,7 +168,7 @@ void hd_note_darkness(const HdScene *scene, HdCurve curve, int frame, HdProblems
     HdError ignored;
     if (scene->crop.whole_width > 0 || look(&seen, curve, &ignored) != HD_OK)
         return;
-    if (seen.hits > 0 && seen.bright < least_share * seen.hits)
+    if (seen.hits > 0 && seen.bright < min_share * seen.hits)
         note_reasons(&seen, notes);
     /* A film may begin with an empty view, and a picture of the background may be meant. */
     if (seen.hits == 0 && (is_dark || (scene->frame_count == 1 && objects > 0)))

@@ -13,7 +13,7 @@
 #include "base/text.h"
 
 /* Characters of a range with its comma, and of what stands for those that have no room. */
-enum { MOST_RANGE = 28 };
+enum { MAX_RANGE_TEXT = 28 };
 
 /* Both ends belong to it. */
 typedef struct Range {
@@ -138,7 +138,7 @@ void hd_frame_list_write(const HdFrameList *list, const bool *marks, bool wanted
             first = frame;
         if (i + 1 < list->count && marks[i + 1] == wanted && list->frames[i + 1] == frame + 1)
             continue;
-        if (strlen(text) + MOST_RANGE >= HD_FRAMES_TEXT) {
+        if (strlen(text) + MAX_RANGE_TEXT >= HD_FRAMES_TEXT) {
             hd_add_text(text, HD_FRAMES_TEXT, ",", "...");
             return;
         }
