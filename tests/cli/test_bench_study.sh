@@ -193,11 +193,11 @@ expect_bench_refusal 2 'at least two frames' "${fake[@]}" --frames 7
 bench=$project/bench/compare
 expect_bench_refusal 2 'no measurement in common' one/study.json <(sed 's/"Made up"/"Other"/' one/study.json)
 
-# ---- the README's table of devices is that of the results
+# ---- the table of devices in docs/performance.md is that of the results
 expect_exit 0 "$project/bench/results/table"
 cp "$logs/stdout" table.md
 expect_python '5 True' 'table = open("table.md", encoding="utf-8").read()' \
-    "readme = open('$project/README.md', encoding='utf-8').read()" 'print(table.count("\n") - 2, "\n\n" + table + "\n" in readme)'
+    "text = open('$project/docs/performance.md', encoding='utf-8').read()" 'print(table.count("\n") - 2, "\n\n" + table + "\n" in text)'
 
 # ---- the program itself; a folder whose name would be a pattern
 mkdir '##%d'
