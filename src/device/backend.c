@@ -72,8 +72,7 @@ const char *hd_device_unsupported_reason(const HdDevice *device, const HdRenderO
     return NULL;
 }
 
-/* So many lights that no distance ends: from here on full packets are worth the way through a
- * queue. */
+/* Lights without a distance limit from which on full packets outweigh the cost of a queue. */
 enum { MANY_LIGHTS = 100 };
 
 double hd_longest_launch(const HdDevice *device, const HdRenderOptions *options) {

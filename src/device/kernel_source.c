@@ -71,8 +71,8 @@ const char *hd_kernel_name(const HdKernelShape *shape, HdKernel kernel) {
     }
 }
 
-/* A bound that scenes of similar size share, so that one build serves them all: the least power of
-   two that is at least 8 and `count`. */
+/* Rounds up to a bound that scenes of similar size share, so that one build serves them all: the
+   least power of two that is at least 8 and `count`. */
 static int bound_for(int count) {
     int bound = 8;
     while (bound < count)

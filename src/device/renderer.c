@@ -10,12 +10,12 @@
 
 struct HdRenderer {
     const HdBackend *backend;
-    void *state; /* of the backend */
+    void *state; /* the backend's renderer */
     HdDevice device;
     HdRenderOptions options;
     bool has_scene;
     bool has_failed;
-    double longest_launch; /* seconds; negative: none is known */
+    double longest_launch; /* seconds; negative: unknown */
     int in_flight;
     const HdFrameTables *flights[HD_FRAMES_IN_FLIGHT]; /* the oldest first */
 };
@@ -86,7 +86,7 @@ HdStatus hd_renderer_compute(HdRenderer *renderer, const HdProbeBatch *batch,
     return hd_renderer_fail(renderer, status, error);
 }
 
-/* Must hold for `what` to be done: tables as the renderer needs them, and few enough frames. */
+/* Checks the precision of the tables and the number of frames in flight before `what` is done. */
 static HdStatus check_use(const HdRenderer *renderer, const char *what, HdPrecision precision,
                           int max_in_flight, HdError *error) {
     if (precision != renderer->options.precision)
@@ -108,7 +108,7 @@ HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, H
     return hd_renderer_fail(renderer, status, error);
 }
 
-/* Kernels count work items and the values of a picture in int, whole blocks at a time. */
+/* Kernels count work items and a picture's values in int, in whole blocks. */
 static HdStatus check_size(int width, int height, HdError *error) {
     int64_t columns = (width + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
     int64_t rows = (height + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;

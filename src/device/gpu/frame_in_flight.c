@@ -33,7 +33,7 @@ static size_t pixel_count(const HdGpuFrameInFlight *in_flight) {
     return (size_t)in_flight->of->width * (size_t)in_flight->of->height;
 }
 
-/* Of what is copied. */
+/* Bytes that are copied to the host. */
 static size_t picture_bytes(const HdGpuFrameInFlight *in_flight) {
     return pixel_count(in_flight) *
            (in_flight->encodes ? 4 : (size_t)in_flight->of->floats * sizeof(float));
@@ -92,8 +92,8 @@ HdStatus hd_gpu_frame_launch(const HdGpuRenderer *renderer, HdGpuFrameInFlight *
     return gpu->driver->launch(gpu->handle, launch, in_flight->untimed, error);
 }
 
-/* The launch took at most what passed since it was queued, and at least what the host waited for it
-   alone. So one that was short enough is known, and one that was too long; otherwise negative. */
+/* Bounds the time by the host's clock: at most since it was queued, at least what the host waited
+   for it alone. Returns a bound that shows if the launch was too long, otherwise -1. */
 static double launch_by_host(const HdGpuFramesInFlight *frames_in_flight,
                              const HdGpuFrameInFlight *in_flight, double waited) {
     double now = hd_monotonic_seconds(), most = now - in_flight->launched;
@@ -154,7 +154,7 @@ static HdStatus fill(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight, HdF
         HD_TRY(hd_gpu_frame_time_launch(renderer, in_flight, waited, error));
     hd_gpu_frame_report(in_flight, in_flight->items);
     frame->longest_launch = in_flight->longest_launch;
-    /* Where the device does not tell, what the host sees: frames are traced one after the other. */
+    /* Without the device's times, the host's count: frames are traced one after the other. */
     if (seconds < 0.0)
         seconds = hd_monotonic_seconds() -
                   fmax(in_flight->submitted, renderer->frames_in_flight.collected);

@@ -35,7 +35,7 @@ static HdStatus check_size(const HdGpu *gpu, size_t bytes, const char *what, HdE
                    what, need, gpu->name, at_once, all);
 }
 
-/* Fails with `refusal` where there is too little memory. */
+/* Fails with `refusal` if memory is lacking. */
 static HdStatus try_to_reserve(const HdGpu *gpu, HdGpuMemory *memory, HdGpuPlace place,
                                size_t bytes, HdGpuRefusal *refusal, HdError *error) {
     if (memory->handle != NULL && memory->bytes >= bytes)
