@@ -8,7 +8,7 @@
 #include "scene/triangulate.h"
 #include "verify/scene_builder.h"
 
-/* Made by the build from tests/golden/frames.txt. */
+/* Made at build time from tests/golden/frames.txt. */
 extern const unsigned char hd_golden_hashes[];
 
 const HdSceneTables hd_golden_needs = {.plane_count = 32,
@@ -53,8 +53,8 @@ static bool three_textured(HdScene *scene, HdCamera *camera, double spacing) {
     return three_solids(scene, camera, spacing) && build_texture(&scene->floor.texture, 24, 24);
 }
 
-/* Exactly on the face x = 1 of a hexahedron with half-integer centre and edge 2, looking along it
-   and inwards at once. */
+/* The eye lies exactly on the face x = 1 of a hexahedron with half-integer centre and edge 2, and
+   looks along and into it. */
 static bool eye_on_face(HdScene *scene, HdCamera *camera, double variant) {
     (void)variant;
     if (!build_scene(scene, 64, 48, 1, 6, 1, 2))
@@ -67,8 +67,8 @@ static bool eye_on_face(HdScene *scene, HdCamera *camera, double variant) {
     return true;
 }
 
-/* The middle of the picture is a vertex, and its middle row and column run along edges: odd sizes
-   put sample rays exactly there. */
+/* The picture's centre is a vertex, and its middle row and column run along edges: odd sizes put
+   sample rays exactly there. */
 static bool edges_and_corners(HdScene *scene, HdCamera *camera, double variant) {
     (void)variant;
     if (!build_scene(scene, 65, 65, 1, 8, 2, 2))
@@ -139,13 +139,13 @@ static void glass_cube(HdScene *scene) {
     refract(&scene->solids[0], 1.5, 0.1, 0.85);
 }
 
-/* Most of what is seen was reflected totally. */
+/* Most of the picture is total reflection. */
 static void dense_glass(HdScene *scene) {
     glass_cube(scene);
     refract(&scene->solids[0], 2.4, 0.15, 0.8);
 }
 
-/* An index below 1, as air has in water: total reflection on the outer side. */
+/* An index below 1, as of air in water: total reflection on the outer side. */
 static void bubble(HdScene *scene) {
     scene->solids[0].face.colour = hd_vec3(1.0, 1.0, 1.0);
     scene->solids[0].lights.per_edge = 0;
@@ -161,7 +161,7 @@ static void glass_dodecahedron(HdScene *scene) {
     refract(&scene->solids[0], 1.33, 0.08, 0.9);
 }
 
-/* Mirrors from outside and nearly clear from within. */
+/* Mirrors outside and nearly clear inside. */
 static void inner_sides(HdScene *scene) {
     for (int s = 0; s < 3; s++) {
         HdMaterial *face = &scene->solids[s].face;
@@ -199,8 +199,7 @@ static void ending_lights(HdScene *scene) {
         scene->lights[i].falloff = (HdFalloff){.end = 1.0 + 1.2 * i};
 }
 
-/* Many lights on each edge, which threads with one ray judge together: of some points all are too
-   far away, of others some. */
+/* Many lights on each edge, culled by clusters: some points are too far from all or some. */
 static void runs_of_lights(HdScene *scene) {
     for (int s = 0; s < 3; s++) {
         colour_edges(&scene->solids[s]);
@@ -246,7 +245,7 @@ static void everything(HdScene *scene) {
 
 /* ---- meshes: few planes, a depth of at most 8 ---- */
 
-/* Curved mirrors of coloured glass beside a solid: a smooth one and a flat one. */
+/* Curved mirrors of coloured glass next to a solid: a smooth one and a flat one. */
 static bool bumpy_sphere(HdScene *scene, HdCamera *camera, double variant) {
     (void)variant;
     HdMaterial red = build_material(hd_vec3(0.95, 0.5, 0.3), 0.5, 0.4);
@@ -267,8 +266,8 @@ static bool bumpy_sphere(HdScene *scene, HdCamera *camera, double variant) {
     return finish_meshes(scene);
 }
 
-/* Enough for a hierarchy over them: textured, of several materials, some with one of their own, one
-   stretched, three that overlap. */
+/* Enough instances for a hierarchy over them: textured, of several materials, some with one of
+   their own, one stretched, three that overlap. */
 static bool many_instances(HdScene *scene, HdCamera *camera, double variant) {
     (void)variant;
     HdMaterial blue = build_material(hd_vec3(0.4, 0.6, 1.0), 0.4, 0.5);
@@ -296,7 +295,7 @@ static bool many_instances(HdScene *scene, HdCamera *camera, double variant) {
     return finish_meshes(scene);
 }
 
-/* What the classic scenes look like, all of it triangles: rims, discs, lights on edges, a floor. */
+/* The look of the classic scenes, made of triangles: rims, discs, lights on edges, a floor. */
 static bool triangulated_solids(HdScene *scene, HdCamera *camera, double variant) {
     (void)variant;
     HdError error;
@@ -312,8 +311,8 @@ static bool triangulated_solids(HdScene *scene, HdCamera *camera, double variant
     return hd_scene_triangulate(scene, 8, 1, &error) == HD_OK;
 }
 
-/* Rays that run exactly through edges and corners, from outside and from inside; the one frame that
-   tries every triangle. */
+/* Rays run exactly through edges and corners, from outside and from inside; the only frame that
+   tests every triangle. */
 static bool mesh_edges_and_corners(HdScene *scene, HdCamera *camera, double variant) {
     (void)variant;
     HdMaterial clear = build_material(hd_vec3(0.9, 0.8, 1.0), 0.3, 0.6);
@@ -331,7 +330,7 @@ static bool mesh_edges_and_corners(HdScene *scene, HdCamera *camera, double vari
     return finish_meshes(scene);
 }
 
-/* For frames by which kernels prove themselves. */
+/* For frames that test compiled kernels. */
 static void without_refraction(HdScene *scene) {
     for (int i = 0; i < scene->mesh_count; i++)
         scene->meshes[i].materials[0].material.index_of_refraction = 1.0;
@@ -343,10 +342,10 @@ static void paper_instances(HdScene *scene) {
         scene->meshes[i].materials[0].material.lit_from_behind = true;
 }
 
-/* ---- surveyed ---- */
+/* ---- frames with an error bound ---- */
 
-/* Pixels with one sample, with four and with all of them; rays and lights that are left out; passes
-   that are repeated. */
+/* Pixels with one sample, with four and with all; rays and lights that are left out; repeated
+   passes. */
 static void adaptive_and_bounded(HdScene *scene) {
     everything(scene);
     scene->cutoff = 0.0;
@@ -366,7 +365,7 @@ static void crop_of_reference(HdScene *scene) {
     scene->height /= 2;
 }
 
-/* ---- all of them ---- */
+/* ---- the list ---- */
 
 #define SOLID(kind) .base = one_solid, .variant = HD_##kind
 #define APART       .base = three_solids, .variant = 2.4

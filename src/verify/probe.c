@@ -15,7 +15,7 @@
 static const char *const number_words[] = {HD_PROBE_NUMBERS(WORDS)};
 static const char *const integer_words[] = {HD_PROBE_INTEGERS(WORDS)};
 
-/* Of a batch, in the larger precision. */
+/* Memory of a batch, in the larger precision. */
 typedef struct Memory {
     double operands[3][HD_PROBE_BATCH];
     int64_t bits[HD_PROBE_BATCH];
@@ -30,7 +30,7 @@ typedef struct Probe {
     HdProbeBatch batch;
     HdProbeResults found, expected;
     HdProbeReport *report;
-    bool only_rounding_differs; /* of divisions and roots */
+    bool only_rounding_differs; /* only divisions and roots differ */
 } Probe;
 
 static Probe probe_in(Memory *memory, HdPrecision precision, HdProbeReport *report) {
@@ -61,13 +61,13 @@ static const char *precision_name(const Probe *probe) {
     return probe->precision == HD_PRECISION_DOUBLE ? "double" : "float";
 }
 
-/* Denormal. */
+/* Returns whether the number is denormal. */
 static bool is_small(const Probe *probe, double a) {
     double min_normal = probe->precision == HD_PRECISION_DOUBLE ? 0x1p-1022 : 0x1p-126;
     return a != 0.0 && fabs(a) < min_normal;
 }
 
-/* ---- what differs ---- */
+/* ---- differences ---- */
 
 static double rounded_twice(const Probe *probe, double a, double b, double c) {
     float product = (float)a * (float)b;
@@ -79,7 +79,7 @@ static double rounded_once(const Probe *probe, double a, double b, double c) {
                                                    : (double)fmaf((float)a, (float)b, (float)c);
 }
 
-/* What a difference looks like, in brackets; "" where it looks like nothing that is known. */
+/* Returns the likely cause of a difference, in brackets; "" if unknown. */
 static const char *guess_cause(const Probe *probe, int primitive, double a, double b, double c,
                                double found, double expected) {
     double first = primitive == HD_PROBE_NUMBER_unfused_from ? -a : a;
@@ -97,7 +97,7 @@ static const char *guess_cause(const Probe *probe, int primitive, double a, doub
     return is_rounded ? " (it is not correctly rounded)" : "";
 }
 
-/* Whether nothing differs so far: then the difference is to be told. */
+/* Returns whether nothing differs so far, so that this difference is the reported one. */
 static bool is_first(const Probe *probe) {
     return probe->report->found.difference[0] == '\0';
 }
@@ -152,7 +152,7 @@ static void compare_batch(Probe *probe) {
             compare_integer(probe, primitive, (size_t)i);
 }
 
-/* Devices whose threads do not work in groups add nothing. */
+/* Devices without thread groups add nothing. */
 static void compare_sums(Probe *probe) {
     const HdProbeResults *found = &probe->found, *expected = &probe->expected;
     for (int i = 0; i < HD_PROBE_SUMS; i++)
@@ -168,7 +168,7 @@ static void compare_sums(Probe *probe) {
         }
 }
 
-/* ---- probing ---- */
+/* ---- the probe ---- */
 
 static HdStatus run(HdRenderer *renderer, Probe *probe, int tuples, HdError *error) {
     bool is_double = probe->precision == HD_PRECISION_DOUBLE;
@@ -202,7 +202,7 @@ static HdStatus probe_once(HdRenderer *renderer, int tuples, HdProbeReport *repo
     return status;
 }
 
-/* What is still wrong then is told as it was without. */
+/* If an error remains, the report keeps the difference found without fma. */
 static void try_by_fma(HdRenderer *renderer, int tuples, HdProbeReport *report) {
     HdKernelShape *shape = &hd_renderer_kernels(renderer)->shape;
     HdProbeReport healed = {0};

@@ -16,20 +16,20 @@
 #include "verify/trust.h"
 
 enum { WIDTH = 24, HEIGHT = 16, MAX_SOLIDS = 5, MAX_LIGHTS = 3 };
-/* Of planes that kernels have room for; a floor takes five, cubes the fewest of all solids. */
+/* Planes that the kernels are built for; a floor takes five, cubes the fewest of all solids. */
 enum { PLANES = 32, FLOOR_PLANES = 5, MIN_PLANES = 3 };
 
 #define SHALLOW    .plane_count = PLANES, .depth = 8
 #define DEEP       .plane_count = PLANES, .depth = 16
 #define HAS_MESHES .node_stack = 32
 #define ALL        .refracts = true, .lit_from_behind = true, .many_lights = true
-/* What is small enough for constant memory is there (HdSceneTables.small_tables). */
+/* Tables that are small enough are in constant memory (HdSceneTables.small_tables). */
 #define SMALL .small_tables = true
 
-/* Scenes of one kind are rendered by the same kernels. */
+/* Kind of scenes that the same kernels render. */
 typedef struct Kind {
     const char *name;
-    HdSceneTables needs; /* what the kernels are built for (hd_scene_tables_raise) */
+    HdSceneTables needs; /* needs that the kernels are built for (hd_scene_tables_raise) */
     bool has_meshes, has_few_lights, has_many_lights, is_bounded;
 } Kind;
 
@@ -62,12 +62,12 @@ static const Kind kinds[] = {
 
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
-/* They take turns. */
+/* The kinds alternate. */
 static int kind_of(uint64_t seed) {
     return (int)(seed % KINDS);
 }
 
-/* ---- lots ---- */
+/* ---- random numbers ---- */
 
 typedef struct Lots {
     uint64_t state;
@@ -95,7 +95,7 @@ static bool chance(Lots *lots, double share) {
     return from_to(lots, 0.0, 1.0) < share;
 }
 
-/* Arguments are not evaluated in any fixed order, lots are drawn in one. */
+/* C does not fix the order in which arguments are evaluated, the drawing order must be fixed. */
 static HdVec3 vector(Lots *lots, double least, double most) {
     HdVec3 v;
     v.x = from_to(lots, least, most);
@@ -106,7 +106,7 @@ static HdVec3 vector(Lots *lots, double least, double most) {
 
 /* ---- materials ---- */
 
-/* Reflection and transmission, which make 1 at most. */
+/* Draws reflection and transmission, with a sum of at most 1. */
 static void draw_shares(Lots *lots, double *reflection, double *transmission) {
     *reflection = chance(lots, 0.3) ? 0.0 : from_to(lots, 0.0, 0.9);
     *transmission = chance(lots, 0.15) ? 0.0 : from_to(lots, 0.0, 1.0 - *reflection);
@@ -133,7 +133,7 @@ static HdMaterial draw_material(Lots *lots, bool is_opaque) {
     return material;
 }
 
-/* ---- what there is to see ---- */
+/* ---- scenes ---- */
 
 static HdFalloff draw_falloff(Lots *lots) {
     HdFalloff falloff = {0};
@@ -161,7 +161,7 @@ static void draw_edge_lights(Lots *lots, HdSolid *solid) {
     }
 }
 
-/* Solids that refract may touch nothing: then each has a sector of its own. */
+/* Solids that refract must not touch others: each gets its own sector. */
 static void draw_place(Lots *lots, HdSolid *solid, int number) {
     static const HdVec3 apart[MAX_SOLIDS] = {
         {2.2, 0.0, 0.0}, {-2.2, 0.3, 0.2}, {0.0, 2.3, 0.4}, {0.2, -2.3, -0.2}, {0.0, 0.0, 2.4}};
@@ -283,7 +283,7 @@ static bool draw_scene(Lots *lots, HdScene *scene, HdCamera *camera) {
     return true;
 }
 
-/* The same on every machine. Most are valid; for those that are not, lots are drawn anew. */
+/* Builds the same scene on every machine. Most are valid; an invalid one is drawn again. */
 static HdStatus build_random(uint64_t seed, HdScene *scene, HdCamera *camera, HdError *error) {
     HdError ignored;
     Lots lots = {.state = seed, .kind = &kinds[kind_of(seed)]};
@@ -305,7 +305,7 @@ enum { ANY = -1, MAX_WORKERS = 16 };
 
 typedef struct Worker {
     HdRenderer *renderers[SIDES];
-    int kind; /* whose kernels the device's renderer has; ANY: none yet */
+    int kind; /* kind that the device's kernels are built for; ANY: none yet */
 } Worker;
 
 typedef struct Run {
@@ -313,14 +313,14 @@ typedef struct Run {
     HdDevice plain;
     Worker workers[MAX_WORKERS];
     int worker_count;
-    pthread_mutex_t mutex; /* of what follows, and so that kernels are compiled once */
+    pthread_mutex_t mutex; /* guards the members below, and serialises compilation */
     HdRandomResult *result;
-    HdStatus status; /* the first failure's */
+    HdStatus status; /* of the first failure */
     HdError *error;
-    atomic_bool has_failed; /* then nothing more is begun */
+    atomic_bool has_failed; /* workers begin no further scene */
 } Run;
 
-/* Pixels of a surveyed scene have other sizes: kernels for them are for no other scene. */
+/* Pixels with an error bound have other sizes: such kernels render no other scenes. */
 static const HdSceneTables *needs_of(const HdRandomTest *test, int kind) {
     static const HdSceneTables general = {.plane_count = 32,
                                           .depth = 32,
@@ -362,7 +362,7 @@ static HdStatus compare(Run *run, Worker *worker, uint64_t seed, bool *differs, 
     return status;
 }
 
-/* ---- all of them ---- */
+/* ---- the run ---- */
 
 static void note(Run *run, uint64_t seed, HdStatus status, bool differs, const HdError *error) {
     HdRandomResult *result = run->result;
@@ -381,7 +381,7 @@ static void note(Run *run, uint64_t seed, HdStatus status, bool differs, const H
     pthread_mutex_unlock(&run->mutex);
 }
 
-/* Scene by scene of a kind, since its kernels are at hand. */
+/* Orders the scenes by kind, since a kind's kernels are reused. */
 static void work(void *context, int thread, int number) {
     Run *run = context;
     const HdRandomTest *test = run->test;
@@ -438,7 +438,7 @@ static HdStatus run_workers(Run *run, HdError *error) {
     return status;
 }
 
-/* ---- what differs ---- */
+/* ---- differences ---- */
 
 static HdStatus build(const void *what, HdScene *scene, HdCamera *camera, HdError *error) {
     const HdRandomResult *result = what;
@@ -469,7 +469,7 @@ HdStatus hd_random_test(const HdRandomTest *test, HdRandomResult *result, HdErro
     pthread_mutex_destroy(&run.mutex);
     if (status == HD_INTERRUPTED || result->different == 0)
         return status;
-    HdError later; /* the first failure is told */
+    HdError later; /* only the first failure is reported */
     HdStatus told = report_difference(test, result, &later);
     return status == HD_OK ? told : status;
 }

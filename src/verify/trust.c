@@ -13,7 +13,7 @@
 
 /* ---- proof ---- */
 
-/* The tables of a scene as if it needed what `like` does, so that the same kernels render it. */
+/* Compiles the scene's tables with the needs of `like` too, so that the same kernels render it. */
 static HdStatus compile_like(HdSceneTables *tables, const HdScene *scene, HdRenderer *renderer,
                              const HdSceneTables *like, HdError *error) {
     HdStatus status = hd_compile_scene(tables, scene, hd_renderer_options(renderer)->precision,
@@ -23,7 +23,7 @@ static HdStatus compile_like(HdSceneTables *tables, const HdScene *scene, HdRend
     return status;
 }
 
-/* Kernels for surveys render grids as well. */
+/* Kernels for error bounds render grids as well. */
 static HdStatus render_hash(HdRenderer *renderer, const HdSceneTables *tables, const HdScene *scene,
                             const HdCamera *camera, uint64_t *hash, HdError *error) {
     HdFrameTables view;
@@ -35,7 +35,7 @@ static HdStatus render_hash(HdRenderer *renderer, const HdSceneTables *tables, c
         status = hd_renderer_upload(renderer, tables, error);
         if (status == HD_OK)
             status = hd_renderer_render(renderer, &view, &image, error);
-        /* Without what else surveyed pixels come with. */
+        /* Skips the additional values of pixels with an error bound. */
         size_t pixels = (size_t)image.width * (size_t)image.height;
         for (size_t i = 0; i < pixels; i++)
             memmove(image.rgb + 3 * i, image.rgb + (size_t)image.floats * i, 3 * sizeof *image.rgb);
@@ -49,9 +49,9 @@ static HdStatus render_hash(HdRenderer *renderer, const HdSceneTables *tables, c
 
 typedef struct Proof {
     HdRenderer *renderer;
-    const HdSceneTables *like; /* what the kernels were compiled for */
-    int frames;                /* that they rendered rightly */
-    bool is_wrong;             /* they rendered one wrongly */
+    const HdSceneTables *like; /* needs that the kernels were compiled for */
+    int frames;                /* frames rendered correctly */
+    bool is_wrong;             /* a frame was rendered wrongly */
 } Proof;
 
 static HdStatus judge(Proof *proof, const HdGoldenFrame *frame, uint64_t hash, HdError *error) {
@@ -77,7 +77,7 @@ static HdStatus prove_by(Proof *proof, const HdGoldenFrame *frame, HdError *erro
     HD_TRY(hd_golden_build(frame, &scene, &camera, error));
     HdStatus status = compile_like(&tables, &scene, proof->renderer, proof->like, error);
     if (status == HD_OK) {
-        tables.many_lights = proof->like->many_lights; /* kernels without look at each light */
+        tables.many_lights = proof->like->many_lights; /* kernels without it test each light */
         const HdKernelNeeds needs = hd_kernel_needs(&tables), there = hd_kernel_needs(proof->like);
         if (hd_kernel_needs_equal(&needs, &there)) {
             status = render_hash(proof->renderer, &tables, &scene, &camera, &hash, error);
@@ -90,7 +90,7 @@ static HdStatus prove_by(Proof *proof, const HdGoldenFrame *frame, HdError *erro
     return status;
 }
 
-/* The renderer's scene is then another one. */
+/* Replaces the renderer's scene. */
 static HdStatus prove(Proof *proof, HdError *error) {
     HdKernelCache *kernels = hd_renderer_kernels(proof->renderer);
     HdStatus status = HD_OK;
@@ -104,7 +104,7 @@ static HdStatus prove(Proof *proof, HdError *error) {
     return status;
 }
 
-/* ---- putting ---- */
+/* ---- uploads ---- */
 
 void hd_put_on_trial(HdRenderer *renderer) {
     HdKernelCache *kernels = hd_renderer_kernels(renderer);
@@ -132,8 +132,8 @@ static HdStatus put_and_prove(HdRenderer *renderer, const HdSceneTables *tables,
     return status;
 }
 
-/* After kernels of the megakernel computed wrongly, which `error` tells: it stays so where those of
-   the wavefront, with fewer branches within each other, do so too, or there are none. */
+/* Falls back to the wavefront, with fewer nested branches, after the megakernel computed wrongly as
+   `error` says. `error` remains if that is wrong too or unavailable. */
 static HdStatus try_wavefront(HdRenderer *renderer, const HdSceneTables *tables, HdError *error) {
     HdError later;
     bool is_wrong = false;
