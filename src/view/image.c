@@ -9,7 +9,7 @@ void hd_view_image_free(HdViewImage *image) {
     *image = (HdViewImage){.width = 0};
 }
 
-/* A part of another picture, whose rows begin `stride` pixels apart, gets the nearest pixels. */
+/* Copies the nearest pixels into a part of a picture, whose rows are `stride` pixels apart. */
 static void copy_fitted(const HdViewImage *source, uint8_t *target, int width, int height,
                         int stride) {
     for (int y = 0; y < height; y++, target += 4 * (size_t)stride) {

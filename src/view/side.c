@@ -17,15 +17,15 @@
 #include "system/thread_pool.h"
 #include "verify/trust.h"
 
-/* Seconds of a part, after which an earlier wish is given up. */
+/* Seconds of a part, after which an outdated request is dropped. */
 #define PART_SECONDS 0.025
 
 /* Rows of parts are multiples of this, as the items of plain C are. */
 enum { PART_ROWS = 8 };
 
-/* ---- what others see ---- */
+/* ---- published state ---- */
 
-/* What is under way is for an earlier wish. */
+/* Returns whether the current work serves an outdated request. */
 static bool is_stale(HdViewSide *side) {
     return atomic_load(&side->watch.is_unwanted);
 }
@@ -36,7 +36,7 @@ static void tell(HdViewSide *side, const char *device) {
     pthread_mutex_unlock(&side->mutex);
 }
 
-/* Rows of radiance become rows of the picture, which keeps its others. */
+/* Converts rows of radiance into rows of the picture, which keeps its others. */
 static HdStatus show_rows(HdViewSide *side, const HdFrame *frame, int top, int height,
                           const HdViewImage *facts, HdError *error) {
     pthread_mutex_lock(&side->mutex);
@@ -57,7 +57,7 @@ static HdStatus show_rows(HdViewSide *side, const HdFrame *frame, int top, int h
 /* ---- device and scene ---- */
 
 static HdStatus open_device(HdViewSide *side, HdError *error) {
-    HdScene plain = side->file.scene; /* what it owns stays with the other */
+    HdScene plain = side->file.scene; /* `file` keeps ownership */
     HdRenderOptions render = side->devices.render;
     const HdJob job = {.scene = &plain, .frame_count = plain.frame_count};
     const HdDeviceSelection device = {
@@ -120,9 +120,9 @@ static HdStatus render_scene(HdViewSide *side, const HdScene *scene, const HdVie
     return hd_frame_render(&maker, &request->camera, frame, error);
 }
 
-/* The scene as quick pictures have it. */
+/* Returns the scene as reduced for quick pictures. */
 static HdScene quick_scene(const HdViewSide *side, const HdDetail *detail) {
-    HdScene scene = side->file.scene; /* what it owns stays there */
+    HdScene scene = side->file.scene; /* `file` keeps ownership */
     hd_scene_drop_error_bound(&scene);
     scene.width = detail->width;
     scene.height = detail->height;
@@ -133,8 +133,8 @@ static HdScene quick_scene(const HdViewSide *side, const HdDetail *detail) {
 
 static HdStatus render_moving(HdViewSide *side, const HdViewRequest *request, HdError *error) {
     const HdScene scene = quick_scene(side, &request->detail);
-    HdScene uploaded = side->file.scene;  /* what it owns stays there */
-    hd_scene_drop_error_bound(&uploaded); /* its depth is that of all quick pictures, at most */
+    HdScene uploaded = side->file.scene;  /* `file` keeps ownership */
+    hd_scene_drop_error_bound(&uploaded); /* its depth is the maximum of all quick pictures */
     HD_TRY(make_ready(side, &uploaded, error));
     const double start = hd_monotonic_seconds();
     HD_TRY(render_scene(side, &scene, request, &side->part, error));
@@ -155,7 +155,7 @@ static int next_rows(int rows, double seconds) {
     return most > PART_ROWS ? most - most % PART_ROWS : PART_ROWS;
 }
 
-/* All rows of a scene that is not surveyed, from the top, each as the whole picture has it. */
+/* Renders all rows of a scene without an error bound, from the top, as in the whole picture. */
 static HdStatus render_rows(HdViewSide *side, const HdScene *whole, const HdViewRequest *request,
                             HdViewImage *facts, HdError *error) {
     HdScene scene = *whole;
@@ -179,7 +179,7 @@ static HdStatus render_rows(HdViewSide *side, const HdScene *whole, const HdView
     return HD_OK;
 }
 
-/* Adaptive samples hang on their neighbours: such a picture is made in one piece, or given up. */
+/* Adaptive samples depend on their neighbours: such a picture is made in one piece, or dropped. */
 static HdStatus render_bounded(HdViewSide *side, const HdViewRequest *request, HdViewImage *facts,
                                HdError *error) {
     const HdScene *scene = &side->file.scene;
@@ -198,7 +198,7 @@ static HdStatus render_bounded(HdViewSide *side, const HdViewRequest *request, H
     return HD_OK;
 }
 
-/* The whole picture is there: it is encoded once more, as a file is. */
+/* Encodes the whole picture again, as for a file. */
 static HdStatus finish(HdViewSide *side, HdViewImage *facts, HdError *error) {
     facts->is_settled = true;
     HdStatus status = show_rows(side, &side->frame, 0, facts->height, facts, error);
@@ -238,7 +238,7 @@ static void fulfil(HdViewSide *side, const HdViewRequest *request) {
     side->is_done = side->is_done || !is_stale(side);
     side->is_busy = false;
     if (status == HD_INTERRUPTED && is_stale(side))
-        status = HD_OK; /* it was given up */
+        status = HD_OK; /* the request was dropped */
     snprintf(side->problem, sizeof side->problem, "%.4000s", status == HD_OK ? "" : error.message);
     pthread_cond_broadcast(&side->changed);
     pthread_mutex_unlock(&side->mutex);
@@ -276,7 +276,7 @@ void hd_view_side_show(HdViewSide *side, const HdViewRequest *request) {
     pthread_mutex_unlock(&side->mutex);
 }
 
-/* Drops the wish, and waits until the thread reads nothing of plan and file any more. */
+/* Drops the request, and waits until the thread no longer reads plan and file. */
 static void rest(HdViewSide *side) {
     pthread_mutex_lock(&side->mutex);
     side->has_request = false;
@@ -351,8 +351,8 @@ static uint64_t add_file(uint64_t hash, const char *path) {
     return hd_hash_bytes(hash, told, sizeof told);
 }
 
-/* A number that changes when one of the files is written or replaced: that of the scene (NULL:
-   none), its texture and its meshes. */
+/* Returns a hash that changes when one of the files is written or replaced: the scene (NULL: none),
+   its texture and its meshes. */
 static uint64_t hash_files(const char *path, const HdSceneFile *file) {
     uint64_t hash = add_file(HD_HASH_START, path);
     if (file->texture_path[0] != '\0')
@@ -369,7 +369,7 @@ static HdStatus read_file(HdViewSide *side, HdSceneFile *file, HdError *error) {
     return status;
 }
 
-/* The pipeline that is opened may hang on how deep the trees are. */
+/* The pipeline may depend on the depth of the trees. */
 static void take_file(HdViewSide *side, const HdSceneFile *file) {
     const bool was_deep = hd_scene_has_deep_trees(&side->file.scene);
     hd_scene_file_free(&side->file);
@@ -457,7 +457,7 @@ static void change_scene(HdViewSide *side, HdViewSetting setting, int by) {
 
 void hd_view_side_change(HdViewSide *side, HdViewSetting setting, int by) {
     HdPrecision *precision = &side->devices.render.precision;
-    rest(side); /* it reads the plan */
+    rest(side); /* the thread reads the plan */
     if (setting == HD_VIEW_BACKEND)
         next_backend(side);
     else if (setting == HD_VIEW_DEVICE)

@@ -13,13 +13,13 @@
 #include "base/trigonometry.h"
 #include "view/side.h"
 
-/* After the last touch the view counts as moving for so long, before it is made whole. */
+/* Seconds without input after which the whole picture is rendered. */
 #define STILL_SECONDS 0.25
 
-/* Between two looks at the files. */
+/* Interval between two checks of the files in seconds. */
 #define WATCH_SECONDS 0.2
 
-/* What one press of a key does. */
+/* Steps of one key press. */
 #define ORBIT_STEP (HD_PI / 60.0)
 #define PAN_STEP   0.03
 #define DOLLY_STEP 1.06
@@ -30,29 +30,29 @@ enum { SAVES = 1, HIDES_FIGURES = 2, SHOWS_HELP = 4, HAS_ENDED = 8 };
 enum { FIRST_GAIN = 16, MAX_GAIN = 128 };
 
 struct HdViewer {
-    FILE *out; /* the host's */
+    FILE *out; /* owned by the caller */
     HdViewSide sides[2];
     int side_count, active;
     HdPose pose;
-    bool is_free; /* the view is `pose`, not the flight's */
+    bool is_free; /* the view is `pose`, not on the camera path */
     int frame;
     bool is_playing;
-    double played_from;  /* when frame 0 would have been */
-    int change;          /* number of what is to be seen */
-    int asked, settling; /* the changes for which moving and whole pictures were wished */
-    double now;          /* of the key, drag or tick that is dealt with */
-    double moved;        /* when it changed last */
+    double played_from;  /* time of frame 0 */
+    int change;          /* number of the current view */
+    int asked, settling; /* changes for which moving and whole pictures were requested */
+    double now;          /* time of the current key, drag or tick */
+    double moved;        /* time of the last change */
     double watched;
     HdPace pace;
-    int max_width;          /* of moving pictures; 0: the scene's */
-    double last_picture;    /* when a moving one came */
-    double picture_seconds; /* between two, smoothed; 0: not known */
+    int max_width;          /* limit of moving pictures; 0: the scene's */
+    double last_picture;    /* time of the last moving picture */
+    double picture_seconds; /* interval between two, smoothed; 0: unknown */
     HdViewImage composed;
     HdSplitFigures figures;
-    int version; /* of what is shown */
+    int version; /* number of the shown picture */
     int gain;
     unsigned flags;
-    char note[512]; /* what the last key came to */
+    char note[512]; /* result of the last key */
 };
 
 static void change_view(HdViewer *viewer) {
@@ -64,7 +64,7 @@ static const HdSceneFile *file_of(const HdViewer *viewer) {
     return &viewer->sides[0].file;
 }
 
-/* ---- where the eye is ---- */
+/* ---- the eye ---- */
 
 static void leave_path(HdViewer *viewer) {
     if (!viewer->is_free)
@@ -96,13 +96,13 @@ static void fly_on(HdViewer *viewer) {
 }
 
 static HdStatus find_camera(const HdViewer *viewer, HdCamera *camera, HdError *error) {
-    HdScene scene = file_of(viewer)->scene; /* what it owns stays there */
+    HdScene scene = file_of(viewer)->scene; /* the side keeps ownership */
     if (viewer->is_free)
         hd_pose_apply(&viewer->pose, &scene);
     return hd_camera_at(camera, &scene, viewer->is_free ? 0 : viewer->frame, error);
 }
 
-/* ---- what is wished of the workers ---- */
+/* ---- requests to the workers ---- */
 
 static bool all_idle(HdViewer *viewer) {
     bool idle = true;
@@ -145,7 +145,7 @@ int hd_viewer_wait_ms(HdViewer *viewer) {
     return !all_idle(viewer) ? 1 : is_moving(viewer) ? 4 : 100;
 }
 
-/* A moving picture that is under way is waited for, so that pictures come; a whole one is not. */
+/* A pending moving picture is awaited, so that pictures appear; a whole one is not. */
 static void ask_workers(HdViewer *viewer) {
     const bool idle = all_idle(viewer);
     if (viewer->asked != viewer->change && (idle || viewer->settling != 0))
@@ -154,7 +154,7 @@ static void ask_workers(HdViewer *viewer) {
         request_for(viewer, false);
 }
 
-/* ---- what they made ---- */
+/* ---- pictures of the workers ---- */
 
 static void note_moving_picture(HdViewer *viewer, const HdViewImage *image) {
     const double seconds = viewer->now - viewer->last_picture;
@@ -191,9 +191,9 @@ const HdViewImage *hd_viewer_picture(HdViewer *viewer, int *version) {
     return &viewer->composed;
 }
 
-/* ---- what is kept ---- */
+/* ---- saving ---- */
 
-/* The scene's name without its folder and ending, and the first number that is free. */
+/* Makes a name from the scene's, without its folder and ending, and the first free number. */
 static void free_name(const HdViewer *viewer, char path[160]) {
     char name[128];
     const char *scene = viewer->sides[0].scene_plan.path;
@@ -233,7 +233,7 @@ static void print_camera(HdViewer *viewer, int by) {
     snprintf(viewer->note, sizeof viewer->note, "the camera goes to standard output");
 }
 
-/* ---- what keys do ---- */
+/* ---- keys ---- */
 
 static void play(HdViewer *viewer, int by) {
     (void)by;
@@ -245,7 +245,7 @@ static void play(HdViewer *viewer, int by) {
     change_view(viewer);
 }
 
-/* 0: back from a view of one's own, where the flight goes on if it is one that plays. */
+/* 0: returns from a free view, and continues a camera path that plays. */
 static void step(HdViewer *viewer, int by) {
     viewer->is_playing = viewer->is_playing && by == 0;
     show_frame(viewer, viewer->frame + by);
@@ -283,8 +283,8 @@ static void change_gain(HdViewer *viewer, int by) {
     viewer->version++;
 }
 
-/* What a key does: something of the above, a step of the eye, a change of a setting of the active
-   side, or none but flags that it sets or turns. */
+/* Action of a key: a function of the above, a step of the eye, a setting of the active side, or
+   only flags that it sets or toggles. */
 static const struct Key {
     int key;
     void (*act)(HdViewer *viewer, int by);
@@ -331,7 +331,7 @@ static const struct Key {
     {.key = 3, .sets = HAS_ENDED}, /* Ctrl-C in a terminal that sends it as a character */
 };
 
-/* What keys do, for people; each line below 64 characters. */
+/* Help for the keys; each line below 64 characters. */
 static const char *const key_lines[] = {
     "space    play the flight, or stop it",
     ", .      a frame back, a frame on",
@@ -352,7 +352,7 @@ static const char *const key_lines[] = {
     "o h q    figures, this help, quit",
 };
 
-/* A flight that was read anew may be shorter. */
+/* A camera path that was read again may be shorter. */
 static void settings_changed(HdViewer *viewer) {
     viewer->frame %= file_of(viewer)->scene.frame_count;
     change_view(viewer);
@@ -385,14 +385,14 @@ void hd_viewer_drag(HdViewer *viewer, bool moves, double right, double down, dou
         move_eye(viewer, hd_pose_orbit, -HD_PI * right, HD_PI * down);
 }
 
-/* ---- what is told ---- */
+/* ---- lines of text ---- */
 
 typedef struct Lines {
     char (*text)[HD_VIEW_LINE];
     int count;
 } Lines;
 
-/* Cuts what is too long for a line where there is a space, and goes on below. */
+/* Breaks text that is too long for a line at a space. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
@@ -500,7 +500,7 @@ int hd_viewer_lines(HdViewer *viewer, char text[HD_VIEW_LINES][HD_VIEW_LINE]) {
     return lines.count;
 }
 
-/* ---- from open to close ---- */
+/* ---- open and close ---- */
 
 static void watch_files(HdViewer *viewer) {
     if (viewer->now - viewer->watched < WATCH_SECONDS)
