@@ -16,7 +16,7 @@
 
 enum { PICTURES = 2, FIGURE_WIDTH = 20 };
 
-/* A channel that is no colour and that both have. */
+/* Channel that is no colour and that both pictures have. */
 typedef struct Further {
     const char *name;
     int places[PICTURES];
@@ -30,9 +30,9 @@ typedef struct Comparison {
     HdPictureFacts facts[PICTURES];
     HdCurve curve;
     HdPictureValue *rows[PICTURES];
-    double *errors;             /* of a row; NULL without a heat map */
-    HdFrame map;                /* encoded; without `rgba` no heat map is asked for */
-    char map_path[HD_MAX_PATH]; /* of it */
+    double *errors;             /* errors of a row; NULL without a heat map */
+    HdFrame map;                /* encoded heat map; without `rgba` none is requested */
+    char map_path[HD_MAX_PATH]; /* its file */
     HdPictureDifference *difference;
     HdPictureFigures figures;
     Further further[HD_MAX_FURTHER];
@@ -41,9 +41,9 @@ typedef struct Comparison {
 
 static const char *const channel_names[] = {"red", "green", "blue"};
 
-/* ---- further channels ---- */
+/* ---- additional channels ---- */
 
-/* Negative: the picture has none of that name. */
+/* Returns the channel's place in the picture; negative: it lacks that name. */
 static int place_of_channel(const HdPictureFacts *facts, const char *name) {
     for (int i = 0; i < facts->further; i++)
         if (strcmp(facts->names[i], name) == 0)
@@ -73,7 +73,7 @@ static void compare_further(Comparison *comparison, int y) {
     }
 }
 
-/* The one with the largest difference; NULL: there is none. */
+/* Returns the channel with the largest difference, or NULL. */
 static const Further *max_different(const Comparison *comparison) {
     const Further *most = NULL;
     double largest = 0.0;
@@ -234,9 +234,9 @@ static HdStatus print_json(const Comparison *comparison, HdError *error) {
     return hd_json_print(root, "the figures", error);
 }
 
-/* ---- what is compared ---- */
+/* ---- comparison ---- */
 
-/* PFM is on no curve, and shown on the one that most pictures are on. */
+/* PFM has no curve, and is shown with the most common one. */
 static HdStatus choose_curve(Comparison *comparison, HdError *error) {
     const HdPictureFacts *facts = comparison->facts;
     const bool is_png[] = {facts[0].format == &hd_format_png, facts[1].format == &hd_format_png};
@@ -326,7 +326,7 @@ static HdStatus compare_rows(Comparison *comparison, HdError *error) {
 
 /* ---- the command ---- */
 
-/* What makes the exit code 1. */
+/* Decides whether the exit code is 1. */
 static HdStatus judge(const Comparison *comparison, HdError *error) {
     const HdPictureFigures *figures = &comparison->figures;
     const double limit = comparison->options->fail_above;

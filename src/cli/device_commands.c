@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The commands about devices: devices, selftest, tune. */
+/* Runs the commands about devices: devices, selftest, tune. */
 #define _POSIX_C_SOURCE 200809L
 #include <inttypes.h>
 #include <stdbool.h>
@@ -20,7 +20,7 @@
 
 /* ---- devices ---- */
 
-/* What a driver says may command a terminal. */
+/* A driver's text may contain control sequences of a terminal. */
 static void print_escaped(const char *before, const char *text) {
     char escaped[6 * sizeof((HdDevice *)NULL)->unusable];
     hd_escape(text, escaped, sizeof escaped);
@@ -153,7 +153,7 @@ static json_t *describe_certificate(const HdSelfTestReport *report) {
 
 typedef struct Tally {
     int tested, wrong;
-    json_t *list; /* of certificates */
+    json_t *list; /* reports */
 } Tally;
 
 static HdStatus certify(const HdOptions *options, const HdDevice *device, Tally *tally,
@@ -202,12 +202,12 @@ HdStatus hd_command_selftest(const HdOptions *options, HdError *error) {
 
 typedef struct Run {
     const HdOptions *options;
-    HdRenderOptions render; /* as for the scene */
-    const HdScene *scene;   /* of about the same work, not surveyed */
-    HdDeviceTeam team;      /* closed before anything is measured */
-    const HdDevice *device; /* the only one of the team */
+    HdRenderOptions render; /* options of the scene */
+    const HdScene *scene;   /* with as much work, without an error bound */
+    HdDeviceTeam team;      /* closed before the measurement */
+    const HdDevice *device; /* its only device */
     HdTuning tuning;
-    const char *unsupported_reason; /* why nothing is remembered; NULL: the best is */
+    const char *unsupported_reason; /* why the best options cannot be remembered; NULL: they can */
 } Run;
 
 static double ratio(const HdTuning *tuning, int index) {
@@ -273,7 +273,7 @@ static HdStatus print_json(const Run *run, HdError *error) {
     return hd_json_print(root, "the candidates", error);
 }
 
-/* On the device that 'hedron render' would take. */
+/* Measures on the device that 'hedron render' would choose. */
 static HdStatus measure(Run *run, const HdJob *job, HdError *error) {
     const HdDeviceSelection selection = {
         .backend = run->options->devices.backend,
@@ -297,7 +297,7 @@ static HdStatus measure(Run *run, const HdJob *job, HdError *error) {
     return status;
 }
 
-/* Without a folder nothing is remembered; a folder that fails is an error. */
+/* Without a cache folder remembers nothing; a folder that fails is an error. */
 static HdStatus tune(Run *run, const HdJob *job, HdError *error) {
     HD_TRY(measure(run, job, error));
     HdStatus status =

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The commands about files of scenes: check, convert, new. */
+/* Runs the commands about scene files: check, convert, new. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
 #include <inttypes.h>
@@ -18,7 +18,7 @@
 
 /* ---- check ---- */
 
-/* The lines of a text, each without what it is indented by. */
+/* Lists the lines of a text without their indentation. */
 static json_t *list_lines(const char *text) {
     char line[sizeof((HdError *)NULL)->message];
     json_t *list = json_array();
@@ -33,7 +33,7 @@ static json_t *list_lines(const char *text) {
     return list;
 }
 
-/* A message is "NAME: what is wrong", or "NAME: 3 problems" and a line for each. */
+/* Parses a message of the form "NAME: what is wrong", or "NAME: 3 problems" and a line for each. */
 static json_t *list_problems(const char *message, const char *name) {
     const char *several = strchr(message, '\n');
     if (several != NULL)
@@ -43,7 +43,7 @@ static json_t *list_problems(const char *message, const char *name) {
     return list_lines(message);
 }
 
-/* NULL where there is no memory. */
+/* Returns NULL if out of memory. */
 static json_t *describe_scene(const char *name, HdStatus status, const HdProblems *notes,
                               const HdScene *scene, const HdError *error) {
     json_t *problems = status == HD_OK ? json_array() : list_problems(error->message, name);
@@ -72,7 +72,7 @@ static void print_fine(const char *name, const HdScene *scene, const HdProblems 
     hd_problems_print(notes, stdout, name, ": note: ");
 }
 
-/* Prints what it finds, or appends it to the list where there is one. */
+/* Prints the result, or appends it to the list, if given. */
 static HdStatus check_scene(const char *operand, json_t **list, HdError *error) {
     HdProblems notes = {.count = 0};
     const HdSceneSource source = {
@@ -89,7 +89,7 @@ static HdStatus check_scene(const char *operand, json_t **list, HdError *error) 
     return status;
 }
 
-/* Of several scenes each has its message; the last one, which the program prints, counts them. */
+/* Each scene has its own message; the last one, which the program prints, counts them. */
 static HdStatus check_scenes(const HdOptions *options, json_t **list, HdError *error) {
     HdStatus worst = HD_OK;
     int wrong = 0;
@@ -129,8 +129,8 @@ HdStatus hd_command_check(const HdOptions *options, HdError *error) {
 
 /* ---- convert ---- */
 
-/* A scene's texture counts from the scene's folder, that of a classic input from the current one.
-   Where the two differ, the name gets the current folder in front. */
+/* A scene's texture is relative to the scene's folder, that of a classic input to the current one.
+   If the two differ, the name gets the current folder as a prefix. */
 static HdStatus keep_texture(HdSceneFile *file, const char *output, HdError *error) {
     char folder[HD_MAX_PATH], name[HD_MAX_PATH];
     memcpy(name, file->texture_path, sizeof name);
@@ -144,7 +144,7 @@ static HdStatus keep_texture(HdSceneFile *file, const char *output, HdError *err
     return HD_OK;
 }
 
-/* The classic mode writes any other name in the data format; a scene says it by the ending. */
+/* The classic mode writes any other name in the data format; a scene selects it by the ending. */
 static HdStatus keep_output(HdSceneFile *file, HdError *error) {
     static const char ending[] = ".data";
     char *path = file->output.path;
@@ -187,7 +187,7 @@ HdStatus hd_command_convert(const HdOptions *options, HdError *error) {
 
 /* ---- new ---- */
 
-/* Where the file can be written at all, it is new and whole, or it is taken away again. */
+/* Leaves a new and whole file, or removes it on failure. */
 static HdStatus write_new(const char *path, HdError *error) {
     size_t size;
     const char *text = hd_starter_scene_text(&size);
