@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The program 'hedron-view', which 'hedron view' starts with its own arguments: the view in a
-   window or a terminal. It is a program of its own, so that nothing else needs SDL and chafa. */
+/* Runs the program 'hedron-view', the view in a window or a terminal, which 'hedron view' starts
+   with its own arguments. A separate program, so that nothing else needs SDL and chafa. */
 #include <string.h>
 
 #include "cli/options.h"
