@@ -17,7 +17,7 @@ struct HdRenderer {
     bool has_failed;
     double longest_launch; /* seconds; negative: unknown */
     int in_flight;
-    const HdFrameTables *flights[HD_FRAMES_IN_FLIGHT]; /* the oldest first */
+    const HdFrameTables *frames[HD_FRAMES_IN_FLIGHT]; /* the oldest first */
 };
 
 HdStatus hd_renderer_fail(HdRenderer *renderer, HdStatus status, HdError *error) {
@@ -136,7 +136,7 @@ HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
     HD_TRY(check_use(renderer, "frame", tables->precision, HD_FRAMES_IN_FLIGHT - 1, error));
     HdStatus status = renderer->backend->functions->submit(renderer->state, tables, request, error);
     if (status == HD_OK)
-        renderer->flights[renderer->in_flight++] = tables;
+        renderer->frames[renderer->in_flight++] = tables;
     return hd_renderer_fail(renderer, status, error);
 }
 
@@ -147,7 +147,7 @@ double hd_renderer_take_longest_launch(HdRenderer *renderer) {
 }
 
 HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *error) {
-    const HdFrameTables *tables = renderer->flights[0];
+    const HdFrameTables *tables = renderer->frames[0];
     if (renderer->in_flight == 0)
         return hd_fail(error, HD_BAD_INPUT, "a frame was collected and none was in flight");
     if (frame->floats != tables->floats || frame->width != tables->width ||
@@ -160,7 +160,7 @@ HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *erro
         renderer->longest_launch = frame->longest_launch;
     renderer->in_flight--;
     for (int i = 0; i < renderer->in_flight; i++)
-        renderer->flights[i] = renderer->flights[i + 1];
+        renderer->frames[i] = renderer->frames[i + 1];
     return hd_renderer_fail(renderer, status, error);
 }
 

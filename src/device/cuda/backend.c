@@ -220,7 +220,7 @@ static HdStatus allocate(void *state, HdGpuMemory *memory, HdGpuPlace place, siz
     *refusal = (HdGpuRefusal){.lacks_memory = true,
                               .function = function,
                               .reason = hd_cuda_error_name(driver, code),
-                              .tells_free = true,
+                              .knows_free = true,
                               .free = (double)available};
     return HD_FAILED;
 }

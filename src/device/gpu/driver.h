@@ -29,7 +29,7 @@ typedef struct HdGpuEvent {
 typedef struct HdGpuRefusal {
     bool lacks_memory;
     const char *function, *reason; /* "cuMemAlloc", and the name of its error */
-    bool tells_free;
+    bool knows_free;
     double free; /* bytes */
 } HdGpuRefusal;
 

@@ -11,7 +11,7 @@ _Static_assert(sizeof(HdRayCounts) == sizeof(RayCounts), "the counts are copied 
 
 static const size_t SUM_BYTES = sizeof(HdRayCounts) * HD_SUM_WORKERS;
 
-static void close_flight(HdGpuFrameInFlight *in_flight, const HdGpu *gpu) {
+static void close_frame(HdGpuFrameInFlight *in_flight, const HdGpu *gpu) {
     enum { EVENTS = 5 };
     HdGpuEvent *const events[EVENTS] = {&in_flight->first, &in_flight->later, &in_flight->summed,
                                         &in_flight->encoded, &in_flight->copied};
@@ -26,7 +26,7 @@ static void close_flight(HdGpuFrameInFlight *in_flight, const HdGpu *gpu) {
 
 void hd_gpu_frames_in_flight_close(HdGpuRenderer *renderer) {
     for (int i = 0; i < HD_FRAMES_IN_FLIGHT; i++)
-        close_flight(&renderer->frames_in_flight.frames_in_flight[i], &renderer->gpu);
+        close_frame(&renderer->frames_in_flight.list[i], &renderer->gpu);
 }
 
 static size_t pixel_count(const HdGpuFrameInFlight *in_flight) {
@@ -68,8 +68,8 @@ HdStatus hd_gpu_frame_begin(HdGpuRenderer *renderer, const HdFrameTables *tables
                             bool encodes, HdGpuFrameInFlight **out, HdError *error) {
     HdGpuFramesInFlight *frames_in_flight = &renderer->frames_in_flight;
     HdGpuFrameInFlight *in_flight =
-        &frames_in_flight->frames_in_flight[(frames_in_flight->oldest + frames_in_flight->count) %
-                                            HD_FRAMES_IN_FLIGHT];
+        &frames_in_flight
+             ->list[(frames_in_flight->oldest + frames_in_flight->count) % HD_FRAMES_IN_FLIGHT];
     in_flight->encodes = encodes;
     in_flight->of = tables;
     in_flight->items = items;
@@ -169,7 +169,7 @@ static HdStatus fill(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight, HdF
 HdStatus hd_gpu_frame_collect(HdGpuRenderer *renderer, HdFrame *frame, HdError *error) {
     HdGpuFramesInFlight *frames_in_flight = &renderer->frames_in_flight;
     HdStatus status =
-        fill(renderer, &frames_in_flight->frames_in_flight[frames_in_flight->oldest], frame, error);
+        fill(renderer, &frames_in_flight->list[frames_in_flight->oldest], frame, error);
     frames_in_flight->collected = hd_monotonic_seconds();
     frames_in_flight->oldest = (frames_in_flight->oldest + 1) % HD_FRAMES_IN_FLIGHT;
     frames_in_flight->count--;

@@ -102,7 +102,7 @@ typedef struct HdGpuFrameInFlight {
 } HdGpuFrameInFlight;
 
 typedef struct HdGpuFramesInFlight {
-    HdGpuFrameInFlight frames_in_flight[HD_FRAMES_IN_FLIGHT];
+    HdGpuFrameInFlight list[HD_FRAMES_IN_FLIGHT];
     int oldest, count;
     double collected;  /* time of the last collection */
     HdLaunchSize size; /* for the launches of the tracing kernel */

@@ -52,7 +52,7 @@ static HdStatus queue_launch(const HdGpuRenderer *renderer, const HdGpuLaunch *l
     return renderer->gpu.driver->launch(renderer->gpu.handle, launch, event, error);
 }
 
-static HdStatus check_wanted(const HdFrameTables *tables, HdError *error) {
+static HdStatus check_cancelled(const HdFrameTables *tables, HdError *error) {
     return hd_interrupt_signal() != 0 || hd_watched_is_unwanted(&tables->watched)
                ? hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame")
                : HD_OK;
@@ -68,7 +68,7 @@ static HdStatus wait_between(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_fli
     HD_TRY(gpu->driver->wait_for_launch(gpu->handle, in_flight->untimed, error));
     HD_TRY(hd_gpu_frame_time_launch(renderer, in_flight, waited, error));
     hd_gpu_frame_report(in_flight, done);
-    return check_wanted(in_flight->of, error);
+    return check_cancelled(in_flight->of, error);
 }
 
 /* Returns how many threads of a group share the samples of a pixel: the greatest divisor of their
@@ -214,7 +214,7 @@ static HdStatus launch_waves(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_fli
     unsigned taken = 0;
     HD_TRY(hd_gpu_wave_queue_empty(&renderer->queue, &renderer->gpu, error));
     for (;;) {
-        HD_TRY(check_wanted(in_flight->of, error));
+        HD_TRY(check_cancelled(in_flight->of, error));
         HD_TRY(hd_wave_next(&run, taken, &renderer->frames_in_flight.size, error));
         if (step->action == HD_WAVE_IS_DONE)
             return HD_OK;
@@ -353,7 +353,7 @@ static HdStatus launch_first_hits(HdGpuRenderer *renderer, const HdFrameTables *
     for (int done = 0; done < items; done += own.item_count) {
         if (done > 0) {
             HD_TRY(gpu->driver->wait_for_launch(gpu->handle, &renderer->first_hits_found, error));
-            HD_TRY(check_wanted(tables, error));
+            HD_TRY(check_cancelled(tables, error));
         }
         own.first_item = done;
         own.item_count = hd_launch_size_items(&renderer->frames_in_flight.size, items - done, work,

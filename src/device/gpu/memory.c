@@ -13,7 +13,7 @@ HdStatus hd_gpu_refuse(const HdGpu *gpu, HdGpuPlace place, size_t bytes, const c
     char need[HD_BYTE_TEXT_SIZE], is_free[HD_BYTE_TEXT_SIZE] = "too little", all[HD_BYTE_TEXT_SIZE];
     hd_byte_text((double)bytes, need);
     hd_byte_text((double)gpu->facts.memory, all);
-    if (refusal->tells_free)
+    if (refusal->knows_free)
         hd_byte_text(refusal->free, is_free);
     if (place == HD_GPU_HOST && !gpu->driver->counts_host_memory)
         return hd_fail(error, HD_FAILED,

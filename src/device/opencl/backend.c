@@ -65,8 +65,8 @@ static HdStatus open_device(void *state, const HdDevice *is, HdGpuFacts *facts, 
 
 /* ---- memory ---- */
 
-static HdStatus check_room(cl_int code, const char *function, HdGpuRefusal *refusal,
-                           HdError *error) {
+static HdStatus check_memory(cl_int code, const char *function, HdGpuRefusal *refusal,
+                             HdError *error) {
     if (code != CL_MEM_OBJECT_ALLOCATION_FAILURE && code != CL_OUT_OF_RESOURCES &&
         code != CL_OUT_OF_HOST_MEMORY)
         return check(code, function, error);
@@ -110,7 +110,7 @@ static HdStatus allocate(void *state, HdGpuMemory *memory, HdGpuPlace place, siz
                                     NULL); /* drivers may allocate it only on first use */
     if (code == CL_SUCCESS && place == HD_GPU_HOST)
         return map(device, memory, error);
-    return check_room(code, "clCreateBuffer", refusal, error);
+    return check_memory(code, "clCreateBuffer", refusal, error);
 }
 
 static HdStatus write_memory(void *state, const HdGpuMemory *memory, const void *data, size_t bytes,
@@ -118,7 +118,7 @@ static HdStatus write_memory(void *state, const HdGpuMemory *memory, const void 
     Device *device = state;
     cl_int code = clEnqueueWriteBuffer(device->queue, memory->handle, CL_FALSE, 0, bytes, data, 0,
                                        NULL, NULL);
-    return check_room(code, "clEnqueueWriteBuffer", refusal, error);
+    return check_memory(code, "clEnqueueWriteBuffer", refusal, error);
 }
 
 static HdStatus read_memory(void *state, const HdGpuMemory *memory, void *to, size_t bytes,
