@@ -119,7 +119,8 @@ static void report_counts(const Search *search, char *text, size_t capacity) {
              counts[i].what, counts[i].found, counts[i].expected);
 }
 
-static void tell(const Search *search, int depth, bool is_split, char *text, size_t capacity) {
+static void describe_value(const Search *search, int depth, bool is_split, char *text,
+                           size_t capacity) {
     static const char *const channels[] = {"red", "green", "blue", "the bound"};
     const HdFrame *found = &search->frames[DEVICE], *expected = &search->frames[PLAIN_C];
     char sample[80] = "";
@@ -160,7 +161,7 @@ static HdStatus search_frame(Search *search, char *text, size_t capacity, HdErro
             status = compare(search, depth, false, &differs, error);
     }
     if (status == HD_OK && differs)
-        tell(search, depth, is_split, text, capacity);
+        describe_value(search, depth, is_split, text, capacity);
     else if (status == HD_OK)
         snprintf(text, capacity, "the same frame differs one time and not another");
     return status;

@@ -368,7 +368,7 @@ static void crop_of_reference(HdScene *scene) {
 /* ---- the list ---- */
 
 #define SOLID(kind) .base = one_solid, .variant = HD_##kind
-#define APART       .base = three_solids, .variant = 2.4
+#define SEPARATE    .base = three_solids, .variant = 2.4
 #define OVERLAPPING .base = three_solids, .variant = 0.7
 #define TEXTURED    .base = three_textured, .variant = 2.0
 #define SIZE(w, h, samples, levels)                                                                \
@@ -376,49 +376,49 @@ static void crop_of_reference(HdScene *scene) {
 #define FACES(r, t)                  .reflection = (r), .transmission = (t)
 #define VIEW(x, y, z, tx, ty, tz, d) .eye = {x, y, z}, .target = {tx, ty, tz}, .degrees = (d)
 #define IN_FRONT(d)                  VIEW(0.4, -4.5, 1.2, 0.0, 0.0, 0.0, d)
-#define FEW_INSTANCES                .base = many_instances, SIZE(40, 30, 1, 0), .proves = true
+#define FEW_INSTANCES                .base = many_instances, SIZE(40, 30, 1, 0), .tests_kernels = true
 
 const HdGoldenFrame hd_golden_frames[] = {
     {.name = "tetrahedron", SOLID(TETRAHEDRON)},
-    {.name = "hexahedron", SOLID(HEXAHEDRON), .proves = true},
+    {.name = "hexahedron", SOLID(HEXAHEDRON), .tests_kernels = true},
     {.name = "octahedron", SOLID(OCTAHEDRON)},
     {.name = "dodecahedron", SOLID(DODECAHEDRON)},
     {.name = "icosahedron", SOLID(ICOSAHEDRON)},
-    {.name = "three-apart", APART},
+    {.name = "three-apart", SEPARATE},
     {.name = "three-overlapping", OVERLAPPING},
-    {.name = "eye-inside", APART, VIEW(2.5, 0.1, 0.2, 0.0, 0.3, 0.0, 80.0)},
+    {.name = "eye-inside", SEPARATE, VIEW(2.5, 0.1, 0.2, 0.0, 0.3, 0.0, 80.0)},
     {.name = "eye-on-face", .base = eye_on_face},
-    {.name = "eye-on-floor-plane", APART, VIEW(0.5, -4.0, -1.5, 0.0, 0.0, -1.5, 70.0)},
+    {.name = "eye-on-floor-plane", SEPARATE, VIEW(0.5, -4.0, -1.5, 0.0, 0.0, -1.5, 70.0)},
     {.name = "edges-and-corners", .base = edges_and_corners},
     {.name = "fifty-edge-lights", .base = fifty_edge_lights},
     {.name = "tilted-floor", SOLID(ICOSAHEDRON), .change = tilted_floor},
     {.name = "trapezoid-floor", SOLID(TETRAHEDRON), .change = trapezoid_floor},
     {.name = "all-of-the-light",
-     APART,
+     SEPARATE,
      SIZE(40, 24, 2, 12),
      FACES(0.7, 0.3),
      .change = white_faces},
-    {.name = "mirror-only", APART, .depth = 20, .reflection = 0.95},
+    {.name = "mirror-only", SEPARATE, .depth = 20, .reflection = 0.95},
     {.name = "glass-only", OVERLAPPING, .depth = 10, .transmission = 0.9},
-    {.name = "one-pixel", APART, SIZE(1, 1, 7, 0)},
-    {.name = "wide-strip", APART, SIZE(1023, 7, 1, 0), IN_FRONT(150.0)},
-    {.name = "right-angle-view", APART, SIZE(80, 48, 3, 0), IN_FRONT(90.0)},
-    {.name = "widest-view", APART, IN_FRONT(178.0)},
-    {.name = "cut-off", APART, .depth = 12, .change = cut_off},
-    {.name = "far-from-origin", APART, .is_far = true},
+    {.name = "one-pixel", SEPARATE, SIZE(1, 1, 7, 0)},
+    {.name = "wide-strip", SEPARATE, SIZE(1023, 7, 1, 0), IN_FRONT(150.0)},
+    {.name = "right-angle-view", SEPARATE, SIZE(80, 48, 3, 0), IN_FRONT(90.0)},
+    {.name = "widest-view", SEPARATE, IN_FRONT(178.0)},
+    {.name = "cut-off", SEPARATE, .depth = 12, .change = cut_off},
+    {.name = "far-from-origin", SEPARATE, .is_far = true},
     {.name = "clamped", SOLID(OCTAHEDRON), .change = clamped},
     {.name = "empty-scene", .base = empty_scene},
     {.name = "inner-sides", OVERLAPPING, FACES(0.7, 0.25), .change = inner_sides},
-    {.name = "coloured-edges", APART, .change = coloured_edges},
+    {.name = "coloured-edges", SEPARATE, .change = coloured_edges},
     {.name = "ending-lights", SOLID(DODECAHEDRON), .change = ending_lights},
-    {.name = "runs-of-lights", APART, SIZE(80, 48, 1, 4), .change = runs_of_lights},
+    {.name = "runs-of-lights", SEPARATE, SIZE(80, 48, 1, 4), .change = runs_of_lights},
     {.name = "glass-cube", SOLID(HEXAHEDRON), .depth = 8, .change = glass_cube},
     {.name = "eye-inside-glass",
      SOLID(HEXAHEDRON),
      SIZE(64, 48, 1, 8),
      VIEW(0.2, 0.1, 0.15, -0.3, 0.9, -0.4, 100.0),
      .change = dense_glass,
-     .proves = true},
+     .tests_kernels = true},
     {.name = "bubble", SOLID(OCTAHEDRON), .change = bubble},
     {.name = "glass-dodecahedron", SOLID(DODECAHEDRON), .change = glass_dodecahedron},
     {.name = "lanterns", SOLID(ICOSAHEDRON), .change = lanterns},
@@ -426,11 +426,11 @@ const HdGoldenFrame hd_golden_frames[] = {
     {.name = "bumpy-sphere", .base = bumpy_sphere},
     {.name = "many-instances", .base = many_instances},
     {.name = "triangulated-solids", .base = triangulated_solids},
-    {.name = "mesh-edges-and-corners", .base = mesh_edges_and_corners, .proves = true},
+    {.name = "mesh-edges-and-corners", .base = mesh_edges_and_corners, .tests_kernels = true},
     {.name = "mesh-far-from-origin", .base = bumpy_sphere, .is_far = true},
     {.name = "adaptive-and-bounded", TEXTURED, SIZE(80, 48, 4, 24), .change = adaptive_and_bounded},
     {.name = "crop-of-reference", .base = many_instances, .change = crop_of_reference},
-    {.name = "paper-cube", SOLID(HEXAHEDRON), .change = lanterns, .proves = true},
+    {.name = "paper-cube", SOLID(HEXAHEDRON), .change = lanterns, .tests_kernels = true},
     {.name = "plain-instances", FEW_INSTANCES, .change = without_refraction},
     {.name = "paper-instances", FEW_INSTANCES, .change = paper_instances},
 };

@@ -106,8 +106,8 @@ static void compare_number(Probe *probe, int primitive, size_t i) {
     size_t place = (size_t)primitive * (size_t)probe->batch.count + i;
     double found = number_at(probe, probe->found.numbers, place);
     double expected = number_at(probe, probe->expected.numbers, place);
-    double told = isnan(found) ? (double)NAN : found; /* one kind of NaN, so that hashes agree */
-    probe->report->hash = hd_hash_words(probe->report->hash, &told, sizeof told);
+    double hashed = isnan(found) ? (double)NAN : found; /* one kind of NaN, so that hashes agree */
+    probe->report->hash = hd_hash_words(probe->report->hash, &hashed, sizeof hashed);
     if (is_same(found, expected))
         return;
     double a = number_at(probe, probe->batch.operands[0], i);

@@ -87,14 +87,14 @@ typedef struct GoldenTest {
 } GoldenTest;
 
 /* Returns whether the frame is small enough, and with or without an error bound as requested. */
-static bool is_wanted(const GoldenTest *golden, const HdScene *scene, bool is_bounded) {
+static bool is_selected(const GoldenTest *golden, const HdScene *scene, bool is_bounded) {
     const int64_t side = scene->samples_per_side;
     return hd_scene_has_error_bound(scene) == is_bounded &&
            (golden->part->effort != HD_TEST_QUICK ||
             scene->width * scene->height * side * side <= MAX_QUICK_SAMPLES);
 }
 
-static void judge_golden(GoldenTest *golden, const HdGoldenFrame *frame, uint64_t hash) {
+static void check_golden(GoldenTest *golden, const HdGoldenFrame *frame, uint64_t hash) {
     HdGoldenHashes expected;
     golden->test->frames++;
     golden->test->hash = hd_hash_bytes(golden->test->hash, &hash, sizeof hash);
@@ -112,12 +112,12 @@ static HdStatus render_golden(GoldenTest *golden, const HdGoldenFrame *frame, bo
     HdCamera camera;
     HdFrame image;
     HD_TRY(hd_golden_build(frame, &scene, &camera, error));
-    const bool renders = is_wanted(golden, &scene, is_bounded);
+    const bool renders = is_selected(golden, &scene, is_bounded);
     HdStatus status = renders ? hd_put_and_render(golden->part->renderer, &scene, &camera,
                                                   golden->like, 0, &image, error)
                               : HD_OK;
     if (renders && status == HD_OK) {
-        judge_golden(golden, frame, hd_frame_hash(&image));
+        check_golden(golden, frame, hd_frame_hash(&image));
         hd_frame_free(&image);
     }
     hd_scene_free(&scene);
@@ -213,8 +213,8 @@ static HdStatus test_precision(HdSelfTestReport *report, HdPrecision precision, 
     return goes_on ? test_pipeline(report, &options, effort, error) : HD_OK;
 }
 
-HdStatus hd_certify(HdSelfTestReport *report, const HdDevice *device, HdTestEffort effort,
-                    HdError *error) {
+HdStatus hd_self_test(HdSelfTestReport *report, const HdDevice *device, HdTestEffort effort,
+                      HdError *error) {
     HdStatus status = HD_OK;
     *report = (HdSelfTestReport){
         .device = *device, .result = HD_RESULT_RIGHT, .seconds = -hd_monotonic_seconds()};

@@ -47,7 +47,7 @@ typedef enum HdTestEffort {
 /* Tests a device, ignoring remembered results, in float and, if it has it, in double: first the
    arithmetic probe of compiled kernels, then the golden frames. Remembers the arithmetic. Fails
    only with HD_INTERRUPTED; the report holds other failures. */
-HdStatus hd_certify(HdSelfTestReport *report, const HdDevice *device, HdTestEffort effort,
-                    HdError *error);
+HdStatus hd_self_test(HdSelfTestReport *report, const HdDevice *device, HdTestEffort effort,
+                      HdError *error);
 
 #endif
