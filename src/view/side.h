@@ -34,8 +34,8 @@ typedef struct HdViewSide {
     HdDevicePlan devices;
     char device[32]; /* storage for the device's name in the plan */
     HdSceneFile file;
-    uint64_t files;     /* hash of the files when last read */
-    char mistake[4096]; /* error of the last reading; "": none */
+    uint64_t files;        /* hash of the files when last read */
+    char file_error[4096]; /* error of the last reading; "": none */
     HdViewImage image;
     pthread_t thread;
     bool has_thread;
@@ -54,7 +54,7 @@ typedef struct HdViewSide {
     HdPictureStyle style;
     HdViewImage made; /* next image */
     bool has_news;    /* `made` is not fetched yet */
-    char told[HD_RENDERER_LINE + 64], problem[4096];
+    char description[HD_RENDERER_LINE + 64], problem[4096];
 } HdViewSide;
 
 /* Reads the scene and starts the thread. On failure nothing is open. */

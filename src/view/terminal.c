@@ -45,8 +45,8 @@ typedef struct Terminal {
     int line_count;
     char lines[HD_VIEW_LINES][HD_VIEW_LINE];
     gchar **shown; /* owned; rows of a picture of symbols; NULL: none is on the screen */
-    FILE *out;     /* standard output; if that is the terminal, an owned stream into `said` */
-    char *said;    /* owned; printed at the end */
+    FILE *out;     /* standard output; if that is the terminal, an owned stream into `printed` */
+    char *printed; /* owned; printed at the end */
     size_t said_size;
 } Terminal;
 
@@ -90,7 +90,7 @@ static void measure(Terminal *t) {
 }
 
 /* Finds attribute 4 in the answer to the query of capabilities: "ESC [ ? 62 ; 4 ; 22 c". */
-static bool tells_sixel(const char *answer) {
+static bool has_sixel(const char *answer) {
     const char *place = strstr(answer, "\033[?");
     while (place != NULL && *place != 'c' && *place != '\0') {
         place += strcspn(place, ";c");
@@ -111,12 +111,12 @@ static HdStatus find_protocol(Terminal *t, HdError *error) {
         got = receive(t, answer + length, (int)sizeof answer - 1 - length, ANSWER_WAIT_MS);
         length += got;
         answer[length] = '\0';
-        const char *told = strstr(answer, "\033[?");
-        if (told != NULL && strchr(told, 'c') != NULL)
+        const char *reply = strstr(answer, "\033[?");
+        if (reply != NULL && strchr(reply, 'c') != NULL)
             break;
     }
     t->protocol = strstr(answer, "\033_Gi=31;OK") != NULL ? CHAFA_PIXEL_MODE_KITTY
-                  : tells_sixel(answer)                   ? CHAFA_PIXEL_MODE_SIXELS
+                  : has_sixel(answer)                     ? CHAFA_PIXEL_MODE_SIXELS
                                                           : CHAFA_PIXEL_MODE_SYMBOLS;
     return HD_OK;
 }
@@ -144,7 +144,7 @@ static HdStatus find_sequences(Terminal *t, HdError *error) {
 /* ---- keys ---- */
 
 /* Waits for keys. An escape sequence counts as a whole; those other than arrows do nothing. */
-static void take_keys(Terminal *t) {
+static void read_keys(Terminal *t) {
     char bytes[256];
     const int count = receive(t, bytes, (int)sizeof bytes, hd_viewer_wait_ms(t->viewer));
     const double now = hd_monotonic_seconds();
@@ -285,7 +285,7 @@ static HdStatus draw(Terminal *t, HdError *error) {
 static HdStatus run(Terminal *t, HdError *error) {
     while (hd_viewer_tick(t->viewer, hd_monotonic_seconds())) {
         HD_TRY(draw(t, error));
-        take_keys(t);
+        read_keys(t);
         if (hd_interrupt_signal() != 0)
             return hd_fail(error, HD_INTERRUPTED, "interrupted");
     }
@@ -302,11 +302,11 @@ static HdStatus open_terminal(Terminal *t, HdError *error) {
                        strerror(errno));
     if (tcgetattr(t->file, &t->before) != 0)
         return hd_fail(error, HD_UNAVAILABLE, "--terminal needs a terminal: %s", strerror(errno));
-    t->out = isatty(STDOUT_FILENO) ? open_memstream(&t->said, &t->said_size) : stdout;
+    t->out = isatty(STDOUT_FILENO) ? open_memstream(&t->printed, &t->said_size) : stdout;
     return t->out != NULL ? HD_OK : HD_NO_ROOM(error, "a view");
 }
 
-static HdStatus take_terminal(Terminal *t, HdError *error) {
+static HdStatus set_up_terminal(Terminal *t, HdError *error) {
     struct termios raw = t->before;
     raw.c_iflag &= ~(tcflag_t)(BRKINT | ICRNL | INPCK | ISTRIP | IXON);
     raw.c_oflag &= ~(tcflag_t)OPOST;
@@ -321,7 +321,7 @@ static HdStatus take_terminal(Terminal *t, HdError *error) {
 }
 
 /* Precedes all waits, so that the terminal echoes again at once. */
-static void give_terminal_back(Terminal *t) {
+static void restore_terminal(Terminal *t) {
     HdError ignored;
     if (!t->is_raw)
         return;
@@ -332,15 +332,15 @@ static void give_terminal_back(Terminal *t) {
 }
 
 static void close_terminal(Terminal *t) {
-    give_terminal_back(t);
+    restore_terminal(t);
     hd_viewer_close(t->viewer);
     if (t->file >= 0)
         close(t->file);
     if (t->out != NULL && t->out != stdout)
         fclose(t->out);
-    if (t->said != NULL)
-        fputs(t->said, stdout);
-    free(t->said);
+    if (t->printed != NULL)
+        fputs(t->printed, stdout);
+    free(t->printed);
     if (t->info != NULL)
         chafa_term_info_unref(t->info);
     if (t->symbols != NULL)
@@ -355,7 +355,7 @@ HdStatus hd_view_in_terminal(const HdScenePlan *scene, const HdDevicePlan *devic
     if (status == HD_OK)
         status = hd_viewer_open(&t.viewer, scene, devices, t.out, error);
     if (status == HD_OK)
-        status = take_terminal(&t, error);
+        status = set_up_terminal(&t, error);
     if (status == HD_OK)
         status = run(&t, error);
     close_terminal(&t);

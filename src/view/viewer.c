@@ -87,7 +87,7 @@ static void show_frame(HdViewer *viewer, int frame) {
     change_view(viewer);
 }
 
-static void fly_on(HdViewer *viewer) {
+static void advance_path(HdViewer *viewer) {
     const double passed =
         (viewer->now - viewer->played_from) * file_of(viewer)->output.style.frames_per_second;
     const int frame = (int)fmod(passed, file_of(viewer)->scene.frame_count);
@@ -146,7 +146,7 @@ int hd_viewer_wait_ms(HdViewer *viewer) {
 }
 
 /* A pending moving picture is awaited, so that pictures appear; a whole one is not. */
-static void ask_workers(HdViewer *viewer) {
+static void request_pictures(HdViewer *viewer) {
     const bool idle = all_idle(viewer);
     if (viewer->asked != viewer->change && (idle || viewer->settling != 0))
         request_for(viewer, true);
@@ -194,7 +194,7 @@ const HdViewImage *hd_viewer_picture(HdViewer *viewer, int *version) {
 /* ---- saving ---- */
 
 /* Makes a name from the scene's, without its folder and ending, and the first free number. */
-static void free_name(const HdViewer *viewer, char path[160]) {
+static void choose_name(const HdViewer *viewer, char path[160]) {
     char name[128];
     const char *scene = viewer->sides[0].scene_plan.path;
     const char *slash = scene != NULL ? strrchr(scene, '/') : NULL;
@@ -214,7 +214,7 @@ static void save_when_whole(HdViewer *viewer) {
     if ((viewer->flags & SAVES) == 0 || viewer->settling != viewer->change || !all_idle(viewer))
         return;
     viewer->flags ^= SAVES;
-    free_name(viewer, path);
+    choose_name(viewer, path);
     if (hd_view_side_save(&viewer->sides[viewer->active], path, &error) != HD_OK) {
         snprintf(viewer->note, sizeof viewer->note, "%.500s", error.message);
         return;
@@ -432,8 +432,8 @@ static void add_settings(Lines *lines, HdViewer *viewer, int number) {
         scene->samples_per_side);
     if (problem[0] != '\0')
         add(lines, "! %s", problem);
-    if (side->mistake[0] != '\0' && number == 0)
-        add(lines, "! %s", side->mistake);
+    if (side->file_error[0] != '\0' && number == 0)
+        add(lines, "! %s", side->file_error);
 }
 
 static void add_whole(Lines *lines, const HdViewImage *image) {
@@ -491,8 +491,8 @@ int hd_viewer_lines(HdViewer *viewer, char text[HD_VIEW_LINES][HD_VIEW_LINE]) {
         add_place(&lines, viewer);
     if ((viewer->flags & SAVES) != 0)
         add(&lines, "once the picture is finished, it goes to a file");
-    if (!has_figures && viewer->sides[0].mistake[0] != '\0')
-        add(&lines, "! %s", viewer->sides[0].mistake);
+    if (!has_figures && viewer->sides[0].file_error[0] != '\0')
+        add(&lines, "! %s", viewer->sides[0].file_error);
     add(&lines, "%s", viewer->note);
     for (size_t i = 0;
          (viewer->flags & SHOWS_HELP) != 0 && i < sizeof key_lines / sizeof key_lines[0]; i++)
@@ -515,8 +515,8 @@ bool hd_viewer_tick(HdViewer *viewer, double now) {
     viewer->now = now;
     fetch_pictures(viewer);
     watch_files(viewer);
-    fly_on(viewer);
-    ask_workers(viewer);
+    advance_path(viewer);
+    request_pictures(viewer);
     save_when_whole(viewer);
     return (viewer->flags & HAS_ENDED) == 0;
 }
