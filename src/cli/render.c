@@ -177,13 +177,13 @@ static HdStatus settle(Run *run, const HdOptions *options, HdError *error) {
    machines. */
 static HdStatus render_frames(Run *run, const HdOptions *options, HdError *error) {
     const char *name = hd_scene_name(options->scene.path), *slash = strrchr(name, '/');
-    char told[HD_MAX_PATH];
+    char escaped[HD_MAX_PATH];
     HdStatus status = settle(run, options, error);
     if (status != HD_OK)
         return status;
     hd_console_report_run(&run->console, name, &run->file->scene, &run->outputs, run->frames.count);
-    hd_escape(slash != NULL ? slash + 1 : name, told, sizeof told);
-    run->outputs.scene = told;
+    hd_escape(slash != NULL ? slash + 1 : name, escaped, sizeof escaped);
+    run->outputs.scene = escaped;
     status = hd_resume_find(&run->resume, &run->outputs, &run->frames, error);
     if (status == HD_OK) {
         hd_console_start(&run->console, &run->resume);

@@ -47,17 +47,17 @@ static json_t *list_problems(const char *message, const char *name) {
 static json_t *describe_scene(const char *name, HdStatus status, const HdProblems *notes,
                               const HdScene *scene, const HdError *error) {
     json_t *problems = status == HD_OK ? json_array() : list_problems(error->message, name);
-    json_t *told =
+    json_t *described =
         json_pack("{s:o, s:b, s:o, s:o}", "scene", hd_json_device_text(name), "fine",
                   status == HD_OK, "problems", problems, "notes", list_lines(notes->text));
-    if (status != HD_OK || told == NULL)
-        return told;
+    if (status != HD_OK || described == NULL)
+        return described;
     json_t *counts =
         json_pack("{s:i, s:i, s:I, s:i, s:i}", "solids", scene->solid_count, "meshes",
                   scene->instance_count, "triangles", (json_int_t)hd_scene_triangle_count(scene),
                   "lights", hd_scene_light_count(scene), "frames", scene->frame_count);
-    json_object_update_new(told, counts);
-    return told;
+    json_object_update_new(described, counts);
+    return described;
 }
 
 static void print_fine(const char *name, const HdScene *scene, const HdProblems *notes) {
@@ -120,8 +120,8 @@ HdStatus hd_command_check(const HdOptions *options, HdError *error) {
         return check_scenes(options, NULL, error);
     json_t *list = json_array();
     const HdStatus status = check_scenes(options, &list, error);
-    const HdStatus printed =
-        hd_json_print(json_pack("{s:o}", "scenes", list), "what is told of the scenes", &unprinted);
+    const HdStatus printed = hd_json_print(json_pack("{s:o}", "scenes", list),
+                                           "what is described of the scenes", &unprinted);
     if (printed != HD_OK)
         *error = unprinted;
     return printed == HD_OK ? status : printed;
