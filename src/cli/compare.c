@@ -244,8 +244,8 @@ static HdStatus choose_curve(Comparison *comparison, HdError *error) {
         comparison->curve = (HdCurve)comparison->options->curve;
     else if (is_png[0] && is_png[1] && facts[0].curve != facts[1].curve)
         return hd_fail(error, HD_BAD_INPUT,
-                       "%s says that it is on the sRGB curve, and %s does not, which stands for "
-                       "linear; expected both on one curve, or --curve",
+                       "%s is marked as sRGB, but %s is not, so that it counts as linear; expected "
+                       "the same curve, or --curve",
                        comparison->names[facts[0].curve == HD_CURVE_SRGB ? 0 : 1],
                        comparison->names[facts[0].curve == HD_CURVE_SRGB ? 1 : 0]);
     else if (is_png[0] || is_png[1])

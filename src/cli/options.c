@@ -385,8 +385,8 @@ static void append(char *text, size_t size, const char *name, const char *value)
 }
 
 /* Writes the options that were given to the command and are not at their defaults, in the table's
-   order and as on a command line: those of HD_DECIDES_NUMBERS, and with `all` those of
-   HD_DECIDES_PIXELS too, of which only --set has texts. Escaped (text.h), and cut to `size` bytes
+   order, as on a command line. Includes those of HD_DECIDES_NUMBERS, and with `all` those of
+   HD_DECIDES_PIXELS, among them --set alone with texts. Escaped (text.h), and cut to `size` bytes
    with the zero byte. */
 static void spell(const HdOptions *options, bool all, char *text, size_t size) {
     const HdOptionSpec *spec = NULL;
@@ -533,14 +533,14 @@ static HdStatus check_topic(const char *name, HdError *error) {
     return hd_fail(error, HD_BAD_INPUT, "there is no help on '%s'; %s", name, suggestion);
 }
 
-/* Checks that need all arguments. */
+/* Checks conditions that need all arguments. */
 static HdStatus check_together(HdOptions *options, HdError *error) {
     if (options->command == HD_COMMAND_HELP && options->operand_count > 0) {
         options->topic = options->operands[0];
         return check_topic(options->topic, error);
     }
     if (options->command == HD_COMMAND_CHECK && options->schema && options->operand_count > 0)
-        return hd_fail(error, HD_BAD_INPUT, "--schema looks at no scene, but '%s' was given",
+        return hd_fail(error, HD_BAD_INPUT, "--schema reads no scene, but '%s' was given",
                        options->operands[0]);
     if (options->command == HD_COMMAND_CHECK && !options->schema && options->operand_count == 0)
         return hd_fail(error, HD_BAD_INPUT,

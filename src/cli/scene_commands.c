@@ -120,8 +120,8 @@ HdStatus hd_command_check(const HdOptions *options, HdError *error) {
         return check_scenes(options, NULL, error);
     json_t *list = json_array();
     const HdStatus status = check_scenes(options, &list, error);
-    const HdStatus printed = hd_json_print(json_pack("{s:o}", "scenes", list),
-                                           "what is described of the scenes", &unprinted);
+    const HdStatus printed =
+        hd_json_print(json_pack("{s:o}", "scenes", list), "the report on the scenes", &unprinted);
     if (printed != HD_OK)
         *error = unprinted;
     return printed == HD_OK ? status : printed;
@@ -137,10 +137,11 @@ static HdStatus keep_texture(HdSceneFile *file, const char *output, HdError *err
     if (output == NULL || strchr(output, '/') == NULL || !hd_texture_path_is_relative(name))
         return HD_OK;
     if (getcwd(folder, sizeof folder) == NULL)
-        return hd_fail(error, HD_FAILED, "cannot tell the current folder: %s", strerror(errno));
+        return hd_fail(error, HD_FAILED, "cannot determine the current folder: %s",
+                       strerror(errno));
     if (snprintf(file->texture_path, sizeof file->texture_path, "%s/%s", folder, name) >=
         (int)sizeof file->texture_path)
-        return hd_fail(error, HD_BAD_INPUT, "the path of the texture %s gets too long", name);
+        return hd_fail(error, HD_BAD_INPUT, "the path of the texture %s is too long", name);
     return HD_OK;
 }
 
@@ -193,7 +194,7 @@ static HdStatus write_new(const char *path, HdError *error) {
     const char *text = hd_starter_scene_text(&size);
     FILE *out = fopen(path, "wbx");
     if (out == NULL && errno == EEXIST)
-        return hd_fail(error, HD_BAD_INPUT, "%s is there already, expected a new name", path);
+        return hd_fail(error, HD_BAD_INPUT, "%s exists already, expected a new name", path);
     if (out == NULL)
         return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(errno));
     const bool is_written = fwrite(text, 1, size, out) == size && fflush(out) == 0;

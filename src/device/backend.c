@@ -58,7 +58,7 @@ const char *hd_device_unsupported_reason(const HdDevice *device, const HdRenderO
     if (options->math == HD_MATH_STRICT && device->not_strict[0] != '\0')
         return device->not_strict;
     if (options->precision == HD_PRECISION_DOUBLE && !device->has_double)
-        return "the device has no double precision; --precision float would take it";
+        return "the device has no double precision; --precision float would work";
     bool has_groups = !device->is_cpu || options->test.groups;
     if (options->lanes > 1 && has_groups)
         return "several lanes need a CPU";
@@ -68,11 +68,11 @@ const char *hd_device_unsupported_reason(const HdDevice *device, const HdRenderO
     if (has_groups && !device->has_wide_atomics &&
         hd_pipeline_is_wavefront(hd_choose_pipeline(device, options, NULL)))
         return "the wavefront pipeline needs 64-bit integer atomics, which the device lacks; "
-               "--pipeline mega would take it";
+               "--pipeline mega would work";
     return NULL;
 }
 
-/* Lights without a distance limit from which on full packets outweigh the cost of a queue. */
+/* Number of lights without a distance limit from which on full packets outweigh a queue. */
 enum { MANY_LIGHTS = 100 };
 
 double hd_longest_launch(const HdDevice *device, const HdRenderOptions *options) {
@@ -98,9 +98,8 @@ HdPipeline hd_choose_pipeline(const HdDevice *device, const HdRenderOptions *opt
 }
 
 static const char lost_message[] =
-    "the device is lost to this program (reset, stopped by the system after too long a kernel, out "
-    "of order or taken away); the system's log may tell why, and --device and --backend choose "
-    "another";
+    "the device is lost to this program (reset, stopped by the system after too long a kernel, "
+    "broken or removed); the system's log may say why, and --device and --backend choose another";
 
 HdStatus hd_fail_lost(HdError *error, const char *what) {
     return hd_fail(error, HD_UNAVAILABLE, "%s: %s", what, lost_message);

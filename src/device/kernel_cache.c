@@ -26,7 +26,7 @@ typedef struct Head {
 /* Returns the state of the kernels' test, for entries and notes. */
 static const char *stamp_of(const HdKernelCache *cache) {
     return cache->shape.math == HD_MATH_STRICT ? "passed the self-test"
-                                               : "not tested, for the arithmetic is fast";
+                                               : "not tested, since the arithmetic is fast";
 }
 
 /* Turns an entry into its binary, in place. */
@@ -66,7 +66,7 @@ static HdStatus store(const HdKernelCache *cache, HdError *error) {
     unsigned char *binary = cache->key[0] != '\0' ? cache->read(cache->context, &size) : NULL;
     HdStatus status = binary != NULL && size > 0
                           ? store_binary(cache, binary, size, error)
-                          : hd_fail(error, HD_UNAVAILABLE, "the driver does not hand them out");
+                          : hd_fail(error, HD_UNAVAILABLE, "the driver does not provide them");
     free(binary);
     return status;
 }

@@ -109,7 +109,7 @@ void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capaci
              needs->plane_bound, needs->depth_bound, needs->refracts ? "with" : "without",
              needs->lit_from_behind ? "faces lit from behind" : "no faces lit from behind",
              needs->node_stack_bound > 0 ? "meshes" : "no meshes",
-             needs->many_lights ? ", many lights" : "", needs->bounded ? ", with surveys" : "");
+             needs->many_lights ? ", many lights" : "", needs->bounded ? ", error bounds" : "");
 }
 
 int hd_kernel_item_count(int width, int height, int pixels_per_item) {

@@ -185,7 +185,7 @@ HdStatus hd_wave_next(HdWaveRun *run, unsigned taken, const HdLaunchSize *size, 
     if (step->action != HD_WAVE_TRACES)
         return HD_OK;
     if (hd_interrupt_signal() != 0)
-        return hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
+        return hd_fail(error, HD_INTERRUPTED, "interrupted during a frame");
     int limit = hd_launch_size_items(size, run->stack[run->top].waiting, 1, run->grain);
     step->chunk = wave_take_chunk(run->stack, &run->top, run->depth, run->plan->queue_stride,
                                   run->grain, limit);

@@ -123,10 +123,10 @@ static HdStatus check_size(int width, int height, HdError *error) {
 static HdStatus check_frame_tables(const HdRenderer *renderer, const HdFrameTables *tables,
                                    HdError *error) {
     if (!renderer->has_scene)
-        return hd_fail(error, HD_BAD_INPUT, "a frame was asked for before a scene was uploaded");
+        return hd_fail(error, HD_BAD_INPUT, "a frame was requested before a scene was uploaded");
     const HdKernelCache *kernels = hd_renderer_kernels(renderer);
     if (kernels != NULL && kernels->is_untested && !kernels->is_on_trial)
-        return hd_fail(error, HD_BAD_INPUT, "a frame was asked for by kernels that are not tested");
+        return hd_fail(error, HD_BAD_INPUT, "a frame was requested with untested kernels");
     return check_size(tables->width, tables->height, error);
 }
 

@@ -147,7 +147,7 @@ static void describe_value(const Search *search, int depth, bool is_split, char 
 static HdStatus search_frame(Search *search, char *text, size_t capacity, HdError *error) {
     bool differs, is_split = false;
     int depth = 0;
-    snprintf(text, capacity, "asked again it renders as plain C does");
+    snprintf(text, capacity, "a second rendering equals that of plain C");
     HdStatus status = compare(search, AS_IT_IS, false, &differs, error);
     if (status != HD_OK || !differs)
         return status;
@@ -163,7 +163,7 @@ static HdStatus search_frame(Search *search, char *text, size_t capacity, HdErro
     if (status == HD_OK && differs)
         describe_value(search, depth, is_split, text, capacity);
     else if (status == HD_OK)
-        snprintf(text, capacity, "the same frame differs one time and not another");
+        snprintf(text, capacity, "the same frame differs in some renderings only");
     return status;
 }
 
@@ -174,7 +174,7 @@ HdStatus hd_first_difference(const HdMismatch *mismatch, char *text, size_t capa
     if (status == HD_OK)
         status = search_frame(&search, text, capacity, error);
     if (status != HD_OK)
-        snprintf(text, capacity, "where it differs could not be found out: %s", error->message);
+        snprintf(text, capacity, "the search for the difference failed: %s", error->message);
     forget_frames(&search);
     for (int side = 0; side < SIDES; side++)
         hd_renderer_close(search.renderers[side]);

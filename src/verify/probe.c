@@ -93,7 +93,7 @@ static const char *guess_cause(const Probe *probe, int primitive, double a, doub
     if (is_small(probe, expected) && found == 0.0)
         return " (denormal numbers are flushed to 0)";
     if (is_small(probe, a) || is_small(probe, b) || is_small(probe, c))
-        return " (denormal operands are taken for 0)";
+        return " (denormal operands count as 0)";
     return is_rounded ? " (it is not correctly rounded)" : "";
 }
 
@@ -139,8 +139,7 @@ static void compare_integer(Probe *probe, int primitive, size_t i) {
                  ", expected %" PRId64 "%s",
                  integer_words[primitive], a, b, (uint64_t)probe->batch.bits[i],
                  precision_name(probe), found, expected,
-                 is_small(probe, a) || is_small(probe, b) ? " (denormal operands are taken for 0)"
-                                                          : "");
+                 is_small(probe, a) || is_small(probe, b) ? " (denormal operands count as 0)" : "");
 }
 
 static void compare_batch(Probe *probe) {

@@ -49,12 +49,14 @@ static const Kind kinds[] = {
     {.name = "many lights from behind",
      .needs = {SHALLOW, SMALL, .lit_from_behind = true, .many_lights = true},
      .has_many_lights = true},
-    {.name = "all solids can do", .needs = {SHALLOW, SMALL, ALL}},
+    {.name = "all features of solids", .needs = {SHALLOW, SMALL, ALL}},
     {.name = "all, deep", .needs = {DEEP, SMALL, ALL}},
     {.name = "meshes", .needs = {SHALLOW, SMALL, HAS_MESHES}, .has_meshes = true},
-    {.name = "meshes and all", .needs = {SHALLOW, SMALL, HAS_MESHES, ALL}, .has_meshes = true},
+    {.name = "all features with meshes",
+     .needs = {SHALLOW, SMALL, HAS_MESHES, ALL},
+     .has_meshes = true},
     {.name = "surveyed", .needs = {SHALLOW, SMALL, ALL, .bounded = true}, .is_bounded = true},
-    {.name = "meshes in global memory, surveyed",
+    {.name = "meshes in global memory, error bound",
      .needs = {SHALLOW, HAS_MESHES, ALL, .bounded = true},
      .has_meshes = true,
      .is_bounded = true},
@@ -95,7 +97,7 @@ static bool chance(Random *rng, double share) {
     return from_to(rng, 0.0, 1.0) < share;
 }
 
-/* C does not fix the order in which arguments are evaluated, the drawing order must be fixed. */
+/* C does not fix the order in which arguments are evaluated; the drawing order must be fixed. */
 static HdVec3 vector(Random *rng, double least, double most) {
     HdVec3 v;
     v.x = from_to(rng, least, most);

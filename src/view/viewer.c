@@ -333,9 +333,9 @@ static const struct Key {
 
 /* Help for the keys; each line below 64 characters. */
 static const char *const key_lines[] = {
-    "space    play the flight, or stop it",
+    "space    play the camera path, or stop it",
     ", .      a frame back, a frame on",
-    "0        back from a view of your own to the flight",
+    "0        back from a free view to the camera path",
     "arrows   turn about the target (drag with the left button)",
     "w a s d  move (drag with the right button)",
     "+ -      nearer, farther (the wheel)",
@@ -472,7 +472,7 @@ static void add_difference(Lines *lines, const HdViewer *viewer) {
 static void add_place(Lines *lines, const HdViewer *viewer) {
     const int count = viewer->sides[0].file.scene.frame_count;
     if (viewer->is_free)
-        add(lines, "a view of your own; h: help");
+        add(lines, "a free view; h: help");
     else
         add(lines, "frame %d of %d%s; h: help", viewer->frame, count,
             viewer->is_playing ? ", playing" : "");

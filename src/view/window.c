@@ -9,7 +9,7 @@
 #include "system/machine.h"
 #include "view/viewer.h"
 
-/* Width of the window for smaller scenes. */
+/* Width of the window, at least, for smaller scenes. */
 enum { MIN_WIDTH = 960, MARGIN = 6 };
 
 /* Seconds after which a held arrow glides, and its speed in widths of the picture a second. */
@@ -89,7 +89,7 @@ static HdStatus update_picture(Window *w, HdError *error) {
         w->picture = SDL_CreateTexture(w->renderer, SDL_PIXELFORMAT_RGBA32,
                                        SDL_TEXTUREACCESS_STREAMING, image->width, image->height);
         if (w->picture == NULL)
-            return fail(error, "no room for a picture on the screen");
+            return fail(error, "the screen has no space for a picture");
         w->picture_width = image->width;
         w->picture_height = image->height;
     }

@@ -16,7 +16,7 @@ render=("$hedron" render "${small[@]}" --frames 0 --backend cuda --quiet -o pict
 # ---- a driver that does not start
 cannot_start=(env FAKE_CUDA_FAILS=cuInit FAKE_CUDA_FAILS_AT=1)
 expect_refusal 3 "${cannot_start[@]}" FAKE_CUDA_ERROR=999 "${render[@]}"
-expect_stderr_contains 'cuInit failed with CUDA_ERROR_UNKNOWN (999); after the machine slept, this helps: '
+expect_stderr_contains 'cuInit failed with CUDA_ERROR_UNKNOWN (999); after suspend, run: '
 
 # ---- where any device will do, a GPU that is passed over is told in one line, with what would help
 any=("$hedron" render --size 320x240 --samples 2 --frames 0-1 --threads 1 --lanes 1 -o any/%d.data)

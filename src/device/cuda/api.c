@@ -18,10 +18,10 @@ static const char *advise_start(const HdCudaDriver *driver, HdCuResult code) {
                    ? "; it is of branch 590 or newer, which drives no card before sm_75: the "
                      "branch "
                      "580 is the last for older ones, such as a GTX 1050"
-                   : "; no card is there that it drives, or CUDA_VISIBLE_DEVICES hides it";
+                   : "; it finds no card that it supports, or CUDA_VISIBLE_DEVICES hides it";
     case HD_CU_ERROR_UNKNOWN:
-        return "; after the machine slept, this helps: sudo rmmod nvidia_uvm && sudo modprobe "
-               "nvidia_uvm, or a restart";
+        return "; after suspend, run: sudo rmmod nvidia_uvm && sudo modprobe "
+               "nvidia_uvm, or restart";
     default:
         return "";
     }

@@ -328,7 +328,7 @@ static HdStatus load_module(Device *device, const HdKernelShape *shape, const ch
     if (result != HD_CU_SUCCESS)
         return hd_fail(error, HD_FAILED,
                        "the driver, of CUDA %d, does not load what %s compiled for sm_%d "
-                       "(cuModuleLoadDataEx: %s); what suits both is in Python's package %s",
+                       "(cuModuleLoadDataEx: %s); Python's package %s suits both",
                        major, maker, arch, hd_cuda_error_name(&device->driver, result),
                        hd_nvrtc_package(arch, major));
     device->module = module;

@@ -297,7 +297,7 @@ static HdStatus fail_with_log(const HdNvrtc *nvrtc, HdNvrtcProgram program, HdCu
     char *log = copy_log(nvrtc, program);
     hd_fail(error, HD_FAILED, "NVRTC %d.%d refused the kernels for %s_%d (%s):\n%s", nvrtc->major,
             nvrtc->minor, prefix_of(target), target.arch, nvrtc->functions.error_string(result),
-            log && log[0] ? log : "(it left no log)");
+            log && log[0] ? log : "(no log)");
     free(log);
     return HD_FAILED;
 }

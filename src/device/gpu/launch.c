@@ -54,7 +54,7 @@ static HdStatus queue_launch(const HdGpuRenderer *renderer, const HdGpuLaunch *l
 
 static HdStatus check_cancelled(const HdFrameTables *tables, HdError *error) {
     return hd_interrupt_signal() != 0 || hd_watched_is_unwanted(&tables->watched)
-               ? hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame")
+               ? hd_fail(error, HD_INTERRUPTED, "interrupted during a frame")
                : HD_OK;
 }
 
@@ -71,8 +71,8 @@ static HdStatus wait_between(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_fli
     return check_cancelled(in_flight->of, error);
 }
 
-/* Returns how many threads of a group share the samples of a pixel: the greatest divisor of their
-   number up to the group's size and 64, so that each has equally many. */
+/* Returns how many threads of a group share the samples of a pixel. It is the greatest divisor of
+   their number up to the group's size and 64, so that each has equally many. */
 static int sample_parts(int samples, int group_size) {
     enum { MAX_PARTS = 64 };
     int parts = hd_min(group_size, MAX_PARTS);

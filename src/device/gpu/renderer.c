@@ -249,7 +249,7 @@ static void gpu_describe(const void *state, char *text, int capacity) {
         char memory[HD_BYTE_TEXT_SIZE];
         hd_byte_text((double)renderer->queue.bytes, memory);
         snprintf(text + length, (size_t)(capacity - length),
-                 ", the queue cut to %s, for more memory was refused", memory);
+                 ", the queue cut to %s, since more memory was refused", memory);
     }
 }
 

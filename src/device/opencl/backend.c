@@ -188,7 +188,7 @@ static HdStatus fail_with_log(const Device *device, cl_int code, HdError *error)
     if (log)
         clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);
     hd_fail(error, HD_FAILED, "the compiler of %s refused the kernels (clBuildProgram: %s):\n%s",
-            device->is.name, hd_opencl_error_name(code), log && log[0] ? log : "(it left no log)");
+            device->is.name, hd_opencl_error_name(code), log && log[0] ? log : "(no log)");
     free(log);
     return HD_FAILED;
 }
