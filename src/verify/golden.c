@@ -376,11 +376,11 @@ static void crop_of_reference(HdScene *scene) {
 #define FACES(r, t)                  .reflection = (r), .transmission = (t)
 #define VIEW(x, y, z, tx, ty, tz, d) .eye = {x, y, z}, .target = {tx, ty, tz}, .degrees = (d)
 #define IN_FRONT(d)                  VIEW(0.4, -4.5, 1.2, 0.0, 0.0, 0.0, d)
-#define FEW_INSTANCES                .base = many_instances, SIZE(40, 30, 1, 0), .tests_kernels = true
+#define FEW_INSTANCES                .base = many_instances, SIZE(40, 30, 1, 0), .tests_build = true
 
 const HdGoldenFrame hd_golden_frames[] = {
     {.name = "tetrahedron", SOLID(TETRAHEDRON)},
-    {.name = "hexahedron", SOLID(HEXAHEDRON), .tests_kernels = true},
+    {.name = "hexahedron", SOLID(HEXAHEDRON), .tests_build = true},
     {.name = "octahedron", SOLID(OCTAHEDRON)},
     {.name = "dodecahedron", SOLID(DODECAHEDRON)},
     {.name = "icosahedron", SOLID(ICOSAHEDRON)},
@@ -418,7 +418,7 @@ const HdGoldenFrame hd_golden_frames[] = {
      SIZE(64, 48, 1, 8),
      VIEW(0.2, 0.1, 0.15, -0.3, 0.9, -0.4, 100.0),
      .change = dense_glass,
-     .tests_kernels = true},
+     .tests_build = true},
     {.name = "bubble", SOLID(OCTAHEDRON), .change = bubble},
     {.name = "glass-dodecahedron", SOLID(DODECAHEDRON), .change = glass_dodecahedron},
     {.name = "lanterns", SOLID(ICOSAHEDRON), .change = lanterns},
@@ -426,11 +426,11 @@ const HdGoldenFrame hd_golden_frames[] = {
     {.name = "bumpy-sphere", .base = bumpy_sphere},
     {.name = "many-instances", .base = many_instances},
     {.name = "triangulated-solids", .base = triangulated_solids},
-    {.name = "mesh-edges-and-corners", .base = mesh_edges_and_corners, .tests_kernels = true},
+    {.name = "mesh-edges-and-corners", .base = mesh_edges_and_corners, .tests_build = true},
     {.name = "mesh-far-from-origin", .base = bumpy_sphere, .is_far = true},
     {.name = "adaptive-and-bounded", TEXTURED, SIZE(80, 48, 4, 24), .change = adaptive_and_bounded},
     {.name = "crop-of-reference", .base = many_instances, .change = crop_of_reference},
-    {.name = "paper-cube", SOLID(HEXAHEDRON), .change = lanterns, .tests_kernels = true},
+    {.name = "paper-cube", SOLID(HEXAHEDRON), .change = lanterns, .tests_build = true},
     {.name = "plain-instances", FEW_INSTANCES, .change = without_refraction},
     {.name = "paper-instances", FEW_INSTANCES, .change = paper_instances},
 };

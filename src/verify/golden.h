@@ -22,7 +22,7 @@ typedef struct HdGoldenFrame {
     bool is_far;                     /* moves everything away from the origin */
     void (*change)(HdScene *scene);  /* changes the rest, last; NULL: no change */
 
-    bool tests_kernels; /* tests compiled kernels that can render it (trust.h) */
+    bool tests_build; /* tests compiled kernels that can render it (trust.h) */
 } HdGoldenFrame;
 
 extern const HdGoldenFrame hd_golden_frames[];

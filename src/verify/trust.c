@@ -97,7 +97,7 @@ static HdStatus test_kernels(KernelTest *test, HdError *error) {
     HdStatus status = HD_OK;
     kernels->is_on_trial = true;
     for (int i = 0; status == HD_OK && i < hd_golden_frame_count; i++)
-        if (hd_golden_frames[i].tests_kernels)
+        if (hd_golden_frames[i].tests_build)
             status = render_golden(test, &hd_golden_frames[i], error);
     kernels->is_on_trial = false;
     if (status == HD_OK && test->frames == 0)
