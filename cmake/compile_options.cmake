@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Warnings, and the arithmetic that strict mode rests on: no contraction, and no -ffast-math anywhere,
+# Sets warnings, and the arithmetic that strict mode needs: no contraction, and no -ffast-math anywhere,
 # which would flush denormals for the whole process.
 option(HEDRON_WERROR "Treat warnings as errors" ON)
 set(HEDRON_SANITIZE "" CACHE STRING "Sanitizers to build with, for example address,undefined")

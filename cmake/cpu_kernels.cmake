@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-# The builds of the plain C kernels, the one list of them: instruction set, lanes, precision, kind. The first
-# that a processor can run is the one that its renderers take where nobody asks for lanes. Kinds:
+# Lists the builds of the plain C kernels: instruction set, lanes, precision, kind. Renderers use the first one
+# that the processor can run, unless lanes are requested. Kinds:
 #   full     lanes that fill a register, and single lanes
-#   compare  fewer lanes than that, there to compare bytes: at -O2, up to half of gcc's time less
-# Those of HEDRON_PLAIN_KERNELS are built once more for plain scenes: without meshes, refraction and light from
+#   compare  fewer lanes, to compare bytes: at -O2, with up to half of gcc's time saved
+# Those of HEDRON_PLAIN_KERNELS are also built for plain scenes: without meshes, refraction and light from
 # behind, which take registers from code that all scenes need.
 # Processors without fused multiply-add spend their time in its emulation: one lane is the fastest there.
 string(TOLOWER "${CMAKE_SYSTEM_PROCESSOR}" processor)
@@ -18,17 +18,16 @@ else()
     set(HEDRON_PLAIN_KERNELS generic:4:float)
 endif()
 
-# What is built to run here and nowhere else needs the kernels alone that this processor takes.
+# Builds for this machine only need the kernels that its processor runs.
 if(NOT CMAKE_CROSSCOMPILING)
     include(CheckCSourceRuns)
     check_c_source_runs("int main(void) { return !__builtin_cpu_supports(\"avx512bw\"); }" HEDRON_RUNS_AVX512)
     check_c_source_runs("int main(void) { return !__builtin_cpu_supports(\"avx2\"); }" HEDRON_RUNS_AVX2)
 endif()
 
-# Sanitizers make a kernel several times as dear to compile: kernels that this processor never takes are left
-# out, and of the bundles they look at those of floats taken where nobody asks for lanes: what is double's own
-# single lanes show, and how its bundles reach memory the unit tests of the kernels' functions. Kernels for plain
-# scenes have no code of their own.
+# Sanitizers make a kernel several times as expensive to compile: kernels that this processor never uses are left
+# out, and only the default packets of floats are sanitized. Single lanes cover double's own code, and the unit
+# tests of the kernels' functions its packets' memory accesses. Kernels for plain scenes have no code of their own.
 if(HEDRON_SANITIZE)
     set(HEDRON_PLAIN_KERNELS "")
     list(TRANSFORM HEDRON_KERNELS REPLACE ":([48]):double:full$" ":\\1:double:compare")
@@ -39,11 +38,11 @@ if(HEDRON_SANITIZE)
     endif()
 endif()
 
-# gcc takes vectors that are filled lane by lane for uninitialised.
+# gcc mistakes vectors that are filled lane by lane for uninitialised.
 if(CMAKE_C_COMPILER_ID STREQUAL "GNU")
     set(no_false_alarms -Wno-maybe-uninitialized)
 endif()
-# What is undefined ends the program at once, without a sentence: a quarter less to compile. The stack, which
+# Undefined behaviour traps without a message, which saves a quarter of the compile time. The stack, which
 # AddressSanitizer prints with handle_sigill=1, has the line.
 if(HEDRON_SANITIZE MATCHES undefined AND CMAKE_C_COMPILER_ID MATCHES "Clang")
     set(without_words -fsanitize-trap=undefined)
@@ -54,8 +53,8 @@ set(flags_generic "")
 set(flags_avx2 -mavx2 -mfma)
 set(flags_avx512 -mavx512f -mavx512dq -mavx512vl -mavx512bw -mavx2 -mfma
     -mprefer-vector-width=512)
-# gcc keeps a pointer for each array that a loop over lights or planes reads, and cuts loops in two; both take
-# registers, and the time of scenes with many lights went up and down by a fifth with unrelated changes.
+# gcc keeps a pointer for each array that a loop over lights or planes reads, and splits loops; both take
+# registers, so that the time of scenes with many lights varies by a fifth with unrelated changes.
 if(CMAKE_C_COMPILER_ID STREQUAL "GNU")
     list(APPEND flags_avx512 -fno-ivopts -fno-split-loops)
 endif()
@@ -67,7 +66,7 @@ if(HEDRON_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")
     set(level_compare -O1)
 endif()
 
-# Adds the object library hedron_kernel_NAME to the core; the further arguments are options of the compiler.
+# Adds the object library hedron_kernel_NAME to the core; further arguments are compiler options.
 function(hedron_kernel name set lanes precision)
     add_library(hedron_kernel_${name} OBJECT cpu/kernel.c)
     target_compile_definitions(hedron_kernel_${name} PRIVATE
@@ -83,10 +82,10 @@ set(rows "")
 foreach(kernel IN LISTS HEDRON_KERNELS)
     string(REPLACE ":" ";" parts ${kernel})
     list(POP_FRONT parts set lanes precision kind)
-    # Sanitizers look at memory and not at rounding, and at one build of each kind of bundle.
+    # Sanitizers check memory and not rounding, and one build of each kind of packet suffices.
     set(sanitizers ${without_words})
     if(NOT kind STREQUAL full OR (HEDRON_SANITIZE MATCHES thread AND precision STREQUAL double))
-        set(sanitizers -fno-sanitize=all) # threads share the same with either precision
+        set(sanitizers -fno-sanitize=all) # threads share the same in both precisions
     endif()
     set(name ${set}_${lanes}_${precision})
     hedron_kernel(${name} ${set} ${lanes} ${precision} ${level_${kind}} ${sanitizers})

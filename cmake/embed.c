@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Turns a file into a C array while the program is built:
+/* Turns a file into a C array at build time:
 
        embed SYMBOL OUTPUT.c INPUT [--flatten]
 
    With --flatten every #include "path" is replaced by that file's text, once, and #line directives
-   name the files relative to the current folder, as INPUT is. An include must not depend on an #if
-   around it: the text goes where it is met first. */
+   name the files relative to the current folder, as INPUT is. An include must not depend on a
+   surrounding #if: the text replaces the first occurrence. */
 #include <ctype.h>
 #include <errno.h>
 #include <stdarg.h>
@@ -28,7 +28,7 @@ typedef struct Options {
 
 typedef struct Job {
     Options options;
-    char files[MAX_FILES][MAX_PATH]; /* read so far, relative to the current folder */
+    char files[MAX_FILES][MAX_PATH]; /* files read so far, relative to the current folder */
     int file_count;
     Text result;
 } Job;
@@ -106,7 +106,7 @@ static void normalise(char path[MAX_PATH]) {
     strcpy(path, result);
 }
 
-/* The name between the quotes of a line that is #include "name". */
+/* Reads the name between the quotes of a line that is #include "name". */
 static bool quoted_include(const char *line, size_t length, char name[MAX_PATH]) {
     const char *end = line + length;
     const char *at = line;

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Compiles the kernels to PTX while the program is built, as a C file of what
-   src/device/cuda/compile.h declares:
+/* Compiles the kernels to PTX at build time, as a C file that src/device/cuda/compile.h declares:
 
        embed_ptx OUTPUT.c [NVRTC [COUNT]]
 
-   Without an NVRTC, or where it does not compile for the card, there are none, and a line says why.
-   COUNT: only so many of the shapes. */
+   Without an NVRTC that compiles for the card the list is empty, and a line gives the reason.
+   COUNT: number of shapes, at most. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -53,7 +52,7 @@ static void write_bytes(FILE *file, int index, const HdCudaCode *code) {
     fprintf(file, "\n};\n");
 }
 
-/* False where it does not compile. */
+/* Returns false if the shape does not compile. */
 static bool write_text(FILE *file, int index, const HdNvrtc *nvrtc, HdError *error) {
     enum { OPTIONS_LENGTH = 1024 };
     char options[OPTIONS_LENGTH];

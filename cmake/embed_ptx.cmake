@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-# PTX of the CUDA kernels, for users without an NVRTC, made by NVRTC 12: the last that compiles for a Pascal
-# card. ./dev test --all fetches one. Where there is none, or with -DHEDRON_NVRTC12=OFF, no PTX is embedded.
+# Embeds PTX of the CUDA kernels, for users without NVRTC, made by NVRTC 12: the last that compiles for a Pascal
+# card. ./dev test --all fetches one. Without one, or with -DHEDRON_NVRTC12=OFF, no PTX is embedded.
 set(HEDRON_NVRTC12 ${PROJECT_SOURCE_DIR}/build/nvrtc12/nvidia/cuda_nvrtc/lib/libnvrtc.so.12
     CACHE FILEPATH "NVRTC 12 for the PTX that is embedded and for the compile tests")
 
-# What compiles the kernels, apart from the rest of the program, which PTX becomes a part of.
+# Compiler of the kernels, separate from the program, since PTX becomes a part of that.
 add_library(hedron_cuda_compiler STATIC ${PROJECT_BINARY_DIR}/embedded/hd_cuda_source.c)
 target_compile_definitions(hedron_cuda_compiler PRIVATE HD_VERSION="${PROJECT_VERSION}")
 target_link_libraries(hedron_cuda_compiler PUBLIC Threads::Threads ${CMAKE_DL_LIBS})

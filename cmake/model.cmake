@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The program 'hedron_model', which makes meshes of any size for scenes and measurements.
+# Builds the program 'hedron_model', which makes meshes of any size for scenes and measurements.
 add_executable(hedron_model
     scenes/models/knot.c
     scenes/models/main.c

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# What is installed beside the programs. Documents and scenes keep their places to each other, so that links lead
-# somewhere.
+# Installs documents, scenes and completions. Documents and scenes keep their relative places, so that
+# links work.
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES bench/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/bench)
 install(DIRECTORY docs scenes DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN models EXCLUDE PATTERN *.py EXCLUDE)
@@ -9,7 +9,7 @@ install(PROGRAMS farm/slurm/hedron-report farm/slurm/hedron-submit farm/slurm/he
 install(FILES completions/hedron.bash RENAME hedron
         DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions)
 install(FILES completions/hedron.fish DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/fish/vendor_completions.d)
-# The zsh of Debian looks elsewhere for what comes by packages.
+# Debian's zsh searches another folder for the completions of packages.
 install(CODE "
     set(data \"${CMAKE_INSTALL_DATAROOTDIR}\")
     if(NOT IS_ABSOLUTE \"\${data}\")
@@ -22,7 +22,7 @@ install(CODE "
     file(INSTALL \"${PROJECT_SOURCE_DIR}/completions/hedron.zsh\" RENAME _hedron
          DESTINATION \"\${data}/zsh/\${folder}\")")
 
-# Debian packages of what is installed, the view by itself, for it needs SDL and chafa: ./dev package.
+# Debian packages, the view separately, since it needs SDL and chafa: ./dev package.
 set(CPACK_GENERATOR DEB)
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON) # nobody who wants a package waits for tests and benches
 set(CPACK_PACKAGE_NAME hedron)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # cmake -DFOLDER=... -DOUTPUT=... -P sources_hash.cmake writes a C file with a hash of all sources that
-# may decide a pixel, and one of those among them that compute it: the kernels, and how CPUs run them. A changed comment counts as well: a hash that errs, errs to the safe side.
+# may affect a pixel, and one of the subset that computes it: the kernels, and how CPUs run them. Comments count too.
 set(patterns "")
 foreach(folder src cpu kernels)
     foreach(ending c h cl cu)

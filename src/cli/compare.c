@@ -16,12 +16,12 @@
 
 enum { PICTURES = 2, FIGURE_WIDTH = 20 };
 
-/* A channel that is no colour and that both have. */
-typedef struct Further {
+/* Channel that is no colour and that both pictures have. */
+typedef struct ExtraChannel {
     const char *name;
     int places[PICTURES];
     HdChannelDifference difference;
-} Further;
+} ExtraChannel;
 
 typedef struct Comparison {
     const HdOptions *options;
@@ -30,20 +30,20 @@ typedef struct Comparison {
     HdPictureFacts facts[PICTURES];
     HdCurve curve;
     HdPictureValue *rows[PICTURES];
-    double *errors;             /* of a row; NULL without a heat map */
-    HdFrame map;                /* encoded; without `rgba` no heat map is asked for */
-    char map_path[HD_MAX_PATH]; /* of it */
+    double *errors;             /* errors of a row; NULL without a heat map */
+    HdFrame map;                /* encoded heat map; without `rgba` none is requested */
+    char map_path[HD_MAX_PATH]; /* its file */
     HdPictureDifference *difference;
     HdPictureFigures figures;
-    Further further[HD_MAX_FURTHER];
-    int further_count;
+    ExtraChannel extra[HD_MAX_FURTHER];
+    int extra_count;
 } Comparison;
 
 static const char *const channel_names[] = {"red", "green", "blue"};
 
-/* ---- further channels ---- */
+/* ---- additional channels ---- */
 
-/* Negative: the picture has none of that name. */
+/* Returns the channel's place in the picture; negative: it lacks that name. */
 static int place_of_channel(const HdPictureFacts *facts, const char *name) {
     for (int i = 0; i < facts->further; i++)
         if (strcmp(facts->names[i], name) == 0)
@@ -51,42 +51,42 @@ static int place_of_channel(const HdPictureFacts *facts, const char *name) {
     return -1;
 }
 
-static void match_further(Comparison *comparison) {
+static void match_extra(Comparison *comparison) {
     const HdPictureFacts *facts = comparison->facts;
     for (int i = 0; i < facts[0].further; i++) {
         const char *name = facts[0].names[i];
         const int other = place_of_channel(&facts[1], name);
         if (other >= 0)
-            comparison->further[comparison->further_count++] =
-                (Further){.name = name, .places = {i, other}};
+            comparison->extra[comparison->extra_count++] =
+                (ExtraChannel){.name = name, .places = {i, other}};
     }
 }
 
-static void compare_further(Comparison *comparison, int y) {
+static void compare_extra(Comparison *comparison, int y) {
     HdPictureReader *const *readers = comparison->readers;
-    for (int i = 0; i < comparison->further_count; i++) {
-        Further *further = &comparison->further[i];
-        const float *first = hd_picture_reader_further(readers[0], further->places[0]);
-        const float *second = hd_picture_reader_further(readers[1], further->places[1]);
+    for (int i = 0; i < comparison->extra_count; i++) {
+        ExtraChannel *extra = &comparison->extra[i];
+        const float *first = hd_picture_reader_further(readers[0], extra->places[0]);
+        const float *second = hd_picture_reader_further(readers[1], extra->places[1]);
         for (int x = 0; x < comparison->facts[0].width; x++)
-            hd_channel_difference_add(&further->difference, first[x], second[x], x, y);
+            hd_channel_difference_add(&extra->difference, first[x], second[x], x, y);
     }
 }
 
-/* The one with the largest difference; NULL: there is none. */
-static const Further *max_different(const Comparison *comparison) {
-    const Further *most = NULL;
+/* Returns the channel with the largest difference, or NULL. */
+static const ExtraChannel *largest_extra(const Comparison *comparison) {
+    const ExtraChannel *most = NULL;
     double largest = 0.0;
-    for (int i = 0; i < comparison->further_count; i++)
-        if (comparison->further[i].difference.largest > largest) {
-            most = &comparison->further[i];
+    for (int i = 0; i < comparison->extra_count; i++)
+        if (comparison->extra[i].difference.largest > largest) {
+            most = &comparison->extra[i];
             largest = most->difference.largest;
         }
     return most;
 }
 
 static bool is_identical(const Comparison *comparison) {
-    return comparison->figures.identical && max_different(comparison) == NULL;
+    return comparison->figures.identical && largest_extra(comparison) == NULL;
 }
 
 /* ---- text ---- */
@@ -127,18 +127,18 @@ static void print_share(const char *name, double share) {
     printf("\n");
 }
 
-static void print_further(const Comparison *comparison) {
-    const Further *most = max_different(comparison);
-    if (comparison->further_count > 0)
+static void print_extra(const Comparison *comparison) {
+    const ExtraChannel *most = largest_extra(comparison);
+    if (comparison->extra_count > 0)
         printf("\n%-20s%*s\n", "further channels", FIGURE_WIDTH, "largest difference");
-    for (int i = 0; i < comparison->further_count; i++) {
-        const Further *further = &comparison->further[i];
-        const HdChannelDifference *difference = &further->difference;
+    for (int i = 0; i < comparison->extra_count; i++) {
+        const ExtraChannel *extra = &comparison->extra[i];
+        const HdChannelDifference *difference = &extra->difference;
         char name[62];
-        hd_escape(further->name, name, sizeof name);
+        hd_escape(extra->name, name, sizeof name);
         if (difference->largest > 0.0)
             printf("  %-18s%*.6g at %d, %d%s\n", name, FIGURE_WIDTH, difference->largest,
-                   difference->x, difference->y, further == most ? ", the largest" : "");
+                   difference->x, difference->y, extra == most ? ", the largest" : "");
         else
             printf("  %-18s%*s\n", name, FIGURE_WIDTH, "none");
     }
@@ -172,7 +172,7 @@ static void print_text(const Comparison *comparison) {
     if (figures->not_finite[0] + figures->not_finite[1] > 0)
         printf("%-20s%*" PRIu64 "%*" PRIu64 "\n", "NaN or infinite", FIGURE_WIDTH,
                figures->not_finite[0], FIGURE_WIDTH, figures->not_finite[1]);
-    print_further(comparison);
+    print_extra(comparison);
     if (is_identical(comparison))
         printf("\nThe pictures are identical.\n");
 }
@@ -204,24 +204,24 @@ static json_t *describe_picture(const Comparison *comparison, int i) {
                      (json_int_t)comparison->figures.not_finite[i]);
 }
 
-static json_t *describe_further(const Comparison *comparison) {
+static json_t *describe_extra(const Comparison *comparison) {
     json_t *list = json_array();
-    for (int i = 0; i < comparison->further_count; i++) {
-        const Further *further = &comparison->further[i];
-        const HdChannelDifference *difference = &further->difference;
+    for (int i = 0; i < comparison->extra_count; i++) {
+        const ExtraChannel *extra = &comparison->extra[i];
+        const HdChannelDifference *difference = &extra->difference;
         json_t *at = difference->largest > 0.0
                          ? json_pack("{s:i, s:i}", "x", difference->x, "y", difference->y)
                          : json_null();
-        list = hd_json_append(list, json_pack("{s:o, s:o, s:o}", "name",
-                                              hd_json_device_text(further->name), "largest",
-                                              number_or_null(difference->largest), "at", at));
+        list = hd_json_append(list,
+                              json_pack("{s:o, s:o, s:o}", "name", hd_json_device_text(extra->name),
+                                        "largest", number_or_null(difference->largest), "at", at));
     }
     return list;
 }
 
 static HdStatus print_json(const Comparison *comparison, HdError *error) {
     const HdPictureFigures *figures = &comparison->figures;
-    const Further *most = max_different(comparison);
+    const ExtraChannel *most = largest_extra(comparison);
     json_t *root = json_pack(
         "{s:o, s:o, s:i, s:i, s:s, s:I, s:b, s:o, s:o, s:o, s:o, s:o, s:o}", "first",
         describe_picture(comparison, 0), "second", describe_picture(comparison, 1), "width",
@@ -229,14 +229,14 @@ static HdStatus print_json(const Comparison *comparison, HdError *error) {
         hd_curve_names[comparison->curve], "pixels", (json_int_t)figures->pixels, "identical",
         is_identical(comparison), "display", describe_figures(&figures->display), "linear",
         describe_figures(&figures->linear), "above_1", number_or_null(figures->above_1), "above_8",
-        number_or_null(figures->above_8), "channels", describe_further(comparison),
-        "most_different", hd_json_text_or_null(most != NULL ? most->name : NULL));
+        number_or_null(figures->above_8), "channels", describe_extra(comparison), "most_different",
+        hd_json_text_or_null(most != NULL ? most->name : NULL));
     return hd_json_print(root, "the figures", error);
 }
 
-/* ---- what is compared ---- */
+/* ---- comparison ---- */
 
-/* PFM is on no curve, and shown on the one that most pictures are on. */
+/* PFM has no curve, and is shown with the most common one. */
 static HdStatus choose_curve(Comparison *comparison, HdError *error) {
     const HdPictureFacts *facts = comparison->facts;
     const bool is_png[] = {facts[0].format == &hd_format_png, facts[1].format == &hd_format_png};
@@ -244,8 +244,8 @@ static HdStatus choose_curve(Comparison *comparison, HdError *error) {
         comparison->curve = (HdCurve)comparison->options->curve;
     else if (is_png[0] && is_png[1] && facts[0].curve != facts[1].curve)
         return hd_fail(error, HD_BAD_INPUT,
-                       "%s says that it is on the sRGB curve, and %s does not, which stands for "
-                       "linear; expected both on one curve, or --curve",
+                       "%s is marked as sRGB, but %s is not, so that it counts as linear; expected "
+                       "the same curve, or --curve",
                        comparison->names[facts[0].curve == HD_CURVE_SRGB ? 0 : 1],
                        comparison->names[facts[0].curve == HD_CURVE_SRGB ? 1 : 0]);
     else if (is_png[0] || is_png[1])
@@ -266,7 +266,7 @@ static HdStatus open_pictures(Comparison *comparison, HdError *error) {
                        "%s has %d x %d pixels, but %s has %d x %d; expected the same size",
                        comparison->names[0], first->width, first->height, comparison->names[1],
                        second->width, second->height);
-    match_further(comparison);
+    match_extra(comparison);
     return choose_curve(comparison, error);
 }
 
@@ -305,7 +305,7 @@ static HdStatus compare_row(Comparison *comparison, int y, HdError *error) {
         HD_TRY(hd_picture_reader_next(comparison->readers[i], comparison->rows[i], error));
     hd_difference_add_row(comparison->difference, comparison->rows[0], comparison->rows[1], width,
                           comparison->errors);
-    compare_further(comparison, y);
+    compare_extra(comparison, y);
     for (int x = 0; x < width && comparison->errors != NULL; x++)
         hd_heat_colour(comparison->errors[x],
                        comparison->map.rgba + 4 * ((size_t)y * (size_t)width + (size_t)x));
@@ -326,8 +326,8 @@ static HdStatus compare_rows(Comparison *comparison, HdError *error) {
 
 /* ---- the command ---- */
 
-/* What makes the exit code 1. */
-static HdStatus judge(const Comparison *comparison, HdError *error) {
+/* Decides whether the exit code is 1. */
+static HdStatus check_limits(const Comparison *comparison, HdError *error) {
     const HdPictureFigures *figures = &comparison->figures;
     const double limit = comparison->options->fail_above;
     const HdDifferenceFigures *display = &figures->display;
@@ -361,7 +361,7 @@ static HdStatus report(Comparison *comparison, HdError *error) {
         print_text(comparison);
     else if (print_json(comparison, error) != HD_OK)
         return HD_FAILED;
-    return judge(comparison, error);
+    return check_limits(comparison, error);
 }
 
 HdStatus hd_command_compare(const HdOptions *options, HdError *error) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The commands about devices: devices, selftest, tune. */
+/* Runs the commands about devices: devices, selftest, tune. */
 #define _POSIX_C_SOURCE 200809L
 #include <inttypes.h>
 #include <stdbool.h>
@@ -20,7 +20,7 @@
 
 /* ---- devices ---- */
 
-/* What a driver says may command a terminal. */
+/* A driver's text may contain control sequences of a terminal. */
 static void print_escaped(const char *before, const char *text) {
     char escaped[6 * sizeof((HdDevice *)NULL)->unusable];
     hd_escape(text, escaped, sizeof escaped);
@@ -114,7 +114,7 @@ static void print_test(const HdReportTest *test) {
         printf("           %s\n", test->reason);
 }
 
-static void print_certificate(const HdSelfTestReport *report) {
+static void print_report(const HdSelfTestReport *report) {
     const HdDevice *device = &report->device;
     char when[TIME_SIZE];
     write_time(report, when);
@@ -136,7 +136,7 @@ static json_t *describe_test(const HdReportTest *test) {
         "division_by_fma", test->by_fma, "hash", hash, "seconds", test->seconds);
 }
 
-static json_t *describe_certificate(const HdSelfTestReport *report) {
+static json_t *describe_report(const HdSelfTestReport *report) {
     const HdDevice *device = &report->device;
     json_t *tests = json_array();
     char when[TIME_SIZE];
@@ -153,27 +153,27 @@ static json_t *describe_certificate(const HdSelfTestReport *report) {
 
 typedef struct Tally {
     int tested, wrong;
-    json_t *list; /* of certificates */
+    json_t *list; /* reports */
 } Tally;
 
-static HdStatus certify(const HdOptions *options, const HdDevice *device, Tally *tally,
-                        HdError *error) {
+static HdStatus test_device(const HdOptions *options, const HdDevice *device, Tally *tally,
+                            HdError *error) {
     static HdSelfTestReport report;
     const HdTestEffort effort = options->deep    ? HD_TEST_DEEP
                                 : options->quick ? HD_TEST_QUICK
                                                  : HD_TEST_WHOLE;
-    HD_TRY(hd_certify(&report, device, effort, error));
+    HD_TRY(hd_self_test(&report, device, effort, error));
     tally->tested += report.result != HD_RESULT_UNTESTED;
     tally->wrong += report.result == HD_RESULT_WRONG;
     if (options->json)
-        tally->list = hd_json_append(tally->list, describe_certificate(&report));
+        tally->list = hd_json_append(tally->list, describe_report(&report));
     else
-        print_certificate(&report);
+        print_report(&report);
     fflush(stdout);
     return HD_OK;
 }
 
-static HdStatus judge(const Tally *tally, int count, HdError *error) {
+static HdStatus check_results(const Tally *tally, int count, HdError *error) {
     if (tally->wrong > 0)
         return hd_fail(error, HD_FAILED, "%d of %d device%s computes wrongly", tally->wrong, count,
                        hd_plural(count));
@@ -190,24 +190,24 @@ HdStatus hd_command_selftest(const HdOptions *options, HdError *error) {
     HdStatus status = HD_OK;
     Tally tally = {.list = json_array()};
     for (int i = 0; status == HD_OK && i < count; i++)
-        status = certify(options, &devices[i], &tally, error);
+        status = test_device(options, &devices[i], &tally, error);
     if (status == HD_OK && options->json)
         status = hd_json_print(json_pack("{s:O}", "certificates", tally.list), "the certificates",
                                error);
     json_decref(tally.list);
-    return status == HD_OK ? judge(&tally, count, error) : status;
+    return status == HD_OK ? check_results(&tally, count, error) : status;
 }
 
 /* ---- tune ---- */
 
 typedef struct Run {
     const HdOptions *options;
-    HdRenderOptions render; /* as for the scene */
-    const HdScene *scene;   /* of about the same work, not surveyed */
-    HdDeviceTeam team;      /* closed before anything is measured */
-    const HdDevice *device; /* the only one of the team */
+    HdRenderOptions render; /* options of the scene */
+    const HdScene *scene;   /* with as much work, without an error bound */
+    HdDeviceTeam team;      /* closed before the measurement */
+    const HdDevice *device; /* its only device */
     HdTuning tuning;
-    const char *unsupported_reason; /* why nothing is remembered; NULL: the best is */
+    const char *unsupported_reason; /* why the best options cannot be remembered; NULL: they can */
 } Run;
 
 static double ratio(const HdTuning *tuning, int index) {
@@ -273,7 +273,7 @@ static HdStatus print_json(const Run *run, HdError *error) {
     return hd_json_print(root, "the candidates", error);
 }
 
-/* On the device that 'hedron render' would take. */
+/* Measures on the device that 'hedron render' would choose. */
 static HdStatus measure(Run *run, const HdJob *job, HdError *error) {
     const HdDeviceSelection selection = {
         .backend = run->options->devices.backend,
@@ -297,7 +297,7 @@ static HdStatus measure(Run *run, const HdJob *job, HdError *error) {
     return status;
 }
 
-/* Without a folder nothing is remembered; a folder that fails is an error. */
+/* Without a cache folder remembers nothing; a folder that fails is an error. */
 static HdStatus tune(Run *run, const HdJob *job, HdError *error) {
     HD_TRY(measure(run, job, error));
     HdStatus status =

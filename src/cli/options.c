@@ -91,7 +91,7 @@ static HdStatus check_change(const char *text, const char *option, HdError *erro
                    "%s is '%s', expected PATH=VALUE such as camera.field_of_view=40", option, text);
 }
 
-/* The columns of the table that a type needs. */
+/* Columns of the table that a type needs. */
 #define AT(member)   .offset = offsetof(HdOptions, member)
 #define FLAG(member) .type = HD_OPTION_FLAG, AT(member)
 #define INTEGER(member, least, most)                                                               \
@@ -124,7 +124,7 @@ const HdOptionSpec *hd_option_next(const HdOptionSpec *spec, HdCommand command) 
     return spec->name != NULL ? spec : NULL;
 }
 
-/* "-n", or "-nVALUE" where it takes one. */
+/* Returns whether the argument is "-n", or "-nVALUE" if the option has a value. */
 static bool is_short(const HdOptionSpec *spec, const char *argument) {
     if (spec->short_name == NULL || strncmp(argument, spec->short_name, 2) != 0)
         return false;
@@ -153,7 +153,7 @@ void hd_option_heading(const HdOptionSpec *spec, char text[64]) {
              spec->value ? spec->value : "");
 }
 
-/* "auto, c, opencl or cuda" */
+/* Writes "auto, c, opencl or cuda" */
 static void list_choices(const char *const *choices, char text[256]) {
     text[0] = '\0';
     for (int i = 0; choices[i] != NULL; i++)
@@ -180,14 +180,14 @@ void hd_option_values(const HdOptionSpec *spec, char text[256]) {
     }
 }
 
-/* ---- from the text behind an option to the member that it sets ---- */
+/* ---- parsing of values ---- */
 
-/* An option that was given. */
+/* Option on the command line. */
 typedef struct Given {
     HdOptions *options;
     const HdOptionSpec *spec;
     const char *text; /* its value */
-    void *member;     /* of the options: what it sets */
+    void *member;     /* member of the options that it sets */
 } Given;
 
 static void *at(HdOptions *options, size_t offset) {
@@ -216,8 +216,8 @@ static HdStatus apply_command(const Given *given, HdError *error) {
     return HD_OK;
 }
 
-/* Moves `*text` past a whole number in the range and one of the characters `ends`, of "" the end of
-   the text. */
+/* Moves `*text` past a whole number in the range and one of the characters `ends`; "" stands for
+   the end of the text. */
 static bool take_number(const char **text, const char *ends, double low, double high, int *out) {
     char *rest;
     errno = 0;
@@ -247,7 +247,7 @@ static HdStatus apply_integer(const Given *given, HdError *error) {
     return fail_expecting(given, expected, error);
 }
 
-/* "1", "0.5", ".5" and "1e-3": what else strtod takes is no number on a command line. */
+/* Accepts "1", "0.5", ".5" and "1e-3", but not strtod's other formats. */
 static HdStatus apply_real(const Given *given, HdError *error) {
     const HdOptionSpec *spec = given->spec;
     const char *text = given->text;
@@ -276,7 +276,7 @@ static HdStatus apply_area(const Given *given, HdError *error) {
     return fail_expecting(given, given->spec->expected, error);
 }
 
-/* The number of the choice that the first `length` characters are, from 0; -1: it is none. */
+/* Returns the index of the choice that matches the first `length` characters; -1: none. */
 static int choice_of(const char *const *choices, const char *word, size_t length) {
     for (int i = 0; choices[i] != NULL; i++)
         if (strncmp(choices[i], word, length) == 0 && choices[i][length] == '\0')
@@ -284,7 +284,7 @@ static int choice_of(const char *const *choices, const char *word, size_t length
     return -1;
 }
 
-/* With the first choice that begins with the text; nothing completes an empty one. */
+/* Suggests the first choice that begins with the text, if that is not empty. */
 static HdStatus fail_choosing(const Given *given, HdError *error) {
     const size_t length = strlen(given->text);
     char list[256];
@@ -349,14 +349,14 @@ static HdStatus apply_text(const Given *given, HdError *error) {
     return HD_OK;
 }
 
-/* What there is where no option is given. */
+/* Values of options that are not given. */
 static const HdOptions defaults = {
     .scene = {.variant = HD_CLASSIC_DEFAULT_VARIANT, .depth = -1, .cutoff = -1, .sampling = -1},
     .fail_above = -1,
     .curve = -1,
 };
 
-/* Lays one option over those read before; `value` is "" for one that takes none. */
+/* Applies one option over earlier ones; `value` is "" for an option without one. */
 static HdStatus apply_option(HdOptions *options, const HdOptionSpec *spec, const char *value,
                              HdError *error) {
     static HdStatus (*const apply[])(const Given *, HdError *) = {
@@ -371,9 +371,9 @@ static HdStatus apply_option(HdOptions *options, const HdOptionSpec *spec, const
     return apply[spec->type](&given, error);
 }
 
-/* ---- and back ---- */
+/* ---- spelling of values ---- */
 
-/* The value of an option that was given; false: it was not, or is at its default. */
+/* Writes the value of an option that was given; returns false if it was not, or has its default. */
 static bool spell_value(const HdOptions *options, const HdOptionSpec *spec, char value[64]) {
     const void *member = (const char *)options + spec->offset;
     const void *unset = (const char *)&defaults + spec->offset;
@@ -414,9 +414,9 @@ static void append(char *text, size_t size, const char *name, const char *value)
     }
 }
 
-/* The options that were given to the command, in the table's order and not at their defaults, as
-   they would stand on a command line: those of HD_DECIDES_NUMBERS, and with `all` those of
-   HD_DECIDES_PIXELS too, of which --set alone has texts. Escaped (text.h), and cut to `size` bytes
+/* Writes the options that were given to the command and are not at their defaults, in the table's
+   order, as on a command line. Includes those of HD_DECIDES_NUMBERS, and with `all` those of
+   HD_DECIDES_PIXELS, among them --set alone with texts. Escaped (text.h), and cut to `size` bytes
    with the zero byte. */
 static void spell(const HdOptions *options, bool all, char *text, size_t size) {
     const HdOptionSpec *spec = NULL;
@@ -434,19 +434,19 @@ static void spell(const HdOptions *options, bool all, char *text, size_t size) {
 
 /* ---- the command line ---- */
 
-/* What a reference has where nothing else was asked for. */
+/* Defaults of a reference. */
 enum { REFERENCE_SAMPLES = 32 };
 #define REFERENCE_ERROR (1.0 / 64.0)
 
 typedef struct Parser {
     HdOptions *options;
     const HdCommandSpec *command;
-    int count, next; /* arguments, and the number of the one to be read next */
+    int count, next; /* arguments, and the index of the next one */
     char **arguments;
     bool only_operands; /* after "--" */
 } Parser;
 
-/* "did you mean '--size'?", or where to look. */
+/* Adds "did you mean '--size'?", or the place to look. */
 static void suggest(const HdNearest *nearest, const char *prefix, const HdCommandSpec *command,
                     char text[128]) {
     if (nearest->name != NULL)
@@ -546,7 +546,7 @@ static HdStatus parse_argument(Parser *parser, HdError *error) {
             return hd_fail(error, HD_BAD_INPUT, "%s needs a value (%s)", spec->name, spec->value);
         value = parser->arguments[parser->next++];
     }
-    if (value == NULL) /* and none is wanted */
+    if (value == NULL) /* the option has no value */
         value = "";
     return apply_option(parser->options, spec, value, error);
 }
@@ -579,14 +579,14 @@ static HdStatus check_topic(const char *name, HdError *error) {
     return hd_fail(error, HD_BAD_INPUT, "there is no help on '%s', expected %s", name, list);
 }
 
-/* What can only be told once all arguments are known. */
+/* Checks conditions that need all arguments. */
 static HdStatus check_together(HdOptions *options, HdError *error) {
     if (options->command == HD_COMMAND_HELP && options->operand_count > 0) {
         options->topic = options->operands[0];
         return check_topic(options->topic, error);
     }
     if (options->command == HD_COMMAND_CHECK && options->schema && options->operand_count > 0)
-        return hd_fail(error, HD_BAD_INPUT, "--schema looks at no scene, but '%s' was given",
+        return hd_fail(error, HD_BAD_INPUT, "--schema reads no scene, but '%s' was given",
                        options->operands[0]);
     if (options->command == HD_COMMAND_CHECK && !options->schema && options->operand_count == 0)
         return hd_fail(error, HD_BAD_INPUT,
@@ -605,7 +605,7 @@ static HdStatus check_together(HdOptions *options, HdError *error) {
     return HD_OK;
 }
 
-/* What the command and several options together decide. */
+/* Completes the plan from the command and several options together. */
 static void complete_plan(HdOptions *options) {
     HdScenePlan *scene = &options->scene;
     if (options->reference)
@@ -647,7 +647,7 @@ HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdErr
     return HD_OK;
 }
 
-/* ---- from the arguments to the exit code ---- */
+/* ---- the program ---- */
 
 /* Whether the reader of standard output has closed its end of a pipe. */
 static bool is_output_closed(void) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What the command line may say, as tables of commands and options, and what it said, as the struct
-   whose members the options' rows name. Parsing, help, man page and completion follow the tables.
+/* Describes the command line as tables of commands and options, and holds the parsed options in the
+   struct whose members the tables name. Parsing, help, man page and completion follow the tables.
  */
 #ifndef HD_CLI_OPTIONS_H
 #define HD_CLI_OPTIONS_H
@@ -11,9 +11,9 @@
 #include "base/error.h"
 #include "run/plan.h"
 
-/* Each is a bit, for the options to tell which commands they belong to. */
+/* Each is a bit, so that an option can list its commands. */
 typedef enum HdCommand {
-    HD_COMMAND_CLASSIC = 1, /* no command at all */
+    HD_COMMAND_CLASSIC = 1, /* no command */
     HD_COMMAND_RENDER = 2,
     HD_COMMAND_CHECK = 4,
     HD_COMMAND_CONVERT = 8,
@@ -32,13 +32,12 @@ typedef enum HdCommand {
 #define HD_USUAL_COMMANDS                                                                          \
     (HD_COMMAND_CLASSIC | HD_COMMAND_RENDER | HD_COMMAND_TUNE | HD_COMMAND_VIEW)
 
-/* What the command line said: the parts of the plan, each for its reader, and what belongs to a
-   single command. Where an option is not given, its member is 0, false or NULL, or negative where 0
-   is a value. */
+/* Parsed command line: the parts of the plan, each for its reader, and the options of single
+   commands. A member whose option is not given is 0, false or NULL, or negative if 0 is a value. */
 typedef struct HdOptions {
     HdCommand command;
     const char *topic; /* of HD_COMMAND_HELP: a command or a topic; NULL: the program */
-    char **operands;   /* what is no option, in order; at the front of main's arguments */
+    char **operands; /* arguments that are no options, in order; at the front of main's arguments */
     int operand_count;
     HdScenePlan scene;
     HdDevicePlan devices;
@@ -53,7 +52,7 @@ typedef struct HdOptions {
 
 /* ---- commands ---- */
 
-/* Topics of help that are not commands. */
+/* Topics of the help, except commands. */
 enum {
     HD_HELP_SCENE,
     HD_HELP_MAN,
@@ -70,9 +69,9 @@ typedef struct HdHelpTopic {
     const char *about; /* NULL: not listed */
 } HdHelpTopic;
 extern const HdHelpTopic hd_help_topics[HD_HELP_TOPIC_COUNT];
-int hd_help_topic_named(const char *name); /* negative: none has it */
+int hd_help_topic_named(const char *name); /* Returns the topic of that name; negative: none. */
 
-/* What a command does; the status becomes the exit code. */
+/* Runs a command; the status becomes the exit code. */
 typedef HdStatus HdCommandFunction(const HdOptions *options, HdError *error);
 
 HdCommandFunction hd_command_classic, hd_command_render, hd_command_check, hd_command_convert,
@@ -82,84 +81,84 @@ HdCommandFunction hd_command_classic, hd_command_render, hd_command_check, hd_co
 typedef struct HdCommandSpec {
     HdCommand command;
     const char *name;        /* NULL: the classic mode */
-    const char *operands;    /* as the usage shows them; "" where there are none */
-    const char *ending;      /* of the files that are operands; NULL: any, or no files */
+    const char *operands;    /* text of the usage; "": none */
+    const char *ending;      /* file extension of operands; NULL: any, or no files */
     int max_operands;        /* -1: any number */
-    const char *summary;     /* half a sentence for lists */
+    const char *summary;     /* half a sentence, for lists */
     const char *description; /* paragraphs, separated by empty lines */
 } HdCommandSpec;
 
 enum { HD_COMMAND_SPEC_COUNT = 12 };
 extern const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT];
 
-/* NULL where no command has that name. */
+/* Returns the command of that name, or NULL. */
 const HdCommandSpec *hd_command_named(const char *name);
 const HdCommandSpec *hd_command_spec(HdCommand command);
 
-/* What the programs share, from the arguments to the exit code: parses the command line, which the
-   options point into afterwards, calls `run` and prints its error. */
+/* Runs a program from its arguments to the exit code: parses the command line, which the options
+   then point into, calls `run` and prints its error. */
 int hd_program_run(int count, char **arguments, HdCommandFunction *run);
 
 /* ---- options ---- */
 
-/* What is behind an option, and the member that it sets. */
+/* Syntax of an option's value, and the member that it sets. */
 typedef enum HdOptionType {
-    HD_OPTION_FLAG,    /* nothing; bool */
-    HD_OPTION_COMMAND, /* nothing; another command takes over, and no argument is read any more */
-    HD_OPTION_INTEGER, /* a whole number from `low` to `high`; int */
-    HD_OPTION_REAL,    /* a number from `low` to `high`, or to below it; double */
-    HD_OPTION_CHOICE,  /* one of `choices`; int or an enum: which of them, from 0 */
+    HD_OPTION_FLAG,    /* no value; bool */
+    HD_OPTION_COMMAND, /* no value; switches to another command, which ends parsing */
+    HD_OPTION_INTEGER, /* whole number from `low` to `high`; int */
+    HD_OPTION_REAL,    /* number from `low` to `high`, or to below it; double */
+    HD_OPTION_CHOICE,  /* one of `choices`; int or an enum: its index */
     HD_OPTION_NUMERAL, /* one of `choices`, which are whole numbers; int */
-    HD_OPTION_WORD,    /* one of `choices`; const char *: the word, NULL: the first of them */
-    HD_OPTION_SET,     /* some of `choices`, with commas; unsigned: the bit 1 << i for number i */
+    HD_OPTION_WORD,    /* one of `choices`; const char *: the word, NULL: the first choice */
+    HD_OPTION_SET,     /* some of `choices`, with commas; unsigned: the bit 1 << i for choice i */
     HD_OPTION_SIZE,    /* WxH; HdPlannedArea, at 0, 0 */
     HD_OPTION_CROP,    /* WxH+X+Y; HdPlannedArea */
     HD_OPTION_TEXT,    /* const char * */
-    HD_OPTION_TEXTS /* a text each time, `high` times at most; const char *[], and their number */
+    HD_OPTION_TEXTS    /* repeatable text, `high` times at most; const char *[], and their count */
 } HdOptionType;
 
-/* What an option decides. */
+/* Effect of an option. */
 typedef enum HdOptionRole {
-    HD_DECIDES_NO_PIXEL, /* devices, outputs, what is told */
-    HD_DECIDES_NUMBERS,  /* pixels, by numbers of the scene */
-    HD_DECIDES_PIXELS    /* pixels, in another way */
+    HD_DECIDES_NO_PIXEL, /* devices, outputs, messages */
+    HD_DECIDES_NUMBERS,  /* pixels, through numbers of the scene */
+    HD_DECIDES_PIXELS    /* pixels, in other ways */
 } HdOptionRole;
 
 typedef struct HdOptionSpec {
     const char *name;       /* NULL ends the table */
     const char *short_name; /* NULL: none */
-    const char *value;      /* what stands for the value in the help; NULL: takes none */
+    const char *value;      /* the value's placeholder in the help; NULL: no value */
     const char *help;       /* effect: sentences, the last one without a full stop */
-    unsigned commands;      /* those that take it */
+    unsigned commands;      /* commands that accept it */
     const char *standard;   /* default; NULL: none, or off */
     const char *use;        /* when to use it, as a sentence without a full stop; NULL: plain */
     HdOptionRole role;
     HdOptionType type;
-    size_t offset;              /* of its member of HdOptions */
-    size_t count_offset;        /* of texts */
-    double low, high;           /* of a number */
-    bool below_high;            /* a number must not be `high` itself */
-    int step;                   /* a whole number is a multiple of it; 0: any */
+    size_t offset;              /* offset of its member in HdOptions */
+    size_t count_offset;        /* offset of the count of texts */
+    double low, high;           /* bounds of a number */
+    bool below_high;            /* excludes `high` itself */
+    int step;                   /* a whole number is a multiple of this; 0: any */
     const char *const *choices; /* NULL ends them */
-    const char *expected;       /* instead of a wrong value; NULL for a text that may be empty */
+    const char *expected;       /* expected value, for messages; NULL: the text may be empty */
     HdStatus (*check)(const char *text, const char *option, HdError *error); /* NULL: any text */
     bool takes_file;
-    const char *only_one_of; /* the flags of which only one may be given; NULL: no such flag */
-    HdCommand command;       /* that takes over */
+    const char *only_one_of; /* name of flags that exclude each other; NULL: none */
+    HdCommand command;       /* command that it switches to */
 } HdOptionSpec;
 
-/* What --curve may be, by HdCurve; NULL ends them. */
+/* Values of --curve, by HdCurve; ends with NULL. */
 extern const char *const hd_curve_names[];
 
-/* An option may be there twice, with another meaning for another command. */
+/* All options. An option may occur twice, with another meaning for another command. */
 extern const HdOptionSpec hd_option_specs[];
 
-/* The option of the command that follows after `spec` (NULL: the first one), or NULL. */
+/* Returns the command's next option after `spec` (NULL: the first), or NULL. */
 const HdOptionSpec *hd_option_next(const HdOptionSpec *spec, HdCommand command);
 
-/* The option that an argument names as "--name", "--name=value", "-n" or "-nvalue", or NULL;
-   `*value` is what came with it, or NULL. One of the command comes before one of the same name that
-   belongs to another. */
+/* Returns the option that an argument names as "--name", "--name=value", "-n" or "-nvalue", or
+   NULL; sets `*value` to its value, or NULL. Prefers an option of the command to one of the same
+   name of another command. */
 const HdOptionSpec *hd_option_find(const char *argument, HdCommand command, const char **value);
 
 /* Writes "-o, --output OUT". */
@@ -168,8 +167,8 @@ void hd_option_heading(const HdOptionSpec *spec, char text[64]);
 /* Writes the values that an option takes: "1 to 64", "float or double"; "" for a free text. */
 void hd_option_values(const HdOptionSpec *spec, char text[256]);
 
-/* Parses the arguments of main, whose order it changes. Fails with HD_BAD_INPUT and a sentence that
-   names the argument, and the nearest right one where there is one. */
+/* Parses the arguments of main, and reorders them. Fails with HD_BAD_INPUT and a message that names
+   the argument and the nearest correct one, if any. */
 HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdError *error);
 
 #endif

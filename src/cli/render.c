@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The commands that render a scene: 'hedron render' and the classic mode. */
+/* Runs the commands that render a scene: 'hedron render' and the classic mode. */
 #define _POSIX_C_SOURCE 200809L
 #include <inttypes.h>
 #include <stdio.h>
@@ -22,16 +22,16 @@ typedef struct Run {
     const HdSceneFile *file;
     HdFrameList frames;
     HdOutputPlan outputs;
-    bool is_classic; /* standard output has a line for each frame, else the names of the outputs */
+    bool is_classic; /* standard output has a line for each frame, otherwise the outputs */
     HdResume resume;
     HdConsole console;
-    HdStatistics statistics; /* stream NULL: not wanted */
+    HdStatistics statistics; /* stream NULL: not requested */
     HdDeviceTeam team;
     HdWatch watch;
-    char lines[HD_MAX_WORKERS][HD_RENDERER_LINE]; /* of each renderer that got the scene */
+    char lines[HD_MAX_WORKERS][HD_RENDERER_LINE]; /* description of each renderer with the scene */
 } Run;
 
-/* ---- while frames are rendered ---- */
+/* ---- reports of frames ---- */
 
 static void scene_uploaded(void *context, int number, const HdSceneTables *tables) {
     Run *run = context;
@@ -45,7 +45,7 @@ static void device_dropped(void *context, int number, const HdError *error) {
     hd_console_report_loss(&run->console, &run->team.list[number].device, error->message);
 }
 
-/* From the camera to the pixels in memory. */
+/* Covers the work from the camera to the pixels in memory. */
 static HdStatus print_frame_line(const HdStoredFrame *stored, HdError *error) {
     const HdFrameTimes *times = &stored->times;
     double seconds = times->prepare.seconds + times->trace.seconds + times->copy.seconds;
@@ -73,10 +73,10 @@ static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError
     return status;
 }
 
-/* ---- from the devices to the last frame ---- */
+/* ---- the run ---- */
 
 static HdStatus open_devices(Run *run, const HdDevicePlan *plan, HdError *error) {
-    HdScene plain = run->file->scene; /* what it owns stays with the other */
+    HdScene plain = run->file->scene; /* `file` keeps ownership */
     HdRenderOptions render = plan->render;
     const HdFrameList *missing = &run->resume.missing;
     const HdJob job = {
@@ -119,7 +119,7 @@ static HdStatus render_sequence(Run *run, HdError *error) {
     return status;
 }
 
-/* A device that cannot be used leaves the statistics of an earlier run alone. */
+/* A device that cannot be used leaves the statistics of an earlier run unchanged. */
 static HdStatus render_missing(Run *run, const HdDevicePlan *devices, HdError *error) {
     HdStatus status = run->resume.missing.count > 0 ? open_devices(run, devices, error) : HD_OK;
     if (status == HD_OK)
@@ -131,9 +131,9 @@ static HdStatus render_missing(Run *run, const HdDevicePlan *devices, HdError *e
     return status;
 }
 
-/* ---- what is to be rendered ---- */
+/* ---- outputs ---- */
 
-/* Where standard output has the statistics, it has nothing else. */
+/* Statistics on standard output exclude all other text there. */
 static HdStatus print_names(const Run *run, HdError *error) {
     const HdFrameList *frames = &run->frames;
     char file[HD_MAX_PATH];
@@ -146,8 +146,8 @@ static HdStatus print_names(const Run *run, HdError *error) {
     return HD_OK;
 }
 
-/* The outputs of the plan, else the scene's, else a name that suits the number of frames. What fast
-   arithmetic makes is not the same everywhere, and has no fingerprint. */
+/* Chooses the outputs of the plan, otherwise the scene's, otherwise a name that suits the number of
+   frames. Fast arithmetic gives no fingerprint, since its results differ between machines. */
 static HdStatus settle(Run *run, const HdOptions *options, HdError *error) {
     const HdStorePlan *store = &options->store;
     const HdRenderOptions *render = &options->devices.render;
@@ -182,17 +182,17 @@ static void explain_darkness(const Run *run) {
     hd_problems_print(&notes, stderr, "hedron", ": ");
 }
 
-/* Names of folders are nobody else's matter, and differ between machines: pictures tell the last
-   part of the scene's name. */
+/* Pictures store the last part of the scene's name: folders are private and differ between
+   machines. */
 static HdStatus render_frames(Run *run, const HdOptions *options, HdError *error) {
     const char *name = hd_scene_name(options->scene.path), *slash = strrchr(name, '/');
-    char told[HD_MAX_PATH];
+    char escaped[HD_MAX_PATH];
     HdStatus status = settle(run, options, error);
     if (status != HD_OK)
         return status;
     hd_console_report_run(&run->console, name, &run->file->scene, &run->outputs, run->frames.count);
-    hd_escape(slash != NULL ? slash + 1 : name, told, sizeof told);
-    run->outputs.scene = told;
+    hd_escape(slash != NULL ? slash + 1 : name, escaped, sizeof escaped);
+    run->outputs.scene = escaped;
     status = hd_resume_find(&run->resume, &run->outputs, &run->frames, error);
     if (status == HD_OK) {
         hd_console_start(&run->console, &run->resume);

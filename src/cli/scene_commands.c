@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The commands about files of scenes: check, convert, new. */
+/* Runs the commands about scene files: check, convert, new. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
 #include <inttypes.h>
@@ -19,7 +19,7 @@
 
 /* ---- check ---- */
 
-/* The lines of a text, each without what it is indented by. */
+/* Lists the lines of a text without their indentation. */
 static json_t *list_lines(const char *text) {
     char line[sizeof((HdError *)NULL)->message];
     json_t *list = json_array();
@@ -34,7 +34,7 @@ static json_t *list_lines(const char *text) {
     return list;
 }
 
-/* A message is "NAME: what is wrong", or "NAME: 3 problems" and a line for each. */
+/* Parses a message of the form "NAME: what is wrong", or "NAME: 3 problems" and a line for each. */
 static json_t *list_problems(const char *message, const char *name) {
     const char *several = strchr(message, '\n');
     if (several != NULL)
@@ -44,21 +44,21 @@ static json_t *list_problems(const char *message, const char *name) {
     return list_lines(message);
 }
 
-/* NULL where there is no memory. */
+/* Returns NULL if out of memory. */
 static json_t *describe_scene(const char *name, HdStatus status, const HdProblems *notes,
                               const HdScene *scene, const HdError *error) {
     json_t *problems = status == HD_OK ? json_array() : list_problems(error->message, name);
-    json_t *told =
+    json_t *described =
         json_pack("{s:o, s:b, s:o, s:o}", "scene", hd_json_device_text(name), "fine",
                   status == HD_OK, "problems", problems, "notes", list_lines(notes->text));
-    if (status != HD_OK || told == NULL)
-        return told;
+    if (status != HD_OK || described == NULL)
+        return described;
     json_t *counts =
         json_pack("{s:i, s:i, s:I, s:i, s:i}", "solids", scene->solid_count, "meshes",
                   scene->instance_count, "triangles", (json_int_t)hd_scene_triangle_count(scene),
                   "lights", hd_scene_light_count(scene), "frames", scene->frame_count);
-    json_object_update_new(told, counts);
-    return told;
+    json_object_update_new(described, counts);
+    return described;
 }
 
 static void print_fine(const char *name, const HdScene *scene, const HdProblems *notes) {
@@ -73,7 +73,7 @@ static void print_fine(const char *name, const HdScene *scene, const HdProblems 
     hd_problems_print(notes, stdout, name, ": note: ");
 }
 
-/* Prints what it finds, or appends it to the list where there is one. */
+/* Prints the result, or appends it to the list, if given. */
 static HdStatus check_scene(const char *operand, json_t **list, HdError *error) {
     HdProblems notes = {.count = 0};
     const HdSceneSource source = {
@@ -92,7 +92,7 @@ static HdStatus check_scene(const char *operand, json_t **list, HdError *error) 
     return status;
 }
 
-/* Of several scenes each has its message; the last one, which the program prints, counts them. */
+/* Each scene has its own message; the last one, which the program prints, counts them. */
 static HdStatus check_scenes(const HdOptions *options, json_t **list, HdError *error) {
     HdStatus worst = HD_OK;
     int wrong = 0;
@@ -124,7 +124,7 @@ HdStatus hd_command_check(const HdOptions *options, HdError *error) {
     json_t *list = json_array();
     const HdStatus status = check_scenes(options, &list, error);
     const HdStatus printed =
-        hd_json_print(json_pack("{s:o}", "scenes", list), "what is told of the scenes", &unprinted);
+        hd_json_print(json_pack("{s:o}", "scenes", list), "the report on the scenes", &unprinted);
     if (printed != HD_OK)
         *error = unprinted;
     return printed == HD_OK ? status : printed;
@@ -132,22 +132,23 @@ HdStatus hd_command_check(const HdOptions *options, HdError *error) {
 
 /* ---- convert ---- */
 
-/* A scene's texture counts from the scene's folder, that of a classic input from the current one.
-   Where the two differ, the name gets the current folder in front. */
+/* A scene's texture is relative to the scene's folder, that of a classic input to the current one.
+   If the two differ, the name gets the current folder as a prefix. */
 static HdStatus keep_texture(HdSceneFile *file, const char *output, HdError *error) {
     char folder[HD_MAX_PATH], name[HD_MAX_PATH];
     memcpy(name, file->texture_path, sizeof name);
     if (output == NULL || strchr(output, '/') == NULL || !hd_texture_path_is_relative(name))
         return HD_OK;
     if (getcwd(folder, sizeof folder) == NULL)
-        return hd_fail(error, HD_FAILED, "cannot tell the current folder: %s", strerror(errno));
+        return hd_fail(error, HD_FAILED, "cannot determine the current folder: %s",
+                       strerror(errno));
     if (snprintf(file->texture_path, sizeof file->texture_path, "%s/%s", folder, name) >=
         (int)sizeof file->texture_path)
-        return hd_fail(error, HD_BAD_INPUT, "the path of the texture %s gets too long", name);
+        return hd_fail(error, HD_BAD_INPUT, "the path of the texture %s is too long", name);
     return HD_OK;
 }
 
-/* The classic mode writes any other name in the data format; a scene says it by the ending. */
+/* The classic mode writes any other name in the data format; a scene selects it by the ending. */
 static HdStatus keep_output(HdSceneFile *file, HdError *error) {
     static const char ending[] = ".data";
     char *path = file->output.path;
@@ -190,13 +191,13 @@ HdStatus hd_command_convert(const HdOptions *options, HdError *error) {
 
 /* ---- new ---- */
 
-/* Where the file can be written at all, it is new and whole, or it is taken away again. */
+/* Leaves a new and whole file, or removes it on failure. */
 static HdStatus write_new(const char *path, HdError *error) {
     size_t size;
     const char *text = hd_starter_scene_text(&size);
     FILE *out = fopen(path, "wbx");
     if (out == NULL && errno == EEXIST)
-        return hd_fail(error, HD_BAD_INPUT, "%s is there already, expected a new name", path);
+        return hd_fail(error, HD_BAD_INPUT, "%s exists already, expected a new name", path);
     if (out == NULL)
         return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(errno));
     const bool is_written = fwrite(text, 1, size, out) == size && fflush(out) == 0;

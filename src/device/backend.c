@@ -30,8 +30,8 @@ bool hd_pipeline_is_wavefront(HdPipeline pipeline) {
     return pipeline == HD_PIPELINE_WAVEFRONT || pipeline == HD_PIPELINE_WAVEFRONT_UNCOMPACTED;
 }
 
-static bool is_within(double number, double least, double most) {
-    return number == 0.0 || (number >= least && number <= most);
+static bool is_within(double number, double min, double max) {
+    return number == 0.0 || (number >= min && number <= max);
 }
 
 bool hd_render_options_are_possible(const HdRenderOptions *options) {
@@ -45,11 +45,11 @@ bool hd_render_options_are_possible(const HdRenderOptions *options) {
            options->pipeline < HD_PIPELINE_COUNT;
 }
 
-static const char *lanes_there_are(int most) {
-    if (most == 1)
+static const char *list_lanes(int max) {
+    if (max == 1)
         return "the processor has registers for 1 lane in this precision";
-    return most == 4 ? "the processor has registers for 1 or 4 lanes in this precision"
-                     : "the processor has registers for 1, 4 or 8 lanes in this precision";
+    return max == 4 ? "the processor has registers for 1 or 4 lanes in this precision"
+                    : "the processor has registers for 1, 4 or 8 lanes in this precision";
 }
 
 const char *hd_device_unsupported_reason(const HdDevice *device, const HdRenderOptions *options) {
@@ -58,22 +58,21 @@ const char *hd_device_unsupported_reason(const HdDevice *device, const HdRenderO
     if (options->math == HD_MATH_STRICT && device->not_strict[0] != '\0')
         return device->not_strict;
     if (options->precision == HD_PRECISION_DOUBLE && !device->has_double)
-        return "the device has no double precision; --precision float would take it";
+        return "the device has no double precision; --precision float would work";
     bool has_groups = !device->is_cpu || options->test.groups;
     if (options->lanes > 1 && has_groups)
         return "several lanes need a CPU";
     int max_lanes = device->max_lanes[options->precision];
     if (max_lanes > 0 && options->lanes > max_lanes)
-        return lanes_there_are(max_lanes);
+        return list_lanes(max_lanes);
     if (has_groups && !device->has_wide_atomics &&
         hd_pipeline_is_wavefront(hd_choose_pipeline(device, options, NULL)))
         return "the wavefront pipeline needs 64-bit integer atomics, which the device lacks; "
-               "--pipeline mega would take it";
+               "--pipeline mega would work";
     return NULL;
 }
 
-/* So many lights that no distance ends: from here on full packets are worth the way through a
- * queue. */
+/* Number of lights without a distance limit from which on full packets outweigh a queue. */
 enum { MANY_LIGHTS = 100 };
 
 double hd_longest_launch(const HdDevice *device, const HdRenderOptions *options) {
@@ -98,15 +97,14 @@ HdPipeline hd_choose_pipeline(const HdDevice *device, const HdRenderOptions *opt
     return is_wavefront ? HD_PIPELINE_WAVEFRONT : HD_PIPELINE_MEGA;
 }
 
-static const char sentence[] =
-    "the device is lost to this program (reset, stopped by the system after too long a kernel, out "
-    "of order or taken away); the system's log may tell why, and --device and --backend choose "
-    "another";
+static const char lost_message[] =
+    "the device is lost to this program (reset, stopped by the system after too long a kernel, "
+    "broken or removed); the system's log may say why, and --device and --backend choose another";
 
 HdStatus hd_fail_lost(HdError *error, const char *what) {
-    return hd_fail(error, HD_UNAVAILABLE, "%s: %s", what, sentence);
+    return hd_fail(error, HD_UNAVAILABLE, "%s: %s", what, lost_message);
 }
 
 bool hd_is_loss(const HdError *error) {
-    return error->status == HD_UNAVAILABLE && strstr(error->message, sentence) != NULL;
+    return error->status == HD_UNAVAILABLE && strstr(error->message, lost_message) != NULL;
 }

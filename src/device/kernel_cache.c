@@ -23,13 +23,13 @@ typedef struct Head {
     char maker[sizeof((HdKernelCache *)0)->maker];
 } Head;
 
-/* What an entry, or a note, says of the kernels' test. */
+/* Returns the state of the kernels' test, for entries and notes. */
 static const char *stamp_of(const HdKernelCache *cache) {
     return cache->shape.math == HD_MATH_STRICT ? "passed the self-test"
-                                               : "not tested, for the arithmetic is fast";
+                                               : "not tested, since the arithmetic is fast";
 }
 
-/* Turns an entry into its binary, at the front of the same memory. */
+/* Turns an entry into its binary, in place. */
 static bool open_entry(HdKernelCache *cache, unsigned char *entry, size_t *size) {
     Head head;
     if (*size <= sizeof head)
@@ -58,7 +58,7 @@ static HdStatus store_binary(const HdKernelCache *cache, const unsigned char *bi
     return status;
 }
 
-/* A driver may have to work for it, so that it is not asked where there is no folder. */
+/* Without a folder, spares the driver the work of making a binary. */
 static HdStatus store(const HdKernelCache *cache, HdError *error) {
     char folder[HD_MAX_PATH];
     size_t size = 0;
@@ -66,7 +66,7 @@ static HdStatus store(const HdKernelCache *cache, HdError *error) {
     unsigned char *binary = cache->key[0] != '\0' ? cache->read(cache->context, &size) : NULL;
     HdStatus status = binary != NULL && size > 0
                           ? store_binary(cache, binary, size, error)
-                          : hd_fail(error, HD_UNAVAILABLE, "the driver does not hand them out");
+                          : hd_fail(error, HD_UNAVAILABLE, "the driver does not provide them");
     free(binary);
     return status;
 }
@@ -75,9 +75,9 @@ static void add_note(HdKernelCache *cache, const char *text) {
     hd_add_text(cache->note, sizeof cache->note, "; ", "%s", text);
 }
 
-/* ---- finding and keeping ---- */
+/* ---- search and storage ---- */
 
-/* False, and no key, where there is no room for all of it. */
+/* Fails, and empties the key, if the key is too long. */
 static bool write_key(HdKernelCache *cache, const void *source, size_t source_size,
                       const char *options, const char *driver) {
     int length =
@@ -145,7 +145,7 @@ void hd_kernel_cache_accept(HdKernelCache *cache) {
         add_note(cache, error.message);
 }
 
-/* ---- the arithmetic of devices: one of these, or a word and what is wrong ---- */
+/* ---- arithmetic of devices: one of these texts, or `wrong` and the difference ---- */
 
 enum { KEY_LENGTH = 1024 };
 

@@ -71,8 +71,8 @@ const char *hd_kernel_name(const HdKernelShape *shape, HdKernel kernel) {
     }
 }
 
-/* A bound that scenes of similar size share, so that one build serves them all: the least power of
-   two that is at least 8 and `count`. */
+/* Rounds up to a bound that scenes of similar size share, so that one build serves them all: the
+   least power of two that is at least 8 and `count`. */
 static int bound_for(int count) {
     int bound = 8;
     while (bound < count)
@@ -109,7 +109,7 @@ void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capaci
              needs->plane_bound, needs->depth_bound, needs->refracts ? "with" : "without",
              needs->lit_from_behind ? "faces lit from behind" : "no faces lit from behind",
              needs->node_stack_bound > 0 ? "meshes" : "no meshes",
-             needs->many_lights ? ", many lights" : "", needs->bounded ? ", with surveys" : "");
+             needs->many_lights ? ", many lights" : "", needs->bounded ? ", error bounds" : "");
 }
 
 int hd_kernel_item_count(int width, int height, int pixels_per_item) {

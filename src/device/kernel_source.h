@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The kernels' text, embedded in the program, and how it is specialised. */
+/* Embeds the kernels' text and specialises it. */
 #ifndef HD_DEVICE_KERNEL_SOURCE_H
 #define HD_DEVICE_KERNEL_SOURCE_H
 
@@ -14,64 +14,64 @@ extern const size_t hd_opencl_source_size; /* without the NUL */
 extern const unsigned char hd_cuda_source[];
 extern const size_t hd_cuda_source_size;
 
-/* What a build for one scene can do; what it cannot is not compiled in. */
+/* Features of a build for one scene; others are not compiled in. */
 typedef struct HdKernelNeeds {
-    int plane_bound, depth_bound; /* private arrays are this large */
-    int node_stack_bound;         /* likewise; 0: there are no meshes */
+    int plane_bound, depth_bound; /* sizes of private arrays */
+    int node_stack_bound;         /* likewise; 0: no meshes */
     bool refracts;
     bool lit_from_behind;
-    bool many_lights;  /* so many that one lane may judge those that follow each other together */
-    bool bounded;      /* pixels come with their survey */
-    bool small_tables; /* those of solids fit in constant memory, where a device has it */
+    bool many_lights;  /* enough of them to cull lights by clusters */
+    bool bounded;      /* pixels come with an error bound */
+    bool small_tables; /* the tables of solids fit in constant memory, if the device has it */
 } HdKernelNeeds;
 
-/* What the text is specialised by. */
+/* Properties that the text is specialised by. */
 typedef struct HdKernelShape {
     int lanes;
     int pixels_per_item; /* a divisor of HD_BLOCK_PIXELS */
-    int group_size;      /* most threads of a group that share items; 0: none do */
-    bool wavefront;      /* the kernels of that pipeline, or those of the other one */
-    bool first_hits;     /* a kernel for these is there too */
+    int group_size;      /* threads of a group that share items, at most; 0: none share */
+    bool wavefront;      /* kernels of the wavefront, otherwise of the megakernel */
+    bool first_hits;     /* with the kernel for first hits */
     HdKernelNeeds needs;
     HdPrecision precision;
     HdMath math;
-    int register_limit; /* of a thread on an NVIDIA device; 0: the compiler's own */
+    int register_limit; /* registers of a thread on an NVIDIA device, at most; 0: no limit */
     int ptx_arch;       /* CUDA: PTX for compute_ of that number; 0: the device's machine code */
-    bool is_probe;      /* the kernel of the probe (verify/probe.h) and no others */
-    bool rounds_by_fma; /* division and roots are fused operations: the device's round wrongly */
+    bool is_probe;      /* only the probe's kernel (verify/probe.h) */
+    bool rounds_by_fma; /* division and roots are made of fma: the device rounds its own wrongly */
 } HdKernelShape;
 
-/* The limit for a shape on sm_`nvidia_arch`: `asked`, or, if that is 0, what suits. Left alone,
-   NVIDIA's compilers take so many registers that few threads are in flight. On an H100 128 is best,
-   or 96 for floats with many lights or meshes, spills and all. A block's threads share 65536. */
+/* Returns the register limit for a shape on sm_`nvidia_arch`: `asked`, or an automatic one if 0.
+   Without a limit NVIDIA's compilers use so many registers that few threads are in flight. Best on
+   an H100: 128, or 96 for floats with many lights or meshes. A block's threads share 65536. */
 int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked);
 
 enum { HD_KERNEL_DEFINES_SIZE = 512 };
 
-/* Writes the compiler options " -DHD_LANES=1" and so on. With strict arithmetic -DHD_STRICT=1 is
-   among them, otherwise -DHD_STRICT=0. */
+/* Writes the compiler options " -DHD_LANES=1" and so on, among them -DHD_STRICT=1 for strict
+   arithmetic, otherwise -DHD_STRICT=0. */
 void hd_kernel_defines(const HdKernelShape *shape, char text[HD_KERNEL_DEFINES_SIZE]);
 
 typedef enum HdKernel {
     HD_KERNEL_TRACE,  /* traces rays, or is the probe's */
-    HD_KERNEL_STORE,  /* stores the pixels of a wavefront's batch, where threads work in groups */
-    HD_KERNEL_SUM,    /* adds counts up */
-    HD_KERNEL_ENCODE, /* makes 8 bits of pixels, where threads work in groups */
+    HD_KERNEL_STORE,  /* stores the pixels of a wavefront's batch, if threads work in groups */
+    HD_KERNEL_SUM,    /* sums the counts */
+    HD_KERNEL_ENCODE, /* encodes pixels with 8 bits, if threads work in groups */
     HD_KERNEL_FIRST_HITS,
     HD_KERNEL_COUNT
 } HdKernel;
 
-/* What the kernel is called in the text; NULL: the shape has none. */
+/* Returns the kernel's name in the text, or NULL if the shape lacks it. */
 const char *hd_kernel_name(const HdKernelShape *shape, HdKernel kernel);
 
-/* What a scene needs, its numbers rounded up for scenes of similar size to share a build. */
+/* Returns the needs of a scene, rounded up so that scenes of similar size share a build. */
 HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables);
 bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b);
 
-/* One line for people. */
+/* Writes one line for people. */
 void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capacity);
 
-/* Work items of a frame: blocks of 8 x 8 pixels, partly outside of the picture at its right and
+/* Returns the work items of a frame: blocks of 8 x 8 pixels, which may extend beyond the right and
    lower border, times the items of a block. */
 int hd_kernel_item_count(int width, int height, int pixels_per_item);
 

@@ -10,10 +10,10 @@
 #include "system/interrupt.h"
 #include "tables/table.h"
 
-/* ---- how much work a launch gets ---- */
+/* ---- size of a launch ---- */
 
 enum {
-    THREADS_PER_UNIT = 2048, /* at once, on most devices */
+    THREADS_PER_UNIT = 2048, /* in flight, on most devices */
     MAX_UNITS = 1 << 12,
     MIN_START = 1 << 14,
     START_PER_LEAST = 16,
@@ -22,9 +22,8 @@ enum {
 
 static const double MAX_GROWTH = 2.0, CEILING_GROWTH = 1.25;
 
-/* A launch of less than SMALLER of another's work should be nearer to the time in proportion to its
-   work than to the same time. One that takes longer than ALIKE times the other has dearer pixels.
- */
+/* A launch with less than SMALLER of another's work should be nearer to the proportional time than
+   to the same time. One that takes longer than ALIKE times the other has more expensive pixels. */
 static const double SMALLER = 0.75, ALIKE = 1.1, MIN_SHRINKING = 0.25, TAILS = 1.5;
 static const double TAIL_DECAY = 0.9;
 
@@ -72,8 +71,8 @@ int hd_launch_size_items(const HdLaunchSize *size, int left, int work, int grain
     return hd_min(even, left);
 }
 
-/* Of two launches, the time that does not grow with the work. Sizes that fall little by little are
-   compared with the first of them. */
+/* Estimates from two launches the time that does not grow with the work. Compares slowly decreasing
+   sizes with the first of them. */
 static void look_for_tail(HdLaunchSize *size, double work, double seconds) {
     double before = size->slow_seconds, share = before > 0.0 ? work / size->slow_work : 2.0;
     if (seconds <= size->longest)
@@ -108,7 +107,8 @@ void hd_launch_size_note(HdLaunchSize *size, double work, double seconds) {
 
 enum { MAX_STRIDE = INT_MAX / 4 };
 
-/* Samples whose rays and sums fit, if each had two rays on as many levels as are likely. */
+/* Returns the samples whose rays and sums fit, at two rays each on as many ray depths as are
+   likely. */
 static int batch_samples(const HdWaveNeeds *needs, size_t ray_bytes) {
     size_t places = (size_t)wave_min_capacity(wave_min(needs->depth, WAVE_BATCH_LEVELS), 1);
     size_t fitting = needs->bytes / (places * ray_bytes + WAVE_SUMS * sizeof(int64_t));
@@ -118,7 +118,7 @@ static int batch_samples(const HdWaveNeeds *needs, size_t ray_bytes) {
     return hd_max((int)fitting / needs->samples_at_once, 1) * needs->samples_at_once;
 }
 
-/* The queue's room: two places for each sample and level, as far as they fit. */
+/* Returns the queue's capacity: two places for each sample and ray depth, as far as they fit. */
 static int queue_places(const HdWaveNeeds *needs, int batch, size_t ray_bytes) {
     int least = wave_min_capacity(needs->depth, needs->grain);
     size_t sums = WAVE_SUMS * sizeof(int64_t) * (size_t)batch;
@@ -134,7 +134,7 @@ HdWavePlan hd_wave_plan(const HdWaveNeeds *needs) {
     size_t ray_bytes = WAVE_REALS * real_size + WAVE_INTS * sizeof(int32_t);
     HdWavePlan plan;
     plan.sum_stride = batch_samples(needs, ray_bytes);
-    /* An odd number of packets: a ray's numbers must not all fall into one set of a cache. */
+    /* An odd number of packets, so that a ray's numbers do not all fall into one set of a cache. */
     int packets = (queue_places(needs, plan.sum_stride, ray_bytes) + WAVE_SPARE - 1) / WAVE_SPARE;
     plan.queue_stride = (packets | 1) * WAVE_SPARE;
     plan.bytes[0] = real_size * (WAVE_REALS * (size_t)plan.queue_stride + WAVE_SPARE);
@@ -160,7 +160,7 @@ int hd_wave_groups(const HdWavePlan *plan, int group_size, int grid) {
     return hd_min((threads + group_size - 1) / group_size, grid > 0 ? grid : (int)MAX_GROUPS);
 }
 
-/* None, where all items had theirs. */
+/* The batch is empty after the last item. */
 static void begin_batch(HdWaveRun *run) {
     HdWaveStep *step = &run->step;
     step->first_item += step->item_count;
@@ -185,7 +185,7 @@ HdStatus hd_wave_next(HdWaveRun *run, unsigned taken, const HdLaunchSize *size, 
     if (step->action != HD_WAVE_TRACES)
         return HD_OK;
     if (hd_interrupt_signal() != 0)
-        return hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
+        return hd_fail(error, HD_INTERRUPTED, "interrupted during a frame");
     int limit = hd_launch_size_items(size, run->stack[run->top].waiting, 1, run->grain);
     step->chunk = wave_take_chunk(run->stack, &run->top, run->depth, run->plan->queue_stride,
                                   run->grain, limit);

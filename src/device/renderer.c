@@ -10,14 +10,14 @@
 
 struct HdRenderer {
     const HdBackend *backend;
-    void *state; /* of the backend */
+    void *state; /* the backend's renderer */
     HdDevice device;
     HdRenderOptions options;
     bool has_scene;
     bool has_failed;
-    double longest_launch; /* seconds; negative: none is known */
+    double longest_launch; /* seconds; negative: unknown */
     int in_flight;
-    const HdFrameTables *flights[HD_FRAMES_IN_FLIGHT]; /* the oldest first */
+    const HdFrameTables *frames[HD_FRAMES_IN_FLIGHT]; /* the oldest first */
 };
 
 HdStatus hd_renderer_fail(HdRenderer *renderer, HdStatus status, HdError *error) {
@@ -86,7 +86,7 @@ HdStatus hd_renderer_compute(HdRenderer *renderer, const HdProbeBatch *batch,
     return hd_renderer_fail(renderer, status, error);
 }
 
-/* Must hold for `what` to be done: tables as the renderer needs them, and few enough frames. */
+/* Checks the precision of the tables and the number of frames in flight before `what` is done. */
 static HdStatus check_use(const HdRenderer *renderer, const char *what, HdPrecision precision,
                           int max_in_flight, HdError *error) {
     if (precision != renderer->options.precision)
@@ -108,7 +108,7 @@ HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, H
     return hd_renderer_fail(renderer, status, error);
 }
 
-/* Kernels count work items and the values of a picture in int, whole blocks at a time. */
+/* Kernels count work items and a picture's values in int, in whole blocks. */
 static HdStatus check_size(int width, int height, HdError *error) {
     int64_t columns = (width + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
     int64_t rows = (height + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
@@ -123,10 +123,10 @@ static HdStatus check_size(int width, int height, HdError *error) {
 static HdStatus check_frame_tables(const HdRenderer *renderer, const HdFrameTables *tables,
                                    HdError *error) {
     if (!renderer->has_scene)
-        return hd_fail(error, HD_BAD_INPUT, "a frame was asked for before a scene was uploaded");
+        return hd_fail(error, HD_BAD_INPUT, "a frame was requested before a scene was uploaded");
     const HdKernelCache *kernels = hd_renderer_kernels(renderer);
     if (kernels != NULL && kernels->is_untested && !kernels->is_on_trial)
-        return hd_fail(error, HD_BAD_INPUT, "a frame was asked for by kernels that are not tested");
+        return hd_fail(error, HD_BAD_INPUT, "a frame was requested with untested kernels");
     return check_size(tables->width, tables->height, error);
 }
 
@@ -136,7 +136,7 @@ HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
     HD_TRY(check_use(renderer, "frame", tables->precision, HD_FRAMES_IN_FLIGHT - 1, error));
     HdStatus status = renderer->backend->functions->submit(renderer->state, tables, request, error);
     if (status == HD_OK)
-        renderer->flights[renderer->in_flight++] = tables;
+        renderer->frames[renderer->in_flight++] = tables;
     return hd_renderer_fail(renderer, status, error);
 }
 
@@ -147,7 +147,7 @@ double hd_renderer_take_longest_launch(HdRenderer *renderer) {
 }
 
 HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *error) {
-    const HdFrameTables *tables = renderer->flights[0];
+    const HdFrameTables *tables = renderer->frames[0];
     if (renderer->in_flight == 0)
         return hd_fail(error, HD_BAD_INPUT, "a frame was collected and none was in flight");
     if (frame->floats != tables->floats || frame->width != tables->width ||
@@ -160,7 +160,7 @@ HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *erro
         renderer->longest_launch = frame->longest_launch;
     renderer->in_flight--;
     for (int i = 0; i < renderer->in_flight; i++)
-        renderer->flights[i] = renderer->flights[i + 1];
+        renderer->frames[i] = renderer->frames[i + 1];
     return hd_renderer_fail(renderer, status, error);
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The program 'hedron': its commands. */
+/* Runs the commands of the program 'hedron'. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
 #include <stdio.h>
@@ -10,10 +10,10 @@
 #include "cli/options.h"
 #include "system/path.h"
 
-static char **original_arguments; /* as parsing them changes their order; owned, NULL ends them */
+static char **original_arguments; /* copy in the original order; owned, ends with NULL */
 
-/* Becomes hedron-view, with the same arguments; it is looked for beside this program, then in PATH.
-   Returns only where that fails. */
+/* Becomes hedron-view with the same arguments, from this program's folder or from PATH. Returns
+   only if that fails. */
 static HdStatus view(const HdOptions *options, HdError *error) {
     static const char program[] = "hedron-view";
     char folder[HD_MAX_PATH], path[HD_MAX_PATH + sizeof program + 1];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The program 'hedron-view', which 'hedron view' starts with its own arguments: the view in a
-   window or a terminal. It is a program of its own, so that nothing else needs SDL and chafa. */
+/* Runs the program 'hedron-view', the view in a window or a terminal, which 'hedron view' starts
+   with its own arguments. A separate program, so that nothing else needs SDL and chafa. */
 #include <string.h>
 
 #include "cli/options.h"
@@ -8,7 +8,7 @@
 
 static HdStatus run(const HdOptions *options, HdError *error) {
     if (options->command != HD_COMMAND_VIEW)
-        return hd_fail(error, HD_BAD_INPUT, "'hedron-view' is what 'hedron view' starts");
+        return hd_fail(error, HD_BAD_INPUT, "expected 'hedron view', which starts hedron-view");
     if (options->scene.path != NULL && strcmp(options->scene.path, "-") == 0)
         return hd_fail(error, HD_BAD_INPUT,
                        "'hedron view' needs a scene's file, which it reads again when it changes, "
@@ -23,10 +23,9 @@ static HdStatus run(const HdOptions *options, HdError *error) {
 #endif
     return hd_fail(error, HD_UNAVAILABLE,
                    options->terminal
-                       ? "hedron-view was built without chafa (libchafa-dev), so that it has no "
-                         "--terminal"
-                       : "hedron-view was built without SDL 2 (libsdl2-dev), so that it has no "
-                         "window; 'hedron view --terminal' shows the scene in a terminal");
+                       ? "hedron-view was built without chafa (libchafa-dev), and has no --terminal"
+                       : "hedron-view was built without SDL 2 (libsdl2-dev), and has no window; "
+                         "'hedron view --terminal' shows the scene in a terminal");
 }
 
 int main(int count, char **arguments) {

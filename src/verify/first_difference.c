@@ -14,18 +14,18 @@ enum { AS_IT_IS = -1, NOWHERE = -1 };
 typedef struct Search {
     const HdMismatch *mismatch;
     HdRenderer *renderers[SIDES];
-    HdFrame frames[SIDES]; /* of the last comparison, free where there was none */
-    int depth, side;       /* of the scene as it is: levels of rays, samples per side */
+    HdFrame frames[SIDES]; /* of the last comparison; empty before the first */
+    int depth, side;       /* of the original scene: ray depth, samples per side */
     bool is_bounded;
 } Search;
 
 /* ---- both sides ---- */
 
-/* Nobody but the search looks at what comes of these kernels. */
+/* The pictures of these kernels serve only the search, so that untested ones may render. */
 static HdStatus open_side(Search *search, int side, const HdDevice *device,
                           const HdRenderOptions *options, HdError *error) {
     HdDevice wrong = *device;
-    wrong.not_strict[0] = '\0'; /* as it is known to be */
+    wrong.not_strict[0] = '\0'; /* the device's arithmetic is known to be wrong */
     HdStatus status = hd_renderer_open(&search->renderers[side], &wrong, options, error);
     if (status == HD_OK)
         hd_put_on_trial(search->renderers[side]);
@@ -49,7 +49,7 @@ static void forget_frames(Search *search) {
 
 /* ---- the comparison ---- */
 
-/* Each sample of a grid becomes a pixel of its own. */
+/* Splits each sample of a grid into a pixel. */
 static void split_samples(HdScene *scene) {
     int side = scene->samples_per_side;
     HdCrop *crop = &scene->crop;
@@ -91,8 +91,8 @@ static uint32_t bits_of(float value) {
     return bits;
 }
 
-/* The number of the first value that differs in the last comparison, row by row, bit by bit: a NaN
-   is the same as itself. */
+/* Returns the index of the first value that differs in the last comparison, row by row, bit by bit:
+   a NaN equals itself. */
 static int first_value(const Search *search) {
     const HdFrame *found = &search->frames[DEVICE], *expected = &search->frames[PLAIN_C];
     for (int i = 0; i < found->width * found->height * found->floats; i++)
@@ -101,7 +101,7 @@ static int first_value(const Search *search) {
     return NOWHERE;
 }
 
-/* ---- in words ---- */
+/* ---- report ---- */
 
 static void report_counts(const Search *search, char *text, size_t capacity) {
     const HdFrame *found = &search->frames[DEVICE], *expected = &search->frames[PLAIN_C];
@@ -119,7 +119,8 @@ static void report_counts(const Search *search, char *text, size_t capacity) {
              counts[i].what, counts[i].found, counts[i].expected);
 }
 
-static void tell(const Search *search, int depth, bool is_split, char *text, size_t capacity) {
+static void describe_value(const Search *search, int depth, bool is_split, char *text,
+                           size_t capacity) {
     static const char *const channels[] = {"red", "green", "blue", "the bound"};
     const HdFrame *found = &search->frames[DEVICE], *expected = &search->frames[PLAIN_C];
     char sample[80] = "";
@@ -141,12 +142,12 @@ static void tell(const Search *search, int depth, bool is_split, char *text, siz
              (double)expected->rgb[value]);
 }
 
-/* ---- all of it ---- */
+/* ---- search ---- */
 
 static HdStatus search_frame(Search *search, char *text, size_t capacity, HdError *error) {
     bool differs, is_split = false;
     int depth = 0;
-    snprintf(text, capacity, "asked again it renders as plain C does");
+    snprintf(text, capacity, "a second rendering equals that of plain C");
     HdStatus status = compare(search, AS_IT_IS, false, &differs, error);
     if (status != HD_OK || !differs)
         return status;
@@ -160,9 +161,9 @@ static HdStatus search_frame(Search *search, char *text, size_t capacity, HdErro
             status = compare(search, depth, false, &differs, error);
     }
     if (status == HD_OK && differs)
-        tell(search, depth, is_split, text, capacity);
+        describe_value(search, depth, is_split, text, capacity);
     else if (status == HD_OK)
-        snprintf(text, capacity, "the same frame differs one time and not another");
+        snprintf(text, capacity, "the same frame differs in some renderings only");
     return status;
 }
 
@@ -173,7 +174,7 @@ HdStatus hd_first_difference(const HdMismatch *mismatch, char *text, size_t capa
     if (status == HD_OK)
         status = search_frame(&search, text, capacity, error);
     if (status != HD_OK)
-        snprintf(text, capacity, "where it differs could not be found out: %s", error->message);
+        snprintf(text, capacity, "the search for the difference failed: %s", error->message);
     forget_frames(&search);
     for (int side = 0; side < SIDES; side++)
         hd_renderer_close(search.renderers[side]);

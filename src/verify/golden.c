@@ -8,7 +8,7 @@
 #include "scene/triangulate.h"
 #include "verify/scene_builder.h"
 
-/* Made by the build from tests/golden/frames.txt. */
+/* Made at build time from tests/golden/frames.txt. */
 extern const unsigned char hd_golden_hashes[];
 
 const HdSceneTables hd_golden_needs = {.plane_count = 32,
@@ -53,8 +53,8 @@ static bool three_textured(HdScene *scene, HdCamera *camera, double spacing) {
     return three_solids(scene, camera, spacing) && build_texture(&scene->floor.texture, 24, 24);
 }
 
-/* Exactly on the face x = 1 of a hexahedron with half-integer centre and edge 2, looking along it
-   and inwards at once. */
+/* The eye lies exactly on the face x = 1 of a hexahedron with half-integer centre and edge 2, and
+   looks along and into it. */
 static bool eye_on_face(HdScene *scene, HdCamera *camera, double variant) {
     (void)variant;
     if (!build_scene(scene, 64, 48, 1, 6, 1, 2))
@@ -67,8 +67,8 @@ static bool eye_on_face(HdScene *scene, HdCamera *camera, double variant) {
     return true;
 }
 
-/* The middle of the picture is a vertex, and its middle row and column run along edges: odd sizes
-   put sample rays exactly there. */
+/* The picture's centre is a vertex, and its middle row and column run along edges: odd sizes put
+   sample rays exactly there. */
 static bool edges_and_corners(HdScene *scene, HdCamera *camera, double variant) {
     (void)variant;
     if (!build_scene(scene, 65, 65, 1, 8, 2, 2))
@@ -139,13 +139,13 @@ static void glass_cube(HdScene *scene) {
     refract(&scene->solids[0], 1.5, 0.1, 0.85);
 }
 
-/* Most of what is seen was reflected totally. */
+/* Most of the picture is total reflection. */
 static void dense_glass(HdScene *scene) {
     glass_cube(scene);
     refract(&scene->solids[0], 2.4, 0.15, 0.8);
 }
 
-/* An index below 1, as air has in water: total reflection on the outer side. */
+/* An index below 1, as of air in water: total reflection on the outer side. */
 static void bubble(HdScene *scene) {
     scene->solids[0].face.colour = hd_vec3(1.0, 1.0, 1.0);
     scene->solids[0].lights.per_edge = 0;
@@ -161,7 +161,7 @@ static void glass_dodecahedron(HdScene *scene) {
     refract(&scene->solids[0], 1.33, 0.08, 0.9);
 }
 
-/* Mirrors from outside and nearly clear from within. */
+/* Mirrors outside and nearly clear inside. */
 static void inner_sides(HdScene *scene) {
     for (int s = 0; s < 3; s++) {
         HdMaterial *face = &scene->solids[s].face;
@@ -199,8 +199,7 @@ static void ending_lights(HdScene *scene) {
         scene->lights[i].falloff = (HdFalloff){.end = 1.0 + 1.2 * i};
 }
 
-/* Many lights on each edge, which threads with one ray judge together: of some points all are too
-   far away, of others some. */
+/* Many lights on each edge, culled by clusters: some points are too far from all or some. */
 static void runs_of_lights(HdScene *scene) {
     for (int s = 0; s < 3; s++) {
         colour_edges(&scene->solids[s]);
@@ -246,7 +245,7 @@ static void everything(HdScene *scene) {
 
 /* ---- meshes: few planes, a depth of at most 8 ---- */
 
-/* Curved mirrors of coloured glass beside a solid: a smooth one and a flat one. */
+/* Curved mirrors of coloured glass next to a solid: a smooth one and a flat one. */
 static bool bumpy_sphere(HdScene *scene, HdCamera *camera, double variant) {
     (void)variant;
     HdMaterial red = build_material(hd_vec3(0.95, 0.5, 0.3), 0.5, 0.4);
@@ -267,8 +266,8 @@ static bool bumpy_sphere(HdScene *scene, HdCamera *camera, double variant) {
     return finish_meshes(scene);
 }
 
-/* Enough for a hierarchy over them: textured, of several materials, some with one of their own, one
-   stretched, three that overlap. */
+/* Enough instances for a hierarchy over them: textured, of several materials, some with one of
+   their own, one stretched, three that overlap. */
 static bool many_instances(HdScene *scene, HdCamera *camera, double variant) {
     (void)variant;
     HdMaterial blue = build_material(hd_vec3(0.4, 0.6, 1.0), 0.4, 0.5);
@@ -296,7 +295,7 @@ static bool many_instances(HdScene *scene, HdCamera *camera, double variant) {
     return finish_meshes(scene);
 }
 
-/* What the classic scenes look like, all of it triangles: rims, discs, lights on edges, a floor. */
+/* The look of the classic scenes, made of triangles: rims, discs, lights on edges, a floor. */
 static bool triangulated_solids(HdScene *scene, HdCamera *camera, double variant) {
     (void)variant;
     HdError error;
@@ -312,8 +311,8 @@ static bool triangulated_solids(HdScene *scene, HdCamera *camera, double variant
     return hd_scene_triangulate(scene, 8, 1, &error) == HD_OK;
 }
 
-/* Rays that run exactly through edges and corners, from outside and from inside; the one frame that
-   tries every triangle. */
+/* Rays run exactly through edges and corners, from outside and from inside; the only frame that
+   tests every triangle. */
 static bool mesh_edges_and_corners(HdScene *scene, HdCamera *camera, double variant) {
     (void)variant;
     HdMaterial clear = build_material(hd_vec3(0.9, 0.8, 1.0), 0.3, 0.6);
@@ -331,7 +330,7 @@ static bool mesh_edges_and_corners(HdScene *scene, HdCamera *camera, double vari
     return finish_meshes(scene);
 }
 
-/* For frames by which kernels prove themselves. */
+/* For frames that test compiled kernels. */
 static void without_refraction(HdScene *scene) {
     for (int i = 0; i < scene->mesh_count; i++)
         scene->meshes[i].materials[0].material.index_of_refraction = 1.0;
@@ -343,10 +342,10 @@ static void paper_instances(HdScene *scene) {
         scene->meshes[i].materials[0].material.lit_from_behind = true;
 }
 
-/* ---- surveyed ---- */
+/* ---- frames with an error bound ---- */
 
-/* Pixels with one sample, with four and with all of them; rays and lights that are left out; passes
-   that are repeated. */
+/* Pixels with one sample, with four and with all; rays and lights that are left out; repeated
+   passes. */
 static void adaptive_and_bounded(HdScene *scene) {
     everything(scene);
     scene->cutoff = 0.0;
@@ -366,10 +365,10 @@ static void crop_of_reference(HdScene *scene) {
     scene->height /= 2;
 }
 
-/* ---- all of them ---- */
+/* ---- the list ---- */
 
 #define SOLID(kind) .base = one_solid, .variant = HD_##kind
-#define APART       .base = three_solids, .variant = 2.4
+#define SEPARATE    .base = three_solids, .variant = 2.4
 #define OVERLAPPING .base = three_solids, .variant = 0.7
 #define TEXTURED    .base = three_textured, .variant = 2.0
 #define SIZE(w, h, samples, levels)                                                                \
@@ -377,49 +376,49 @@ static void crop_of_reference(HdScene *scene) {
 #define FACES(r, t)                  .reflection = (r), .transmission = (t)
 #define VIEW(x, y, z, tx, ty, tz, d) .eye = {x, y, z}, .target = {tx, ty, tz}, .degrees = (d)
 #define IN_FRONT(d)                  VIEW(0.4, -4.5, 1.2, 0.0, 0.0, 0.0, d)
-#define FEW_INSTANCES                .base = many_instances, SIZE(40, 30, 1, 0), .proves = true
+#define FEW_INSTANCES                .base = many_instances, SIZE(40, 30, 1, 0), .tests_build = true
 
 const HdGoldenFrame hd_golden_frames[] = {
     {.name = "tetrahedron", SOLID(TETRAHEDRON)},
-    {.name = "hexahedron", SOLID(HEXAHEDRON), .proves = true},
+    {.name = "hexahedron", SOLID(HEXAHEDRON), .tests_build = true},
     {.name = "octahedron", SOLID(OCTAHEDRON)},
     {.name = "dodecahedron", SOLID(DODECAHEDRON)},
     {.name = "icosahedron", SOLID(ICOSAHEDRON)},
-    {.name = "three-apart", APART},
+    {.name = "three-apart", SEPARATE},
     {.name = "three-overlapping", OVERLAPPING},
-    {.name = "eye-inside", APART, VIEW(2.5, 0.1, 0.2, 0.0, 0.3, 0.0, 80.0)},
+    {.name = "eye-inside", SEPARATE, VIEW(2.5, 0.1, 0.2, 0.0, 0.3, 0.0, 80.0)},
     {.name = "eye-on-face", .base = eye_on_face},
-    {.name = "eye-on-floor-plane", APART, VIEW(0.5, -4.0, -1.5, 0.0, 0.0, -1.5, 70.0)},
+    {.name = "eye-on-floor-plane", SEPARATE, VIEW(0.5, -4.0, -1.5, 0.0, 0.0, -1.5, 70.0)},
     {.name = "edges-and-corners", .base = edges_and_corners},
     {.name = "fifty-edge-lights", .base = fifty_edge_lights},
     {.name = "tilted-floor", SOLID(ICOSAHEDRON), .change = tilted_floor},
     {.name = "trapezoid-floor", SOLID(TETRAHEDRON), .change = trapezoid_floor},
     {.name = "all-of-the-light",
-     APART,
+     SEPARATE,
      SIZE(40, 24, 2, 12),
      FACES(0.7, 0.3),
      .change = white_faces},
-    {.name = "mirror-only", APART, .depth = 20, .reflection = 0.95},
+    {.name = "mirror-only", SEPARATE, .depth = 20, .reflection = 0.95},
     {.name = "glass-only", OVERLAPPING, .depth = 10, .transmission = 0.9},
-    {.name = "one-pixel", APART, SIZE(1, 1, 7, 0)},
-    {.name = "wide-strip", APART, SIZE(1023, 7, 1, 0), IN_FRONT(150.0)},
-    {.name = "right-angle-view", APART, SIZE(80, 48, 3, 0), IN_FRONT(90.0)},
-    {.name = "widest-view", APART, IN_FRONT(178.0)},
-    {.name = "cut-off", APART, .depth = 12, .change = cut_off},
-    {.name = "far-from-origin", APART, .is_far = true},
+    {.name = "one-pixel", SEPARATE, SIZE(1, 1, 7, 0)},
+    {.name = "wide-strip", SEPARATE, SIZE(1023, 7, 1, 0), IN_FRONT(150.0)},
+    {.name = "right-angle-view", SEPARATE, SIZE(80, 48, 3, 0), IN_FRONT(90.0)},
+    {.name = "widest-view", SEPARATE, IN_FRONT(178.0)},
+    {.name = "cut-off", SEPARATE, .depth = 12, .change = cut_off},
+    {.name = "far-from-origin", SEPARATE, .is_far = true},
     {.name = "clamped", SOLID(OCTAHEDRON), .change = clamped},
     {.name = "empty-scene", .base = empty_scene},
     {.name = "inner-sides", OVERLAPPING, FACES(0.7, 0.25), .change = inner_sides},
-    {.name = "coloured-edges", APART, .change = coloured_edges},
+    {.name = "coloured-edges", SEPARATE, .change = coloured_edges},
     {.name = "ending-lights", SOLID(DODECAHEDRON), .change = ending_lights},
-    {.name = "runs-of-lights", APART, SIZE(80, 48, 1, 4), .change = runs_of_lights},
+    {.name = "runs-of-lights", SEPARATE, SIZE(80, 48, 1, 4), .change = runs_of_lights},
     {.name = "glass-cube", SOLID(HEXAHEDRON), .depth = 8, .change = glass_cube},
     {.name = "eye-inside-glass",
      SOLID(HEXAHEDRON),
      SIZE(64, 48, 1, 8),
      VIEW(0.2, 0.1, 0.15, -0.3, 0.9, -0.4, 100.0),
      .change = dense_glass,
-     .proves = true},
+     .tests_build = true},
     {.name = "bubble", SOLID(OCTAHEDRON), .change = bubble},
     {.name = "glass-dodecahedron", SOLID(DODECAHEDRON), .change = glass_dodecahedron},
     {.name = "lanterns", SOLID(ICOSAHEDRON), .change = lanterns},
@@ -427,11 +426,11 @@ const HdGoldenFrame hd_golden_frames[] = {
     {.name = "bumpy-sphere", .base = bumpy_sphere},
     {.name = "many-instances", .base = many_instances},
     {.name = "triangulated-solids", .base = triangulated_solids},
-    {.name = "mesh-edges-and-corners", .base = mesh_edges_and_corners, .proves = true},
+    {.name = "mesh-edges-and-corners", .base = mesh_edges_and_corners, .tests_build = true},
     {.name = "mesh-far-from-origin", .base = bumpy_sphere, .is_far = true},
     {.name = "adaptive-and-bounded", TEXTURED, SIZE(80, 48, 4, 24), .change = adaptive_and_bounded},
     {.name = "crop-of-reference", .base = many_instances, .change = crop_of_reference},
-    {.name = "paper-cube", SOLID(HEXAHEDRON), .change = lanterns, .proves = true},
+    {.name = "paper-cube", SOLID(HEXAHEDRON), .change = lanterns, .tests_build = true},
     {.name = "plain-instances", FEW_INSTANCES, .change = without_refraction},
     {.name = "paper-instances", FEW_INSTANCES, .change = paper_instances},
 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The golden frames: a fixed list of small frames that every device must render to the same bytes,
-   and the hashes of these. */
+/* Golden frames: a fixed list of small frames that every device must render to the same bytes, and
+   their hashes. */
 #ifndef HD_VERIFY_GOLDEN_H
 #define HD_VERIFY_GOLDEN_H
 
@@ -10,42 +10,42 @@
 
 typedef struct HdGoldenFrame {
     const char *name;
-    bool (*base)(HdScene *scene, HdCamera *camera, double variant); /* false: no memory is left */
-    double variant; /* of the base: the kind of its solid, or how far its solids are apart */
+    bool (*base)(HdScene *scene, HdCamera *camera, double variant); /* false: out of memory */
+    double variant; /* argument of the base: kind of its solid, or distance of its solids */
 
-    /* What differs from the base: numbers as a scene's and a camera's, those of 0 do not. */
-    int width, height, samples_per_side; /* all of them, or none */
+    /* Differences from the base: numbers of the scene and the camera; 0 keeps the base's. */
+    int width, height, samples_per_side; /* set together, or not at all */
     int depth;
-    double reflection, transmission; /* of all solids' faces, if one of them is not 0 */
-    HdVec3 eye, target;              /* if there are degrees */
-    double degrees;                  /* of the field of view */
-    bool is_far;                     /* everything, from the origin */
-    void (*change)(HdScene *scene);  /* of the rest, at last; NULL: there is none */
+    double reflection, transmission; /* of all solids' faces, if one is not 0 */
+    HdVec3 eye, target;              /* used if `degrees` is not 0 */
+    double degrees;                  /* field of view */
+    bool is_far;                     /* moves everything away from the origin */
+    void (*change)(HdScene *scene);  /* changes the rest, last; NULL: no change */
 
-    bool proves; /* kernels prove themselves by it if they can render it (trust.h) */
+    bool tests_build; /* tests compiled kernels that can render it (trust.h) */
 } HdGoldenFrame;
 
 extern const HdGoldenFrame hd_golden_frames[];
 extern const int hd_golden_frame_count;
 
-/* What all golden frames need of the kernels, so that devices which compile them do so once. */
+/* Needs of all golden frames together, so that devices that compile kernels do so once. */
 extern const HdSceneTables hd_golden_needs;
 
-/* NULL: none has that name. */
+/* Returns the frame of that name, or NULL. */
 const HdGoldenFrame *hd_golden_find(const char *name);
 
 /* Builds a frame's scene, which the caller frees. */
 HdStatus hd_golden_build(const HdGoldenFrame *frame, HdScene *scene, HdCamera *camera,
                          HdError *error);
 
-/* Of a frame in one precision. */
+/* Hashes of a frame in one precision. */
 typedef struct HdGoldenHashes {
     uint64_t frame;      /* hd_frame_hash */
-    uint64_t first_hits; /* of HdFrame.first, with all that is known of the first hit */
+    uint64_t first_hits; /* of HdFrame.first, with all properties of the first hit */
 } HdGoldenHashes;
 
-/* Reads a frame's hashes from what is committed, a line "NAME FRAME-IN-FLOAT FRAME-IN-DOUBLE
-   FIRST-HITS-IN-FLOAT FIRST-HITS-IN-DOUBLE" for each; false, and 0, where it is not among them. */
+/* Reads a frame's hashes from the list, a line "NAME FRAME-IN-FLOAT FRAME-IN-DOUBLE
+   FIRST-HITS-IN-FLOAT FIRST-HITS-IN-DOUBLE" for each. Returns false, and zeros, for others. */
 bool hd_golden_find_hashes(const char *name, HdPrecision precision, HdGoldenHashes *hashes);
 
 #endif

@@ -15,7 +15,7 @@
 static const char *const number_words[] = {HD_PROBE_NUMBERS(WORDS)};
 static const char *const integer_words[] = {HD_PROBE_INTEGERS(WORDS)};
 
-/* Of a batch, in the larger precision. */
+/* Memory of a batch, in the larger precision. */
 typedef struct Memory {
     double operands[3][HD_PROBE_BATCH];
     int64_t bits[HD_PROBE_BATCH];
@@ -30,7 +30,7 @@ typedef struct Probe {
     HdProbeBatch batch;
     HdProbeResults found, expected;
     HdProbeReport *report;
-    bool only_rounding_differs; /* of divisions and roots */
+    bool only_rounding_differs; /* only divisions and roots differ */
 } Probe;
 
 static Probe probe_in(Memory *memory, HdPrecision precision, HdProbeReport *report) {
@@ -61,13 +61,13 @@ static const char *precision_name(const Probe *probe) {
     return probe->precision == HD_PRECISION_DOUBLE ? "double" : "float";
 }
 
-/* Denormal. */
+/* Returns whether the number is denormal. */
 static bool is_small(const Probe *probe, double a) {
     double min_normal = probe->precision == HD_PRECISION_DOUBLE ? 0x1p-1022 : 0x1p-126;
     return a != 0.0 && fabs(a) < min_normal;
 }
 
-/* ---- what differs ---- */
+/* ---- differences ---- */
 
 static double rounded_twice(const Probe *probe, double a, double b, double c) {
     float product = (float)a * (float)b;
@@ -79,7 +79,7 @@ static double rounded_once(const Probe *probe, double a, double b, double c) {
                                                    : (double)fmaf((float)a, (float)b, (float)c);
 }
 
-/* What a difference looks like, in brackets; "" where it looks like nothing that is known. */
+/* Returns the likely cause of a difference, in brackets; "" if unknown. */
 static const char *guess_cause(const Probe *probe, int primitive, double a, double b, double c,
                                double found, double expected) {
     double first = primitive == HD_PROBE_NUMBER_unfused_from ? -a : a;
@@ -93,11 +93,11 @@ static const char *guess_cause(const Probe *probe, int primitive, double a, doub
     if (is_small(probe, expected) && found == 0.0)
         return " (denormal numbers are flushed to 0)";
     if (is_small(probe, a) || is_small(probe, b) || is_small(probe, c))
-        return " (denormal operands are taken for 0)";
+        return " (denormal operands count as 0)";
     return is_rounded ? " (it is not correctly rounded)" : "";
 }
 
-/* Whether nothing differs so far: then the difference is to be told. */
+/* Returns whether nothing differs so far, so that this difference is the reported one. */
 static bool is_first(const Probe *probe) {
     return probe->report->found.difference[0] == '\0';
 }
@@ -106,8 +106,8 @@ static void compare_number(Probe *probe, int primitive, size_t i) {
     size_t place = (size_t)primitive * (size_t)probe->batch.count + i;
     double found = number_at(probe, probe->found.numbers, place);
     double expected = number_at(probe, probe->expected.numbers, place);
-    double told = isnan(found) ? (double)NAN : found; /* one kind of NaN, so that hashes agree */
-    probe->report->hash = hd_hash_words(probe->report->hash, &told, sizeof told);
+    double hashed = isnan(found) ? (double)NAN : found; /* one kind of NaN, so that hashes agree */
+    probe->report->hash = hd_hash_words(probe->report->hash, &hashed, sizeof hashed);
     if (is_same(found, expected))
         return;
     double a = number_at(probe, probe->batch.operands[0], i);
@@ -139,8 +139,7 @@ static void compare_integer(Probe *probe, int primitive, size_t i) {
                  ", expected %" PRId64 "%s",
                  integer_words[primitive], a, b, (uint64_t)probe->batch.bits[i],
                  precision_name(probe), found, expected,
-                 is_small(probe, a) || is_small(probe, b) ? " (denormal operands are taken for 0)"
-                                                          : "");
+                 is_small(probe, a) || is_small(probe, b) ? " (denormal operands count as 0)" : "");
 }
 
 static void compare_batch(Probe *probe) {
@@ -152,7 +151,7 @@ static void compare_batch(Probe *probe) {
             compare_integer(probe, primitive, (size_t)i);
 }
 
-/* Devices whose threads do not work in groups add nothing. */
+/* Devices without thread groups add nothing. */
 static void compare_sums(Probe *probe) {
     const HdProbeResults *found = &probe->found, *expected = &probe->expected;
     for (int i = 0; i < HD_PROBE_SUMS; i++)
@@ -168,7 +167,7 @@ static void compare_sums(Probe *probe) {
         }
 }
 
-/* ---- probing ---- */
+/* ---- the probe ---- */
 
 static HdStatus run(HdRenderer *renderer, Probe *probe, int tuples, HdError *error) {
     bool is_double = probe->precision == HD_PRECISION_DOUBLE;
@@ -202,7 +201,7 @@ static HdStatus probe_once(HdRenderer *renderer, int tuples, HdProbeReport *repo
     return status;
 }
 
-/* What is still wrong then is told as it was without. */
+/* If an error remains, the report keeps the difference found without fma. */
 static void try_by_fma(HdRenderer *renderer, int tuples, HdProbeReport *report) {
     HdKernelShape *shape = &hd_renderer_kernels(renderer)->shape;
     HdProbeReport healed = {0};

@@ -33,7 +33,7 @@ typedef struct Tuple {
 
 /* ---- numbers ---- */
 
-/* Steele and others' SplitMix: any number of a sequence without those before it. */
+/* SplitMix (Steele and others): any number of a sequence without its predecessors. */
 static uint64_t mix(uint64_t number) {
     number += 0x9e3779b97f4a7c15;
     number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9;
@@ -41,8 +41,8 @@ static uint64_t mix(uint64_t number) {
     return number ^ (number >> 31);
 }
 
-/* Once in an expression: in which order C calls functions there is the compiler's choice, and the
-   operands are the same everywhere. */
+/* May occur once in an expression: C leaves the order of calls open, and the operands must be the
+   same everywhere. */
 static uint64_t draw(uint64_t *seed) {
     *seed = mix(*seed);
     return *seed;
@@ -67,7 +67,7 @@ static real scaled(real number, int exponent) {
 #endif
 }
 
-/* The last digits are few or many ones, or any. */
+/* The last digits are few or many ones, or random. */
 static uint64_t draw_digits(uint64_t *seed) {
     const uint64_t all = ((uint64_t)1 << (DIGITS - 1)) - 1, digits = draw(seed) & all;
     const uint64_t kinds[] = {digits & 7, all - (digits & 7), digits & (all << (DIGITS / 2))};
@@ -75,7 +75,7 @@ static uint64_t draw_digits(uint64_t *seed) {
     return kind < 3 ? kinds[kind] : digits;
 }
 
-/* In [1, 2), of either sign. */
+/* Draws from [1, 2), with either sign. */
 static real draw_unit(uint64_t *seed) {
     uint64_t digits = draw_digits(seed);
     real number = R(1.0) + (real)digits * scaled(R(1.0), 1 - DIGITS);
@@ -126,7 +126,7 @@ static real special(uint64_t number) {
     return number & 1 ? -value : value;
 }
 
-/* Special numbers with each other, all of them in an order of no meaning. */
+/* All pairs of special numbers, in an arbitrary order. */
 static void fill_special(Tuple *tuple, uint64_t number) {
     uint64_t place = number * 48611 % (48 * 48 * 48);
     tuple->a = special(place);
@@ -141,7 +141,7 @@ static void fill_sum(Tuple *tuple, uint64_t seed) {
     tuple->a = draw_unit(&seed);
     tuple->b = draw_unit(&seed);
     switch (draw(&seed) & 3) {
-    case 0: { /* c takes away what a * b is when it is rounded, or nearly */
+    case 0: { /* c cancels the rounded a * b, exactly or nearly */
         real product = tuple->a * tuple->b;
         tuple->c = -product * (R(1.0) + (real)draw_between(&seed, -1, 1) * last);
         break;
@@ -168,7 +168,7 @@ static void fill_sum(Tuple *tuple, uint64_t seed) {
         tuple->a = -tuple->a;
 }
 
-/* (high, low) = a * b + c. */
+/* Computes (high, low) = a * b + c. */
 static void multiply(uint64_t a, uint64_t b, int64_t c, uint64_t *high, uint64_t *low) {
     uint64_t al = a & 0xffffffff, ah = a >> 32, bl = b & 0xffffffff, bh = b >> 32;
     uint64_t middle = al * bh + (al * bl >> 32), other = ah * bl + (middle & 0xffffffff);
@@ -182,7 +182,7 @@ static uint64_t shift_pair(uint64_t high, uint64_t low, int bits) {
     return high << (64 - bits) | low >> bits;
 }
 
-/* 1 / odd modulo 2^64 (Newton's method doubles the digits). */
+/* Returns 1 / odd modulo 2^64 (Newton's method doubles the digits). */
 static uint64_t modular_inverse(uint64_t odd) {
     uint64_t inverse = odd;
     for (int i = 0; i < 5; i++)
@@ -190,8 +190,8 @@ static uint64_t modular_inverse(uint64_t odd) {
     return inverse;
 }
 
-/* a / b is as close to the middle of two numbers as it can be: with N = DIGITS + 1 it is
-   M / 2^N + rest / (2^N b) for an odd M of N bits, so that M b = -rest modulo 2^N. */
+/* Makes a / b as close as possible to the middle of two numbers. With N = DIGITS + 1 it is M / 2^N
+   + rest / (2^N b) for an odd M of N bits, so that M b = -rest modulo 2^N. */
 static void fill_close_quotient(Tuple *tuple, uint64_t *seed) {
     const int bits = DIGITS + 1;
     const uint64_t all = ((uint64_t)1 << bits) - 1;
@@ -214,7 +214,7 @@ static void fill_quotient(Tuple *tuple, uint64_t seed) {
     } else {
         tuple->b = draw_unit(&seed);
         tuple->a =
-            draw_unit(&seed) * (kind < 6 ? tuple->b : R(1.0)); /* near another unit, or any */
+            draw_unit(&seed) * (kind < 6 ? tuple->b : R(1.0)); /* near another unit, or random */
     }
     int least = kind & 1 ? 1 - DIGITS : MIN_EXPONENT - DIGITS - 2;
     int size_b = draw_between(&seed, MIN_EXPONENT / 2, MAX_EXPONENT / 2);
@@ -227,8 +227,8 @@ static void fill_quotient(Tuple *tuple, uint64_t seed) {
         tuple->a = -tuple->a;
 }
 
-/* a's root is as close to the middle of two numbers as it can be: x / 2 for an odd x of DIGITS + 1
-   bits with x^2 = a 2^k + rest, so that x is a root of rest modulo 2^k. */
+/* Makes a's root as close as possible to the middle of two numbers: x / 2 for an odd x of DIGITS +
+   1 bits with x^2 = a 2^k + rest, so that x is a root of rest modulo 2^k. */
 static real close_square(uint64_t *seed) {
     int64_t rest = 1 + 8 * (int64_t)draw_between(seed, -64, 64);
     uint64_t x = 1, top = (uint64_t)1 << (DIGITS + 1), high, low;
@@ -262,17 +262,17 @@ static void fill_root(Tuple *tuple, uint64_t seed) {
     tuple->c = draw_of_size(&seed, -3, 3);
 }
 
-/* Operands or results are below the least normal number, or near the greatest one. */
+/* Operands or results are below the least normal number, or near the greatest. */
 static void fill_small(Tuple *tuple, uint64_t seed) {
     enum { LEAST = MIN_EXPONENT, MOST = MAX_EXPONENT };
     static const struct {
         int least, most;
     } exponents[4][3] = {
-        /* The product is small, and c as well; a has the size below. */
+        /* The product and c are small; a has the size below. */
         {{0, 0}, {LEAST / 2 - 2, LEAST / 2 + 2}, {LEAST - DIGITS, LEAST + 2}},
         /* Sums of small numbers. */
         {{LEAST - DIGITS, LEAST + 2}, {LEAST - DIGITS, LEAST + 2}, {LEAST - DIGITS, LEAST + 2}},
-        /* A small number beside others. */
+        /* A small number among others. */
         {{LEAST - DIGITS, LEAST - 1}, {-DIGITS, DIGITS}, {LEAST - DIGITS, LEAST + DIGITS}},
         {{MOST / 2 - 2, MOST / 2 + 2}, {MOST / 2 - 2, MOST / 2 + 2}, {MOST - 2, MOST}},
     };
@@ -285,7 +285,7 @@ static void fill_small(Tuple *tuple, uint64_t seed) {
                           : draw_of_size(&seed, exponents[kind][i].least, exponents[kind][i].most);
 }
 
-/* a is near a whole number, a half or the end of what is converted. */
+/* a is near a whole number, a half or the limit of the conversion. */
 static void fill_whole(Tuple *tuple, uint64_t seed) {
     const real last = scaled(R(1.0), 1 - DIGITS);
     uint64_t any = draw(&seed);
@@ -298,7 +298,7 @@ static void fill_whole(Tuple *tuple, uint64_t seed) {
     tuple->c = draw_of_size(&seed, -3, 40);
 }
 
-/* An integer that is nearly a tie where it becomes a number: of 64 bits, of 32, or any. */
+/* Draws an integer that is nearly a tie when converted: of 64 bits, of 32, or random. */
 static int64_t draw_integer(uint64_t seed) {
     uint64_t kind = draw(&seed) % 3, digits = draw_digits(&seed) | (uint64_t)1 << (DIGITS - 1);
     int capacity = (kind == 0 ? 63 : 31) - DIGITS;
@@ -331,7 +331,7 @@ void FILL(HdProbeBatch *batch, uint64_t start) {
     }
 }
 
-/* ---- what plain C makes of them ---- */
+/* ---- results of plain C ---- */
 
 static real within(real a, real limit) {
     real more = -limit < a ? a : -limit;

@@ -16,20 +16,20 @@
 #include "verify/trust.h"
 
 enum { WIDTH = 24, HEIGHT = 16, MAX_SOLIDS = 5, MAX_LIGHTS = 3 };
-/* Of planes that kernels have room for; a floor takes five, cubes the fewest of all solids. */
+/* Planes that the kernels are built for; a floor takes five, cubes the fewest of all solids. */
 enum { PLANES = 32, FLOOR_PLANES = 5, MIN_PLANES = 3 };
 
 #define SHALLOW    .plane_count = PLANES, .depth = 8
 #define DEEP       .plane_count = PLANES, .depth = 16
 #define HAS_MESHES .node_stack = 32
 #define ALL        .refracts = true, .lit_from_behind = true, .many_lights = true
-/* What is small enough for constant memory is there (HdSceneTables.small_tables). */
+/* Tables that are small enough are in constant memory (HdSceneTables.small_tables). */
 #define SMALL .small_tables = true
 
-/* Scenes of one kind are rendered by the same kernels. */
+/* Kind of scenes that the same kernels render. */
 typedef struct Kind {
     const char *name;
-    HdSceneTables needs; /* what the kernels are built for (hd_scene_tables_raise) */
+    HdSceneTables needs; /* needs that the kernels are built for (hd_scene_tables_raise) */
     bool has_meshes, has_few_lights, has_many_lights, is_bounded;
 } Kind;
 
@@ -49,12 +49,14 @@ static const Kind kinds[] = {
     {.name = "many lights from behind",
      .needs = {SHALLOW, SMALL, .lit_from_behind = true, .many_lights = true},
      .has_many_lights = true},
-    {.name = "all solids can do", .needs = {SHALLOW, SMALL, ALL}},
+    {.name = "all features of solids", .needs = {SHALLOW, SMALL, ALL}},
     {.name = "all, deep", .needs = {DEEP, SMALL, ALL}},
     {.name = "meshes", .needs = {SHALLOW, SMALL, HAS_MESHES}, .has_meshes = true},
-    {.name = "meshes and all", .needs = {SHALLOW, SMALL, HAS_MESHES, ALL}, .has_meshes = true},
+    {.name = "all features with meshes",
+     .needs = {SHALLOW, SMALL, HAS_MESHES, ALL},
+     .has_meshes = true},
     {.name = "surveyed", .needs = {SHALLOW, SMALL, ALL, .bounded = true}, .is_bounded = true},
-    {.name = "meshes in global memory, surveyed",
+    {.name = "meshes in global memory, error bound",
      .needs = {SHALLOW, HAS_MESHES, ALL, .bounded = true},
      .has_meshes = true,
      .is_bounded = true},
@@ -62,70 +64,70 @@ static const Kind kinds[] = {
 
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
-/* They take turns. */
+/* The kinds alternate. */
 static int kind_of(uint64_t seed) {
     return (int)(seed % KINDS);
 }
 
-/* ---- lots ---- */
+/* ---- random numbers ---- */
 
-typedef struct Lots {
+typedef struct Random {
     uint64_t state;
     const Kind *kind;
     int planes_left; /* for solids */
-} Lots;
+} Random;
 
 /* SplitMix64 (Steele, Lea and Flood 2014, Fast Splittable Pseudorandom Number Generators). */
-static uint64_t next(Lots *lots) {
-    uint64_t z = lots->state += 0x9e3779b97f4a7c15U;
+static uint64_t next(Random *rng) {
+    uint64_t z = rng->state += 0x9e3779b97f4a7c15U;
     z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9U;
     z = (z ^ z >> 27) * 0x94d049bb133111ebU;
     return z ^ z >> 31;
 }
 
-static double from_to(Lots *lots, double least, double most) {
-    return least + (most - least) * (double)(next(lots) >> 11) * 0x1p-53;
+static double from_to(Random *rng, double least, double most) {
+    return least + (most - least) * (double)(next(rng) >> 11) * 0x1p-53;
 }
 
-static int below(Lots *lots, int count) {
-    return (int)(next(lots) % (uint64_t)count);
+static int below(Random *rng, int count) {
+    return (int)(next(rng) % (uint64_t)count);
 }
 
-static bool chance(Lots *lots, double share) {
-    return from_to(lots, 0.0, 1.0) < share;
+static bool chance(Random *rng, double share) {
+    return from_to(rng, 0.0, 1.0) < share;
 }
 
-/* Arguments are not evaluated in any fixed order, lots are drawn in one. */
-static HdVec3 vector(Lots *lots, double least, double most) {
+/* C does not fix the order in which arguments are evaluated; the drawing order must be fixed. */
+static HdVec3 vector(Random *rng, double least, double most) {
     HdVec3 v;
-    v.x = from_to(lots, least, most);
-    v.y = from_to(lots, least, most);
-    v.z = from_to(lots, least, most);
+    v.x = from_to(rng, least, most);
+    v.y = from_to(rng, least, most);
+    v.z = from_to(rng, least, most);
     return v;
 }
 
 /* ---- materials ---- */
 
-/* Reflection and transmission, which make 1 at most. */
-static void draw_shares(Lots *lots, double *reflection, double *transmission) {
-    *reflection = chance(lots, 0.3) ? 0.0 : from_to(lots, 0.0, 0.9);
-    *transmission = chance(lots, 0.15) ? 0.0 : from_to(lots, 0.0, 1.0 - *reflection);
+/* Draws reflection and transmission, with a sum of at most 1. */
+static void draw_shares(Random *rng, double *reflection, double *transmission) {
+    *reflection = chance(rng, 0.3) ? 0.0 : from_to(rng, 0.0, 0.9);
+    *transmission = chance(rng, 0.15) ? 0.0 : from_to(rng, 0.0, 1.0 - *reflection);
 }
 
-static HdMaterial draw_material(Lots *lots, bool is_opaque) {
+static HdMaterial draw_material(Random *rng, bool is_opaque) {
     static const int exponents[] = {1, 2, 3, 7, 20, 64, 200, 1000};
-    HdMaterial material = build_material(vector(lots, 0.0, 1.0), 0.0, 0.0);
-    material.ambient = chance(lots, 0.25) ? from_to(lots, 0.0, 0.2) : 0.0;
-    material.diffuse = chance(lots, 0.9) ? from_to(lots, 0.0, 1.0) : 0.0;
-    material.specular = chance(lots, 0.5) ? from_to(lots, 0.0, 0.6) : 0.0;
-    material.shininess = exponents[below(lots, (int)(sizeof exponents / sizeof *exponents))];
-    if (chance(lots, 0.4))
-        material.mirror_tint = vector(lots, 0.5, 1.0);
-    draw_shares(lots, &material.reflection, &material.transmission);
-    material.has_inner_side = !is_opaque && chance(lots, 0.5);
+    HdMaterial material = build_material(vector(rng, 0.0, 1.0), 0.0, 0.0);
+    material.ambient = chance(rng, 0.25) ? from_to(rng, 0.0, 0.2) : 0.0;
+    material.diffuse = chance(rng, 0.9) ? from_to(rng, 0.0, 1.0) : 0.0;
+    material.specular = chance(rng, 0.5) ? from_to(rng, 0.0, 0.6) : 0.0;
+    material.shininess = exponents[below(rng, (int)(sizeof exponents / sizeof *exponents))];
+    if (chance(rng, 0.4))
+        material.mirror_tint = vector(rng, 0.5, 1.0);
+    draw_shares(rng, &material.reflection, &material.transmission);
+    material.has_inner_side = !is_opaque && chance(rng, 0.5);
     if (material.has_inner_side)
-        draw_shares(lots, &material.inner_reflection, &material.inner_transmission);
-    material.lit_from_behind = lots->kind->needs.lit_from_behind && chance(lots, 0.6);
+        draw_shares(rng, &material.inner_reflection, &material.inner_transmission);
+    material.lit_from_behind = rng->kind->needs.lit_from_behind && chance(rng, 0.6);
     if (!is_opaque)
         return material;
     material.transmission = 0.0;
@@ -133,90 +135,89 @@ static HdMaterial draw_material(Lots *lots, bool is_opaque) {
     return material;
 }
 
-/* ---- what there is to see ---- */
+/* ---- scenes ---- */
 
-static HdFalloff draw_falloff(Lots *lots) {
+static HdFalloff draw_falloff(Random *rng) {
     HdFalloff falloff = {0};
-    double size = from_to(lots, 2.0, 8.0);
-    int which = below(lots, 3);
+    double size = from_to(rng, 2.0, 8.0);
+    int which = below(rng, 3);
     falloff.distance = which == 1 ? size : 0.0;
     falloff.end = which == 2 ? size : 0.0;
     return falloff;
 }
 
-static void draw_edge_lights(Lots *lots, HdSolid *solid) {
+static void draw_edge_lights(Random *rng, HdSolid *solid) {
     HdEdgeLights *lights = &solid->lights;
     *lights = (HdEdgeLights){.colour_count = 1};
-    lights->per_edge = lots->kind->has_many_lights ? 2 + below(lots, 5) : 1 + below(lots, 3);
-    if (lots->kind->has_few_lights)
+    lights->per_edge = rng->kind->has_many_lights ? 2 + below(rng, 5) : 1 + below(rng, 3);
+    if (rng->kind->has_few_lights)
         lights->per_edge = 1;
-    lights->colour_count = 1 + below(lots, 2);
+    lights->colour_count = 1 + below(rng, 2);
     for (int i = 0; i < lights->colour_count; i++)
-        lights->colours[i] = vector(lots, 0.0, 1.0);
-    lights->intensity = from_to(lots, 0.05, 0.4) / (lots->kind->has_many_lights ? 8.0 : 1.0);
-    lights->falloff = draw_falloff(lots);
-    if (chance(lots, 0.7)) {
-        lights->disc_radius = from_to(lots, 0.005, 0.1) * solid->circumradius;
-        lights->disc_radiance = from_to(lots, 0.5, 2.0);
+        lights->colours[i] = vector(rng, 0.0, 1.0);
+    lights->intensity = from_to(rng, 0.05, 0.4) / (rng->kind->has_many_lights ? 8.0 : 1.0);
+    lights->falloff = draw_falloff(rng);
+    if (chance(rng, 0.7)) {
+        lights->disc_radius = from_to(rng, 0.005, 0.1) * solid->circumradius;
+        lights->disc_radiance = from_to(rng, 0.5, 2.0);
     }
 }
 
-/* Solids that refract may touch nothing: then each has a sector of its own. */
-static void draw_place(Lots *lots, HdSolid *solid, int number) {
-    static const HdVec3 apart[MAX_SOLIDS] = {
+/* Solids that refract must not touch others: each gets its own sector. */
+static void draw_place(Random *rng, HdSolid *solid, int number) {
+    static const HdVec3 places[MAX_SOLIDS] = {
         {2.2, 0.0, 0.0}, {-2.2, 0.3, 0.2}, {0.0, 2.3, 0.4}, {0.2, -2.3, -0.2}, {0.0, 0.0, 2.4}};
-    solid->circumradius = from_to(lots, 0.5, 1.6);
-    solid->centre = vector(lots, -2.6, 2.6);
-    solid->centre.z = from_to(lots, 0.0, 2.2);
-    if (lots->kind->needs.refracts) {
-        solid->circumradius = from_to(lots, 0.5, 1.1);
-        solid->centre = apart[number];
+    solid->circumradius = from_to(rng, 0.5, 1.6);
+    solid->centre = vector(rng, -2.6, 2.6);
+    solid->centre.z = from_to(rng, 0.0, 2.2);
+    if (rng->kind->needs.refracts) {
+        solid->circumradius = from_to(rng, 0.5, 1.1);
+        solid->centre = places[number];
     }
-    if (chance(lots, 0.85))
-        solid->rotation_degrees = vector(lots, -180.0, 180.0);
+    if (chance(rng, 0.85))
+        solid->rotation_degrees = vector(rng, -180.0, 180.0);
 }
 
-static void draw_solid(Lots *lots, HdSolid *solid, int number) {
+static void draw_solid(Random *rng, HdSolid *solid, int number) {
     static const int planes[HD_SOLID_KIND_COUNT] = {4, MIN_PLANES, 4, 6, 10};
     *solid = (HdSolid){.lights = {.colour_count = 1}};
-    solid->kind = (HdSolidKind)below(lots, HD_SOLID_KIND_COUNT);
-    if (planes[solid->kind] > lots->planes_left - MIN_PLANES * (MAX_SOLIDS - 1 - number))
+    solid->kind = (HdSolidKind)below(rng, HD_SOLID_KIND_COUNT);
+    if (planes[solid->kind] > rng->planes_left - MIN_PLANES * (MAX_SOLIDS - 1 - number))
         solid->kind = HD_HEXAHEDRON;
-    lots->planes_left -= planes[solid->kind];
-    draw_place(lots, solid, number);
-    solid->face = draw_material(lots, false);
-    if (lots->kind->needs.refracts && chance(lots, 0.6))
-        solid->face.index_of_refraction = from_to(lots, 0.7, 2.4);
-    solid->rim = draw_material(lots, true);
-    if (chance(lots, 0.5))
-        solid->rim_width = from_to(lots, 0.02, 0.08) * solid->circumradius;
-    bool takes_lights =
-        !lots->kind->has_few_lights || (number < 2 && solid->kind == HD_TETRAHEDRON);
-    if (takes_lights && chance(lots, lots->kind->has_many_lights ? 0.9 : 0.6))
-        draw_edge_lights(lots, solid);
+    rng->planes_left -= planes[solid->kind];
+    draw_place(rng, solid, number);
+    solid->face = draw_material(rng, false);
+    if (rng->kind->needs.refracts && chance(rng, 0.6))
+        solid->face.index_of_refraction = from_to(rng, 0.7, 2.4);
+    solid->rim = draw_material(rng, true);
+    if (chance(rng, 0.5))
+        solid->rim_width = from_to(rng, 0.02, 0.08) * solid->circumradius;
+    bool has_lights = !rng->kind->has_few_lights || (number < 2 && solid->kind == HD_TETRAHEDRON);
+    if (has_lights && chance(rng, rng->kind->has_many_lights ? 0.9 : 0.6))
+        draw_edge_lights(rng, solid);
 }
 
-static bool draw_floor(Lots *lots, HdScene *scene) {
+static bool draw_floor(Random *rng, HdScene *scene) {
     double x[4], y[4];
     for (int i = 0; i < 4; i++) {
-        x[i] = (i == 1 || i == 2 ? 1.0 : -1.0) * from_to(lots, 3.5, 5.5);
-        y[i] = (i < 2 ? 1.0 : -1.0) * from_to(lots, 3.5, 5.5);
+        x[i] = (i == 1 || i == 2 ? 1.0 : -1.0) * from_to(rng, 3.5, 5.5);
+        y[i] = (i < 2 ? 1.0 : -1.0) * from_to(rng, 3.5, 5.5);
     }
     build_floor(scene, hd_vec3(x[0], y[0], -1.5), hd_vec3(x[1], y[1], -1.5),
                 hd_vec3(x[2], y[2], -1.5), hd_vec3(x[3], y[3], -1.5));
-    scene->floor.material = draw_material(lots, true);
-    return !chance(lots, 0.5) ||
-           build_texture(&scene->floor.texture, 3 + below(lots, 30), 2 + below(lots, 30));
+    scene->floor.material = draw_material(rng, true);
+    return !chance(rng, 0.5) ||
+           build_texture(&scene->floor.texture, 3 + below(rng, 30), 2 + below(rng, 30));
 }
 
-static bool draw_mesh(Lots *lots, HdScene *scene, int number) {
+static bool draw_mesh(Random *rng, HdScene *scene, int number) {
     HdMesh *mesh = &scene->meshes[number];
-    const HdMaterial first = draw_material(lots, false), second = draw_material(lots, false);
-    if (chance(lots, 0.3))
+    const HdMaterial first = draw_material(rng, false), second = draw_material(rng, false);
+    if (chance(rng, 0.3))
         return build_cube_mesh(mesh, &first, &second);
-    int rows = 3 + below(lots, 5);
-    double bump = from_to(lots, 0.0, 0.3);
-    bool is_smooth = chance(lots, 0.5), is_mapped = chance(lots, 0.5);
+    int rows = 3 + below(rng, 5);
+    double bump = from_to(rng, 0.0, 0.3);
+    bool is_smooth = chance(rng, 0.5), is_mapped = chance(rng, 0.5);
     if (!build_sphere_mesh(mesh, rows, bump, is_smooth, is_mapped, &first))
         return false;
     if (is_mapped)
@@ -224,71 +225,71 @@ static bool draw_mesh(Lots *lots, HdScene *scene, int number) {
     return true;
 }
 
-static bool draw_meshes(Lots *lots, HdScene *scene) {
-    int meshes = 1 + below(lots, 2), instances = meshes + below(lots, 3);
+static bool draw_meshes(Random *rng, HdScene *scene) {
+    int meshes = 1 + below(rng, 2), instances = meshes + below(rng, 3);
     if (!build_meshes(scene, meshes, instances, meshes))
         return false;
     for (int i = 0; i < meshes; i++)
-        if (!build_texture(&scene->pictures[i].texture, 8, 5) || !draw_mesh(lots, scene, i))
+        if (!build_texture(&scene->pictures[i].texture, 8, 5) || !draw_mesh(rng, scene, i))
             return false;
     for (int i = 0; i < instances; i++) {
-        HdVec3 place = vector(lots, -2.5, 2.5), rotation = vector(lots, -180.0, 180.0);
-        build_instance(scene, i, i < meshes ? i : below(lots, meshes), place, rotation,
-                       from_to(lots, 0.3, 1.1));
-        scene->instances[i].has_material = chance(lots, 0.3);
+        HdVec3 place = vector(rng, -2.5, 2.5), rotation = vector(rng, -180.0, 180.0);
+        build_instance(scene, i, i < meshes ? i : below(rng, meshes), place, rotation,
+                       from_to(rng, 0.3, 1.1));
+        scene->instances[i].has_material = chance(rng, 0.3);
         if (scene->instances[i].has_material)
-            scene->instances[i].material = draw_material(lots, false);
+            scene->instances[i].material = draw_material(rng, false);
     }
     return finish_meshes(scene);
 }
 
-static void draw_picture(Lots *lots, HdScene *scene) {
-    scene->depth = lots->kind->needs.depth - below(lots, 3);
-    if (scene->depth > 8 || chance(lots, 0.4))
-        scene->cutoff = from_to(lots, 0.001, 0.02);
-    scene->background = vector(lots, 0.0, 0.4);
-    scene->exposure = chance(lots, 0.5) ? 1.0 : from_to(lots, 0.5, 2.0);
-    if (!lots->kind->is_bounded)
+static void draw_picture(Random *rng, HdScene *scene) {
+    scene->depth = rng->kind->needs.depth - below(rng, 3);
+    if (scene->depth > 8 || chance(rng, 0.4))
+        scene->cutoff = from_to(rng, 0.001, 0.02);
+    scene->background = vector(rng, 0.0, 0.4);
+    scene->exposure = chance(rng, 0.5) ? 1.0 : from_to(rng, 0.5, 2.0);
+    if (!rng->kind->is_bounded)
         return;
-    if (chance(lots, 0.7))
+    if (chance(rng, 0.7))
         scene->sampling = HD_SAMPLING_ADAPTIVE;
-    if (scene->sampling != HD_SAMPLING_ADAPTIVE || chance(lots, 0.5)) {
-        scene->max_error = from_to(lots, 1.0, 16.0);
+    if (scene->sampling != HD_SAMPLING_ADAPTIVE || chance(rng, 0.5)) {
+        scene->max_error = from_to(rng, 1.0, 16.0);
         scene->cutoff = 0.0;
     }
 }
 
-static bool draw_scene(Lots *lots, HdScene *scene, HdCamera *camera) {
-    int solids = lots->kind->has_meshes ? below(lots, 3) : 1 + below(lots, MAX_SOLIDS);
-    int lights = below(lots, MAX_LIGHTS + 1);
-    int samples = lots->kind->is_bounded ? 2 + below(lots, 2) : 1 + below(lots, 2);
+static bool draw_scene(Random *rng, HdScene *scene, HdCamera *camera) {
+    int solids = rng->kind->has_meshes ? below(rng, 3) : 1 + below(rng, MAX_SOLIDS);
+    int lights = below(rng, MAX_LIGHTS + 1);
+    int samples = rng->kind->is_bounded ? 2 + below(rng, 2) : 1 + below(rng, 2);
     if (!build_scene(scene, WIDTH, HEIGHT, samples, 0, solids, lights))
         return false;
-    draw_picture(lots, scene);
-    lots->planes_left = PLANES - FLOOR_PLANES;
+    draw_picture(rng, scene);
+    rng->planes_left = PLANES - FLOOR_PLANES;
     for (int i = 0; i < solids; i++)
-        draw_solid(lots, &scene->solids[i], i);
+        draw_solid(rng, &scene->solids[i], i);
     for (HdLight *light = scene->lights; light < scene->lights + lights; light++) {
-        light->position = vector(lots, -5.0, 5.0);
-        light->position.z = from_to(lots, 2.0, 6.0);
-        light->intensity = vector(lots, 0.0, 1.2);
-        light->falloff = draw_falloff(lots);
+        light->position = vector(rng, -5.0, 5.0);
+        light->position.z = from_to(rng, 2.0, 6.0);
+        light->intensity = vector(rng, 0.0, 1.2);
+        light->falloff = draw_falloff(rng);
     }
-    if ((chance(lots, 0.8) && !draw_floor(lots, scene)) ||
-        (lots->kind->has_meshes && !draw_meshes(lots, scene)))
+    if ((chance(rng, 0.8) && !draw_floor(rng, scene)) ||
+        (rng->kind->has_meshes && !draw_meshes(rng, scene)))
         return false;
-    HdVec3 eye = vector(lots, -5.5, 5.5), target = vector(lots, -0.8, 0.8);
-    eye.z = from_to(lots, -0.5, 4.5);
-    build_camera(camera, eye, target, from_to(lots, 40.0, 100.0));
+    HdVec3 eye = vector(rng, -5.5, 5.5), target = vector(rng, -0.8, 0.8);
+    eye.z = from_to(rng, -0.5, 4.5);
+    build_camera(camera, eye, target, from_to(rng, 40.0, 100.0));
     return true;
 }
 
-/* The same on every machine. Most are valid; for those that are not, lots are drawn anew. */
+/* Builds the same scene on every machine. Most are valid; an invalid one is drawn again. */
 static HdStatus build_random(uint64_t seed, HdScene *scene, HdCamera *camera, HdError *error) {
     HdError ignored;
-    Lots lots = {.state = seed, .kind = &kinds[kind_of(seed)]};
+    Random rng = {.state = seed, .kind = &kinds[kind_of(seed)]};
     for (;;) {
-        if (!draw_scene(&lots, scene, camera)) {
+        if (!draw_scene(&rng, scene, camera)) {
             hd_scene_free(scene);
             return HD_NO_ROOM(error, "the scene of seed %" PRIu64, seed);
         }
@@ -305,7 +306,7 @@ enum { ANY = -1, MAX_WORKERS = 16 };
 
 typedef struct Worker {
     HdRenderer *renderers[SIDES];
-    int kind; /* whose kernels the device's renderer has; ANY: none yet */
+    int kind; /* kind that the device's kernels are built for; ANY: none yet */
 } Worker;
 
 typedef struct Run {
@@ -313,14 +314,14 @@ typedef struct Run {
     HdDevice plain;
     Worker workers[MAX_WORKERS];
     int worker_count;
-    pthread_mutex_t mutex; /* of what follows, and so that kernels are compiled once */
+    pthread_mutex_t mutex; /* guards the members below, and serialises compilation */
     HdRandomResult *result;
-    HdStatus status; /* the first failure's */
+    HdStatus status; /* of the first failure */
     HdError *error;
-    atomic_bool has_failed; /* then nothing more is begun */
+    atomic_bool has_failed; /* workers begin no further scene */
 } Run;
 
-/* Pixels of a surveyed scene have other sizes: kernels for them are for no other scene. */
+/* Pixels with an error bound have other sizes: such kernels render no other scenes. */
 static const HdSceneTables *needs_of(const HdRandomTest *test, int kind) {
     static const HdSceneTables general = {.plane_count = 32,
                                           .depth = 32,
@@ -362,7 +363,7 @@ static HdStatus compare(Run *run, Worker *worker, uint64_t seed, bool *differs, 
     return status;
 }
 
-/* ---- all of them ---- */
+/* ---- the run ---- */
 
 static void note(Run *run, uint64_t seed, HdStatus status, bool differs, const HdError *error) {
     HdRandomResult *result = run->result;
@@ -381,7 +382,7 @@ static void note(Run *run, uint64_t seed, HdStatus status, bool differs, const H
     pthread_mutex_unlock(&run->mutex);
 }
 
-/* Scene by scene of a kind, since its kernels are at hand. */
+/* Orders the scenes by kind, since a kind's kernels are reused. */
 static void work(void *context, int thread, int number) {
     Run *run = context;
     const HdRandomTest *test = run->test;
@@ -438,7 +439,7 @@ static HdStatus run_workers(Run *run, HdError *error) {
     return status;
 }
 
-/* ---- what differs ---- */
+/* ---- differences ---- */
 
 static HdStatus build(const void *what, HdScene *scene, HdCamera *camera, HdError *error) {
     const HdRandomResult *result = what;
@@ -469,7 +470,7 @@ HdStatus hd_random_test(const HdRandomTest *test, HdRandomResult *result, HdErro
     pthread_mutex_destroy(&run.mutex);
     if (status == HD_INTERRUPTED || result->different == 0)
         return status;
-    HdError later; /* the first failure is told */
-    HdStatus told = report_difference(test, result, &later);
-    return status == HD_OK ? told : status;
+    HdError later; /* only the first failure is reported */
+    HdStatus reported = report_difference(test, result, &later);
+    return status == HD_OK ? reported : status;
 }

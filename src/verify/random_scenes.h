@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Small scenes made by lot, of everything that kernels do and no golden frame holds, rendered by a
-   device and by plain C, whose bytes must be equal. */
+/* Renders small random scenes with all features of the kernels, also those that no golden frame
+   has, by a device and by plain C; their bytes must be equal. */
 #ifndef HD_VERIFY_RANDOM_SCENES_H
 #define HD_VERIFY_RANDOM_SCENES_H
 
@@ -8,23 +8,23 @@
 
 typedef struct HdRandomTest {
     const HdDevice *device;
-    HdRenderOptions options; /* of the device's renderers */
-    uint64_t seed;           /* of the first scene; the others' follow */
+    HdRenderOptions options; /* options of the device's renderers */
+    uint64_t seed;           /* seed of the first scene; the others follow */
     int scenes;
-    int kind;     /* the only kind of scene, by number; -1: all */
-    bool general; /* one build of the kernels does everything, but for surveys */
-    int threads;  /* each with a renderer of the device and one of plain C; 0: one for each core,
-                    16 at most */
+    int kind;     /* number of the only kind of scene; -1: all */
+    bool general; /* one build of the kernels for everything but error bounds */
+    int threads;  /* each with a renderer of the device and one of plain C; 0: one for each core, at
+                     most 16 */
 } HdRandomTest;
 
 typedef struct HdRandomResult {
     int scenes, different;
-    uint64_t first_seed; /* of those that differ, the lowest */
-    char text[1024];     /* what differs there (hd_first_difference); "" where all are equal */
+    uint64_t first_seed; /* lowest seed of a scene that differs */
+    char text[1024];     /* difference (hd_first_difference); "": all are equal */
 } HdRandomResult;
 
-/* Renders the scenes. Kernels that fail their self-test make it fail, as does whatever keeps the
-   device from rendering; HD_INTERRUPTED after a signal. */
+/* Renders the scenes. Fails if kernels fail their self-test or the device cannot render;
+   HD_INTERRUPTED after a signal. */
 HdStatus hd_random_test(const HdRandomTest *test, HdRandomResult *result, HdError *error);
 
 #endif

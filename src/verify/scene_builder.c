@@ -29,7 +29,7 @@ bool build_scene(HdScene *scene, int width, int height, int samples, int depth, 
                  int lights) {
     memset(scene, 0, sizeof *scene);
     scene->frame_count = 1;
-    scene->target.cylinder.z0 = -1.0; /* not at the eye; the frames' cameras are others */
+    scene->target.cylinder.z0 = -1.0; /* away from the eye; the frames' cameras differ */
     scene->width = width;
     scene->height = height;
     scene->samples_per_side = samples;
@@ -137,7 +137,7 @@ bool build_meshes(HdScene *scene, int meshes, int instances, int pictures) {
     return true;
 }
 
-/* With room for all of it; the triangles are filled in later. */
+/* Allocates everything; the caller fills in the triangles. */
 static bool build_mesh(HdMesh *mesh, int vertices, int triangles, int materials) {
     mesh->vertices = allocate(vertices, sizeof *mesh->vertices);
     mesh->corners = allocate(triangles, sizeof *mesh->corners);
@@ -154,8 +154,8 @@ static void set_material(HdMesh *mesh, int index, const HdMaterial *material) {
         (HdMeshMaterial){.material = *material, .picture = -1, .passes_as = -1};
 }
 
-/* A globe is a grid of (rows + 1) x (2 rows + 1) points whose first and last column, and whose
-   first and last row, are one each; only its texture coordinates keep them apart. */
+/* A globe is a grid of (rows + 1) x (2 rows + 1) points. Its first and last column coincide, and
+   the first and last row are one point each; only texture coordinates distinguish them. */
 static int32_t vertex_at(int rows, int row, int column) {
     if (row == 0 || row == rows)
         return row == rows;

@@ -1,24 +1,24 @@
 /* SPDX-License-Identifier: MIT */
-/* Short ways to make the scenes of the golden frames and of the conformance suite. What takes
-   memory is false where there is none. */
+/* Builds the scenes of the golden frames and of the conformance suite. Functions that allocate
+   return false when out of memory. */
 #ifndef HD_VERIFY_SCENE_BUILDER_H
 #define HD_VERIFY_SCENE_BUILDER_H
 
 #include "scene/camera.h"
 #include "scene/scene.h"
 
-/* An empty scene with room for solids and lights; the caller frees it. */
+/* Makes an empty scene with memory for solids and lights; the caller frees it. */
 bool build_scene(HdScene *scene, int width, int height, int samples, int depth, int solids,
                  int lights);
 
-/* Somewhat diffuse and specular, reflecting and transmitting as told. */
+/* Returns a partly diffuse and specular material with that reflection and transmission. */
 HdMaterial build_material(HdVec3 colour, double reflection, double transmission);
 
-/* Reflection 0.6, transmission 0.35, a rim and edge lights. */
+/* Builds a solid with reflection 0.6, transmission 0.35, a rim and edge lights. */
 void build_solid(HdScene *scene, int index, HdSolidKind kind, HdVec3 centre, double radius,
                  HdVec3 colour, int lights_per_edge);
 
-/* Without a rim, edge lights and reflection. */
+/* Builds a solid without a rim, edge lights and reflection. */
 void build_glass(HdScene *scene, int index, HdSolidKind kind, HdVec3 centre, double radius,
                  double grey, double transmission);
 void build_light(HdScene *scene, int index, HdVec3 position, HdVec3 intensity);
@@ -29,18 +29,18 @@ bool build_texture(HdTexture *texture, int width, int height);
 /* Looks from `eye` at `target`, z up. */
 void build_camera(HdCamera *camera, HdVec3 eye, HdVec3 target, double field_of_view_degrees);
 
-/* Makes room in a scene; the caller frees it with the scene. */
+/* Allocates meshes in a scene; the caller frees them with the scene. */
 bool build_meshes(HdScene *scene, int meshes, int instances, int pictures);
 
-/* A closed sphere of radius 1 in `rows` rings of 2 rows triangles each, pushed in and out by up to
-   `bump`; `smooth` gives it normals, `mapped` texture coordinates. One material. */
+/* Makes a closed sphere of radius 1 with one material: `rows` rings of 2 rows triangles each,
+   displaced by up to `bump`. `smooth` adds normals, `mapped` texture coordinates. */
 bool build_sphere_mesh(HdMesh *mesh, int rows, double bump, bool smooth, bool mapped,
                        const HdMaterial *material);
 
-/* A cube from -1 to 1, of 12 triangles; faces 0 and 1 have the second material. */
+/* Makes a cube from -1 to 1, of 12 triangles; faces 0 and 1 have the second material. */
 bool build_cube_mesh(HdMesh *mesh, const HdMaterial *first, const HdMaterial *second);
 
-/* Places a mesh; the same scale for every axis. */
+/* Places a mesh, with the same scale for every axis. */
 void build_instance(HdScene *scene, int index, int mesh, HdVec3 position, HdVec3 rotation,
                     double scale);
 

@@ -17,12 +17,12 @@
 const char *const hd_test_result_names[] = {"right", "wrong", "untested"};
 static const char *const precision_names[] = {"float", "double"};
 
-/* Of the frames that a quick test renders. */
+/* Samples of a frame in a quick test, at most. */
 enum { MAX_QUICK_SAMPLES = 65 * 65 };
 
 enum { RANDOM_SCENES = 2400 };
 
-/* What is tested at a time. */
+/* State of the current part of the test. */
 typedef struct Part {
     HdSelfTestReport *report;
     HdRenderer *renderer;
@@ -41,7 +41,7 @@ static HdReportTest *begin_test(const Part *part, const char *what, const char *
     return test;
 }
 
-/* `wrong` is what differs first; "": nothing does. Returns `status`. */
+/* Ends a test. `wrong` is the first difference; "": none. Returns `status`. */
 static HdStatus end_test(const Part *part, HdReportTest *test, const char *wrong, HdStatus status,
                          const HdError *error) {
     HdSelfTestReport *report = part->report;
@@ -79,22 +79,22 @@ static HdStatus build_golden(const void *what, HdScene *scene, HdCamera *camera,
 
 typedef struct GoldenTest {
     const Part *part;
-    const HdSceneTables *like; /* what all frames need, where kernels are compiled for them */
+    const HdSceneTables *like; /* needs of all frames, if kernels are compiled for them */
     HdReportTest *test;
     int wrong;
     const HdGoldenFrame *first_wrong;
-    uint64_t found, expected; /* hashes of the first wrong one */
+    uint64_t found, expected; /* hashes of the first wrong frame */
 } GoldenTest;
 
-/* If it is surveyed or not, and small enough. */
-static bool is_wanted(const GoldenTest *golden, const HdScene *scene, bool is_bounded) {
+/* Returns whether the frame is small enough, and with or without an error bound as requested. */
+static bool is_selected(const GoldenTest *golden, const HdScene *scene, bool is_bounded) {
     const int64_t side = scene->samples_per_side;
     return hd_scene_has_error_bound(scene) == is_bounded &&
            (golden->part->effort != HD_TEST_QUICK ||
             scene->width * scene->height * side * side <= MAX_QUICK_SAMPLES);
 }
 
-static void judge_golden(GoldenTest *golden, const HdGoldenFrame *frame, uint64_t hash) {
+static void check_golden(GoldenTest *golden, const HdGoldenFrame *frame, uint64_t hash) {
     HdGoldenHashes expected;
     golden->test->frames++;
     golden->test->hash = hd_hash_bytes(golden->test->hash, &hash, sizeof hash);
@@ -112,19 +112,19 @@ static HdStatus render_golden(GoldenTest *golden, const HdGoldenFrame *frame, bo
     HdCamera camera;
     HdFrame image;
     HD_TRY(hd_golden_build(frame, &scene, &camera, error));
-    const bool renders = is_wanted(golden, &scene, is_bounded);
+    const bool renders = is_selected(golden, &scene, is_bounded);
     HdStatus status = renders ? hd_put_and_render(golden->part->renderer, &scene, &camera,
                                                   golden->like, 0, &image, error)
                               : HD_OK;
     if (renders && status == HD_OK) {
-        judge_golden(golden, frame, hd_frame_hash(&image));
+        check_golden(golden, frame, hd_frame_hash(&image));
         hd_frame_free(&image);
     }
     hd_scene_free(&scene);
     return status;
 }
 
-/* By the same kernels, which are kept if all frames are right. */
+/* Renders all frames by the same kernels, which are kept if all frames are correct. */
 static HdStatus render_all(GoldenTest *golden, bool are_bounded, HdError *error) {
     HdKernelCache *kernels = hd_renderer_kernels(golden->part->renderer);
     for (int i = 0; i < hd_golden_frame_count; i++)
@@ -134,7 +134,7 @@ static HdStatus render_all(GoldenTest *golden, bool are_bounded, HdError *error)
     return HD_OK;
 }
 
-/* What there is to say where a frame is wrong. */
+/* Reports why a frame is wrong. */
 static void report_golden(const GoldenTest *golden, char *reason, size_t capacity) {
     const HdMismatch mismatch = {&golden->part->report->device, &golden->part->options,
                                  golden->like, build_golden, golden->first_wrong};
@@ -165,7 +165,7 @@ static HdStatus test_golden(const Part *part, HdError *error) {
 
 /* ---- random scenes ---- */
 
-/* A processor's own driver has threads enough. */
+/* A processor's own driver already uses all threads. */
 static HdStatus test_random_scenes(const Part *part, HdError *error) {
     static HdRandomResult result;
     const HdRandomTest random = {.device = &part->report->device,
@@ -179,7 +179,7 @@ static HdStatus test_random_scenes(const Part *part, HdError *error) {
     return end_test(part, test, result.text, status, error);
 }
 
-/* ---- the certificate ---- */
+/* ---- the report ---- */
 
 static HdStatus test_pipeline(HdSelfTestReport *report, const HdRenderOptions *options,
                               HdTestEffort effort, HdError *error) {
@@ -187,7 +187,7 @@ static HdStatus test_pipeline(HdSelfTestReport *report, const HdRenderOptions *o
     HdStatus status = hd_renderer_open(&part.renderer, &report->device, &part.options, error);
     if (status != HD_OK)
         return end_test(&part, begin_test(&part, "opening for", " by "), "", status, error);
-    /* The arithmetic is the same in all pipelines. */
+    /* All pipelines share their arithmetic. */
     if (part.options.pipeline == HD_PIPELINE_MEGA && !report->device.backend->needs_no_driver)
         status = test_arithmetic(&part, error);
     if (status == HD_OK && report->result == HD_RESULT_RIGHT)
@@ -201,7 +201,7 @@ static HdStatus test_pipeline(HdSelfTestReport *report, const HdRenderOptions *o
     return status;
 }
 
-/* A device whose groups of threads lack 64-bit atomics has no wavefront. */
+/* A device whose thread groups lack 64-bit atomics has no wavefront. */
 static HdStatus test_precision(HdSelfTestReport *report, HdPrecision precision, HdTestEffort effort,
                                HdError *error) {
     HdRenderOptions options = {
@@ -213,12 +213,12 @@ static HdStatus test_precision(HdSelfTestReport *report, HdPrecision precision, 
     return goes_on ? test_pipeline(report, &options, effort, error) : HD_OK;
 }
 
-HdStatus hd_certify(HdSelfTestReport *report, const HdDevice *device, HdTestEffort effort,
-                    HdError *error) {
+HdStatus hd_self_test(HdSelfTestReport *report, const HdDevice *device, HdTestEffort effort,
+                      HdError *error) {
     HdStatus status = HD_OK;
     *report = (HdSelfTestReport){
         .device = *device, .result = HD_RESULT_RIGHT, .seconds = -hd_monotonic_seconds()};
-    report->device.not_strict[0] = '\0'; /* it is to be found out anew */
+    report->device.not_strict[0] = '\0'; /* the test decides this again */
     for (int p = HD_PRECISION_FLOAT; status != HD_INTERRUPTED && p <= HD_PRECISION_DOUBLE; p++)
         if (p == HD_PRECISION_FLOAT || device->has_double)
             status = test_precision(report, (HdPrecision)p, effort, error);

@@ -11,9 +11,9 @@
 #include "verify/golden.h"
 #include "verify/probe.h"
 
-/* ---- proof ---- */
+/* ---- test ---- */
 
-/* The tables of a scene as if it needed what `like` does, so that the same kernels render it. */
+/* Compiles the scene's tables with the needs of `like` too, so that the same kernels render it. */
 static HdStatus compile_like(HdSceneTables *tables, const HdScene *scene, HdRenderer *renderer,
                              const HdSceneTables *like, HdError *error) {
     HdStatus status = hd_compile_scene(tables, scene, hd_renderer_options(renderer)->precision,
@@ -23,7 +23,7 @@ static HdStatus compile_like(HdSceneTables *tables, const HdScene *scene, HdRend
     return status;
 }
 
-/* Kernels for surveys render grids as well. */
+/* Kernels for error bounds render grids as well. */
 static HdStatus render_hash(HdRenderer *renderer, const HdSceneTables *tables, const HdScene *scene,
                             const HdCamera *camera, uint64_t *hash, HdError *error) {
     HdFrameTables view;
@@ -35,7 +35,7 @@ static HdStatus render_hash(HdRenderer *renderer, const HdSceneTables *tables, c
         status = hd_renderer_upload(renderer, tables, error);
         if (status == HD_OK)
             status = hd_renderer_render(renderer, &view, &image, error);
-        /* Without what else surveyed pixels come with. */
+        /* Skips the additional values of pixels with an error bound. */
         size_t pixels = (size_t)image.width * (size_t)image.height;
         for (size_t i = 0; i < pixels; i++)
             memmove(image.rgb + 3 * i, image.rgb + (size_t)image.floats * i, 3 * sizeof *image.rgb);
@@ -47,20 +47,21 @@ static HdStatus render_hash(HdRenderer *renderer, const HdSceneTables *tables, c
     return status;
 }
 
-typedef struct Proof {
+typedef struct KernelTest {
     HdRenderer *renderer;
-    const HdSceneTables *like; /* what the kernels were compiled for */
-    int frames;                /* that they rendered rightly */
-    bool is_wrong;             /* they rendered one wrongly */
-} Proof;
+    const HdSceneTables *like; /* needs that the kernels were compiled for */
+    int frames;                /* frames rendered correctly */
+    bool is_wrong;             /* a frame was rendered wrongly */
+} KernelTest;
 
-static HdStatus judge(Proof *proof, const HdGoldenFrame *frame, uint64_t hash, HdError *error) {
-    const HdDevice *device = hd_renderer_device(proof->renderer);
+static HdStatus check_hash(KernelTest *test, const HdGoldenFrame *frame, uint64_t hash,
+                           HdError *error) {
+    const HdDevice *device = hd_renderer_device(test->renderer);
     HdGoldenHashes expected = {0};
-    hd_golden_find_hashes(frame->name, proof->like->precision, &expected);
-    proof->is_wrong = hash != expected.frame;
-    proof->frames += !proof->is_wrong;
-    return proof->is_wrong
+    hd_golden_find_hashes(frame->name, test->like->precision, &expected);
+    test->is_wrong = hash != expected.frame;
+    test->frames += !test->is_wrong;
+    return test->is_wrong
                ? hd_fail(error, HD_UNAVAILABLE,
                          "%s (%s) computes wrongly: the kernels that were compiled for it render "
                          "the golden frame '%s' with the hash %016" PRIx64 ", expected %016" PRIx64
@@ -69,20 +70,20 @@ static HdStatus judge(Proof *proof, const HdGoldenFrame *frame, uint64_t hash, H
                : HD_OK;
 }
 
-static HdStatus prove_by(Proof *proof, const HdGoldenFrame *frame, HdError *error) {
+static HdStatus render_golden(KernelTest *test, const HdGoldenFrame *frame, HdError *error) {
     HdScene scene;
     HdCamera camera;
     HdSceneTables tables;
     uint64_t hash;
     HD_TRY(hd_golden_build(frame, &scene, &camera, error));
-    HdStatus status = compile_like(&tables, &scene, proof->renderer, proof->like, error);
+    HdStatus status = compile_like(&tables, &scene, test->renderer, test->like, error);
     if (status == HD_OK) {
-        tables.many_lights = proof->like->many_lights; /* kernels without look at each light */
-        const HdKernelNeeds needs = hd_kernel_needs(&tables), there = hd_kernel_needs(proof->like);
+        tables.many_lights = test->like->many_lights; /* kernels without it test each light */
+        const HdKernelNeeds needs = hd_kernel_needs(&tables), there = hd_kernel_needs(test->like);
         if (hd_kernel_needs_equal(&needs, &there)) {
-            status = render_hash(proof->renderer, &tables, &scene, &camera, &hash, error);
+            status = render_hash(test->renderer, &tables, &scene, &camera, &hash, error);
             if (status == HD_OK)
-                status = judge(proof, frame, hash, error);
+                status = check_hash(test, frame, hash, error);
         }
         hd_scene_tables_free(&tables);
     }
@@ -90,21 +91,21 @@ static HdStatus prove_by(Proof *proof, const HdGoldenFrame *frame, HdError *erro
     return status;
 }
 
-/* The renderer's scene is then another one. */
-static HdStatus prove(Proof *proof, HdError *error) {
-    HdKernelCache *kernels = hd_renderer_kernels(proof->renderer);
+/* Replaces the renderer's scene. */
+static HdStatus test_kernels(KernelTest *test, HdError *error) {
+    HdKernelCache *kernels = hd_renderer_kernels(test->renderer);
     HdStatus status = HD_OK;
     kernels->is_on_trial = true;
     for (int i = 0; status == HD_OK && i < hd_golden_frame_count; i++)
-        if (hd_golden_frames[i].proves)
-            status = prove_by(proof, &hd_golden_frames[i], error);
+        if (hd_golden_frames[i].tests_build)
+            status = render_golden(test, &hd_golden_frames[i], error);
     kernels->is_on_trial = false;
-    if (status == HD_OK && proof->frames == 0)
+    if (status == HD_OK && test->frames == 0)
         status = hd_fail(error, HD_FAILED, "no golden frame fits the kernels");
     return status;
 }
 
-/* ---- putting ---- */
+/* ---- uploads ---- */
 
 void hd_put_on_trial(HdRenderer *renderer) {
     HdKernelCache *kernels = hd_renderer_kernels(renderer);
@@ -112,9 +113,9 @@ void hd_put_on_trial(HdRenderer *renderer) {
         kernels->is_on_trial = true;
 }
 
-static HdStatus put_and_prove(HdRenderer *renderer, const HdSceneTables *tables, bool *is_wrong,
+static HdStatus upload_tested(HdRenderer *renderer, const HdSceneTables *tables, bool *is_wrong,
                               HdError *error) {
-    Proof proof = {.renderer = renderer, .like = tables};
+    KernelTest test = {.renderer = renderer, .like = tables};
     HdStatus status = hd_probe_settle(renderer, error);
     if (status == HD_OK)
         status = hd_renderer_upload(renderer, tables, error);
@@ -122,8 +123,8 @@ static HdStatus put_and_prove(HdRenderer *renderer, const HdSceneTables *tables,
     if (status != HD_OK || kernels == NULL || !kernels->is_untested || kernels->is_on_trial)
         return status;
     if (kernels->shape.math == HD_MATH_STRICT) {
-        status = prove(&proof, error);
-        *is_wrong = proof.is_wrong;
+        status = test_kernels(&test, error);
+        *is_wrong = test.is_wrong;
         if (status == HD_OK)
             status = hd_renderer_upload(renderer, tables, error);
     }
@@ -132,13 +133,13 @@ static HdStatus put_and_prove(HdRenderer *renderer, const HdSceneTables *tables,
     return status;
 }
 
-/* After kernels of the megakernel computed wrongly, which `error` tells: it stays so where those of
-   the wavefront, with fewer branches within each other, do so too, or there are none. */
+/* Falls back to the wavefront, with fewer nested branches, after the megakernel computed wrongly as
+   `error` says. `error` remains if that is wrong too or unavailable. */
 static HdStatus try_wavefront(HdRenderer *renderer, const HdSceneTables *tables, HdError *error) {
     HdError later;
     bool is_wrong = false;
     HdStatus status = hd_renderer_change_to_wavefront(renderer)
-                          ? put_and_prove(renderer, tables, &is_wrong, &later)
+                          ? upload_tested(renderer, tables, &is_wrong, &later)
                           : HD_UNAVAILABLE;
     if (status == HD_OK)
         hd_fallback_note("the wavefront takes over: %s", error->message);
@@ -151,7 +152,7 @@ static HdStatus try_wavefront(HdRenderer *renderer, const HdSceneTables *tables,
 
 HdStatus hd_put_tables(HdRenderer *renderer, const HdSceneTables *tables, HdError *error) {
     bool is_wrong = false;
-    HdStatus status = put_and_prove(renderer, tables, &is_wrong, error);
+    HdStatus status = upload_tested(renderer, tables, &is_wrong, error);
     return is_wrong ? try_wavefront(renderer, tables, error) : status;
 }
 

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Puts scenes on renderers: whoever renders for a user has it done here. First the device's
-   arithmetic is settled (probe.h). Kernels that were compiled anew, with strict arithmetic, then
-   prove themselves: they render the golden frames that are for it and that they can render, and
-   their hashes must be right. Where those of the megakernel are wrong, the wavefront takes over,
-   and a note tells (warnings.h). Kernels that have proved themselves are kept on disk
-   (kernel_cache.h). Renderers refuse frames by others (hd_renderer_submit). */
+/* Uploads scenes to renderers; all rendering for a user goes through it. First settles the device's
+   arithmetic (probe.h). Newly compiled strict kernels must then render the golden frames for that
+   purpose that they support with the right hashes. If the megakernel fails, the wavefront replaces
+   it with a warning (warnings.h). Kernels that pass are kept on disk (kernel_cache.h). Renderers
+   refuse frames by others (hd_renderer_submit). */
 #ifndef HD_VERIFY_TRUST_H
 #define HD_VERIFY_TRUST_H
 
@@ -12,12 +11,12 @@
 #include "scene/camera.h"
 #include "scene/scene.h"
 
-/* Hands a compiled scene to a renderer of the same precision and lanes. HD_UNAVAILABLE where the
+/* Uploads a compiled scene to a renderer of the same precision and lanes. HD_UNAVAILABLE if the
    device computes wrongly. */
 HdStatus hd_put_tables(HdRenderer *renderer, const HdSceneTables *tables, HdError *error);
 
-/* Compiles a valid scene for the renderer, as if it needed of the kernels what `like` does too
-   (hd_scene_tables_raise; NULL: only what it needs), and hands it over. */
+/* Compiles a valid scene for the renderer and uploads it. `like` adds needs of the kernels
+   (hd_scene_tables_raise); NULL: none. */
 HdStatus hd_put_scene(HdRenderer *renderer, const HdScene *scene, const HdSceneTables *like,
                       HdError *error);
 
@@ -26,8 +25,7 @@ HdStatus hd_put_and_render(HdRenderer *renderer, const HdScene *scene, const HdC
                            const HdSceneTables *like, unsigned layers, HdFrame *frame,
                            HdError *error);
 
-/* From now on the renderer's kernels need not prove themselves and are not kept: whoever asks for
-   frames is to judge them. */
+/* Exempts the renderer's kernels from the test and from storage: the caller judges the frames. */
 void hd_put_on_trial(HdRenderer *renderer);
 
 #endif

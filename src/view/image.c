@@ -9,7 +9,7 @@ void hd_view_image_free(HdViewImage *image) {
     *image = (HdViewImage){.width = 0};
 }
 
-/* A part of another picture, whose rows begin `stride` pixels apart, gets the nearest pixels. */
+/* Copies the nearest pixels into a part of a picture, whose rows are `stride` pixels apart. */
 static void copy_fitted(const HdViewImage *source, uint8_t *target, int width, int height,
                         int stride) {
     for (int y = 0; y < height; y++, target += 4 * (size_t)stride) {
@@ -38,9 +38,9 @@ HdStatus hd_view_image_resize(HdViewImage *image, int width, int height, HdError
 static int scaled_difference(const uint8_t *a, const uint8_t *b, int gain, uint8_t *out) {
     int largest = 0;
     for (int c = 0; c < 3; c++) {
-        const int apart = a[c] > b[c] ? a[c] - b[c] : b[c] - a[c];
-        largest = apart > largest ? apart : largest;
-        out[c] = (uint8_t)(apart * gain < 255 ? apart * gain : 255);
+        const int difference = a[c] > b[c] ? a[c] - b[c] : b[c] - a[c];
+        largest = difference > largest ? difference : largest;
+        out[c] = (uint8_t)(difference * gain < 255 ? difference * gain : 255);
     }
     out[3] = 255;
     return largest;
@@ -54,9 +54,10 @@ static void fill_difference(HdViewImage *out, int gain, HdSplitFigures *figures)
         const uint8_t *pixels = out->rgba + row * (size_t)y;
         uint8_t *below = out->rgba + row * (size_t)(y + height);
         for (size_t x = 0; x < across; x += 4) {
-            const int apart = scaled_difference(pixels + x, pixels + across + x, gain, below + x);
-            figures->largest = apart > figures->largest ? apart : figures->largest;
-            differing += apart > 0;
+            const int difference =
+                scaled_difference(pixels + x, pixels + across + x, gain, below + x);
+            figures->largest = difference > figures->largest ? difference : figures->largest;
+            differing += difference > 0;
         }
     }
     figures->share = (double)differing / ((double)width * height);

@@ -9,10 +9,10 @@
 #include "base/trigonometry.h"
 #include "scene/camera.h"
 
-/* From the horizon to here the eye may climb. */
+/* Largest elevation of the eye above the horizon. */
 #define STEEPEST (HD_PI / 2.0 - 0.01)
 
-/* Farther and nearer nothing can be seen. */
+/* Limits of the distance; nothing is visible beyond them. */
 static const double farthest = 1e6, nearest = 1e-3;
 
 HdPose hd_pose_on_path(const HdScene *scene, int frame) {
@@ -74,25 +74,25 @@ void hd_pose_print(FILE *out, const HdPose *pose, double field_of_view_degrees) 
     fputs("}\n", out);
 }
 
-/* Before anything was measured: what two cores take for a common scene. */
+/* Estimate before any measurement: a common scene on two cores. */
 #define USUAL_SECONDS 2e-6
 
-/* Below this a picture tells nothing any more: rather its rays go less deep, and deeper again once
-   the picture is larger than that by far. */
+/* Below this width a picture is unrecognisable: its ray depth decreases instead, and grows again
+   once the picture is much wider. */
 enum { MIN_WIDTH = 128, DEEPER_WIDTH = 256, MIN_DEPTH = 2 };
 
 static double sample_count(const HdDetail *detail) {
     return (double)detail->width * detail->height * detail->samples * detail->samples;
 }
 
-/* A picture that took too long counts at once, a quick one by and by. */
+/* A picture that took too long counts at once, a quick one gradually. */
 void hd_pace_note(HdPace *pace, const HdDetail *detail, double seconds) {
     const double now = seconds / sample_count(detail), before = pace->seconds_per_sample;
     const double weight = now > before ? 0.6 : 0.2;
     pace->seconds_per_sample = before > 0.0 ? before + weight * (now - before) : now;
 }
 
-/* A step at a time, for what a step saves is known when it was measured. */
+/* One step at a time: the effect of a step is known only after a measurement. */
 static void adapt_depth(HdPace *pace, const HdDetail *full, double width) {
     const int depth = pace->depth > 0 && pace->depth < full->depth ? pace->depth : full->depth;
     const bool is_whole = width >= full->width;

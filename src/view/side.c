@@ -17,26 +17,26 @@
 #include "system/thread_pool.h"
 #include "verify/trust.h"
 
-/* Seconds of a part, after which an earlier wish is given up. */
+/* Seconds of a part, after which an outdated request is dropped. */
 #define PART_SECONDS 0.025
 
 /* Rows of parts are multiples of this, as the items of plain C are. */
 enum { PART_ROWS = 8 };
 
-/* ---- what others see ---- */
+/* ---- published state ---- */
 
-/* What is under way is for an earlier wish. */
+/* Returns whether the current work serves an outdated request. */
 static bool is_stale(HdViewSide *side) {
     return atomic_load(&side->watch.is_unwanted);
 }
 
-static void tell(HdViewSide *side, const char *device) {
+static void set_description(HdViewSide *side, const char *device) {
     pthread_mutex_lock(&side->mutex);
-    snprintf(side->told, sizeof side->told, "%s", device);
+    snprintf(side->description, sizeof side->description, "%s", device);
     pthread_mutex_unlock(&side->mutex);
 }
 
-/* Rows of radiance become rows of the picture, which keeps its others. */
+/* Converts rows of radiance into rows of the picture, which keeps its others. */
 static HdStatus show_rows(HdViewSide *side, const HdFrame *frame, int top, int height,
                           const HdViewImage *facts, HdError *error) {
     pthread_mutex_lock(&side->mutex);
@@ -57,7 +57,7 @@ static HdStatus show_rows(HdViewSide *side, const HdFrame *frame, int top, int h
 /* ---- device and scene ---- */
 
 static HdStatus open_device(HdViewSide *side, HdError *error) {
-    HdScene plain = side->file.scene; /* what it owns stays with the other */
+    HdScene plain = side->file.scene; /* `file` keeps ownership */
     HdRenderOptions render = side->devices.render;
     const HdJob job = {.scene = &plain, .frame_count = plain.frame_count};
     const HdDeviceSelection device = {
@@ -70,13 +70,13 @@ static HdStatus open_device(HdViewSide *side, HdError *error) {
     };
     render.has_deep_trees = hd_scene_has_deep_trees(&plain);
     hd_scene_drop_error_bound(&plain);
-    tell(side, "opening the device ...");
+    set_description(side, "opening the device ...");
     hd_close_devices(&side->team);
     side->is_opened = side->is_uploaded = false;
     HdStatus status = hd_open_devices(&side->team, &device, error);
     side->is_opened = status == HD_OK;
     if (status != HD_OK)
-        tell(side, "no device");
+        set_description(side, "no device");
     return status;
 }
 
@@ -85,14 +85,14 @@ static HdStatus upload(HdViewSide *side, const HdScene *scene, HdError *error) {
     char line[HD_RENDERER_LINE], device[HD_RENDERER_LINE + 64];
     side->is_uploaded = false;
     if (hd_renderer_device(renderer)->backend->functions->kernels != NULL)
-        tell(side, "building kernels ...");
+        set_description(side, "building kernels ...");
     HD_TRY(hd_put_scene(renderer, scene, NULL, error));
     side->is_uploaded = true;
     side->has_bound = hd_scene_has_error_bound(scene);
     const HdDevice *opened = hd_renderer_device(renderer);
     hd_renderer_describe(renderer, line, sizeof line);
     snprintf(device, sizeof device, "%.32s:%d %s", opened->backend->name, opened->index, line);
-    tell(side, device);
+    set_description(side, device);
     return HD_OK;
 }
 
@@ -120,9 +120,9 @@ static HdStatus render_scene(HdViewSide *side, const HdScene *scene, const HdVie
     return hd_frame_render(&maker, &request->camera, frame, error);
 }
 
-/* The scene as quick pictures have it. */
+/* Returns the scene as reduced for quick pictures. */
 static HdScene quick_scene(const HdViewSide *side, const HdDetail *detail) {
-    HdScene scene = side->file.scene; /* what it owns stays there */
+    HdScene scene = side->file.scene; /* `file` keeps ownership */
     hd_scene_drop_error_bound(&scene);
     scene.width = detail->width;
     scene.height = detail->height;
@@ -133,8 +133,8 @@ static HdScene quick_scene(const HdViewSide *side, const HdDetail *detail) {
 
 static HdStatus render_moving(HdViewSide *side, const HdViewRequest *request, HdError *error) {
     const HdScene scene = quick_scene(side, &request->detail);
-    HdScene uploaded = side->file.scene;  /* what it owns stays there */
-    hd_scene_drop_error_bound(&uploaded); /* its depth is that of all quick pictures, at most */
+    HdScene uploaded = side->file.scene;  /* `file` keeps ownership */
+    hd_scene_drop_error_bound(&uploaded); /* its depth is the maximum of all quick pictures */
     HD_TRY(make_ready(side, &uploaded, error));
     const double start = hd_monotonic_seconds();
     HD_TRY(render_scene(side, &scene, request, &side->part, error));
@@ -155,7 +155,7 @@ static int next_rows(int rows, double seconds) {
     return most > PART_ROWS ? most - most % PART_ROWS : PART_ROWS;
 }
 
-/* All rows of a scene that is not surveyed, from the top, each as the whole picture has it. */
+/* Renders all rows of a scene without an error bound, from the top, as in the whole picture. */
 static HdStatus render_rows(HdViewSide *side, const HdScene *whole, const HdViewRequest *request,
                             HdViewImage *facts, HdError *error) {
     HdScene scene = *whole;
@@ -179,7 +179,7 @@ static HdStatus render_rows(HdViewSide *side, const HdScene *whole, const HdView
     return HD_OK;
 }
 
-/* Adaptive samples hang on their neighbours: such a picture is made in one piece, or given up. */
+/* Adaptive samples depend on their neighbours: such a picture is made in one piece, or dropped. */
 static HdStatus render_bounded(HdViewSide *side, const HdViewRequest *request, HdViewImage *facts,
                                HdError *error) {
     const HdScene *scene = &side->file.scene;
@@ -198,7 +198,7 @@ static HdStatus render_bounded(HdViewSide *side, const HdViewRequest *request, H
     return HD_OK;
 }
 
-/* The whole picture is there: it is encoded once more, as a file is. */
+/* Encodes the whole picture again, as for a file. */
 static HdStatus finish(HdViewSide *side, HdViewImage *facts, HdError *error) {
     facts->is_settled = true;
     HdStatus status = show_rows(side, &side->frame, 0, facts->height, facts, error);
@@ -230,7 +230,7 @@ static HdStatus settle(HdViewSide *side, const HdViewRequest *request, HdError *
 
 /* ---- the thread ---- */
 
-static void fulfil(HdViewSide *side, const HdViewRequest *request) {
+static void serve(HdViewSide *side, const HdViewRequest *request) {
     HdError error;
     HdStatus status =
         request->is_moving ? render_moving(side, request, &error) : settle(side, request, &error);
@@ -238,7 +238,7 @@ static void fulfil(HdViewSide *side, const HdViewRequest *request) {
     side->is_done = side->is_done || !is_stale(side);
     side->is_busy = false;
     if (status == HD_INTERRUPTED && is_stale(side))
-        status = HD_OK; /* it was given up */
+        status = HD_OK; /* the request was dropped */
     snprintf(side->problem, sizeof side->problem, "%.4000s", status == HD_OK ? "" : error.message);
     pthread_cond_broadcast(&side->changed);
     pthread_mutex_unlock(&side->mutex);
@@ -261,7 +261,7 @@ static void *work(void *argument) {
     HdViewSide *side = argument;
     HdViewRequest request;
     while (claim_request(side, &request))
-        fulfil(side, &request);
+        serve(side, &request);
     hd_close_devices(&side->team);
     return NULL;
 }
@@ -276,8 +276,8 @@ void hd_view_side_show(HdViewSide *side, const HdViewRequest *request) {
     pthread_mutex_unlock(&side->mutex);
 }
 
-/* Drops the wish, and waits until the thread reads nothing of plan and file any more. */
-static void rest(HdViewSide *side) {
+/* Drops the request, and waits until the thread no longer reads plan and file. */
+static void stop_work(HdViewSide *side) {
     pthread_mutex_lock(&side->mutex);
     side->has_request = false;
     atomic_store(&side->watch.is_unwanted, true);
@@ -312,7 +312,7 @@ bool hd_view_side_fetch(HdViewSide *side) {
 void hd_view_side_describe(HdViewSide *side, char *device, size_t device_size, char *problem,
                            size_t problem_size) {
     pthread_mutex_lock(&side->mutex);
-    snprintf(device, device_size, "%s", side->told);
+    snprintf(device, device_size, "%s", side->description);
     snprintf(problem, problem_size, "%s", side->problem);
     pthread_mutex_unlock(&side->mutex);
 }
@@ -346,13 +346,13 @@ static uint64_t add_file(uint64_t hash, const char *path) {
     if (path == NULL || hd_path_expand_home(path, expanded, &ignored) != HD_OK ||
         stat(expanded, &facts) != 0)
         return hd_hash_bytes(hash, "", 1);
-    const int64_t told[] = {(int64_t)facts.st_ino, (int64_t)facts.st_size,
-                            (int64_t)facts.st_mtim.tv_sec, (int64_t)facts.st_mtim.tv_nsec};
-    return hd_hash_bytes(hash, told, sizeof told);
+    const int64_t description[] = {(int64_t)facts.st_ino, (int64_t)facts.st_size,
+                                   (int64_t)facts.st_mtim.tv_sec, (int64_t)facts.st_mtim.tv_nsec};
+    return hd_hash_bytes(hash, description, sizeof description);
 }
 
-/* A number that changes when one of the files is written or replaced: that of the scene (NULL:
-   none), its texture and its meshes. */
+/* Returns a hash that changes when one of the files is written or replaced: the scene (NULL: none),
+   its texture and its meshes. */
 static uint64_t hash_files(const char *path, const HdSceneFile *file) {
     uint64_t hash = add_file(HD_HASH_START, path);
     if (file->texture_path[0] != '\0')
@@ -365,12 +365,13 @@ static uint64_t hash_files(const char *path, const HdSceneFile *file) {
 static HdStatus read_file(HdViewSide *side, HdSceneFile *file, HdError *error) {
     side->files = hash_files(side->scene_plan.path, &side->file);
     HdStatus status = hd_load_scene(file, &side->scene_plan, NULL, error);
-    snprintf(side->mistake, sizeof side->mistake, "%.4000s", status == HD_OK ? "" : error->message);
+    snprintf(side->file_error, sizeof side->file_error, "%.4000s",
+             status == HD_OK ? "" : error->message);
     return status;
 }
 
-/* The pipeline that is opened may hang on how deep the trees are. */
-static void take_file(HdViewSide *side, const HdSceneFile *file) {
+/* The pipeline may depend on the depth of the trees. */
+static void set_file(HdViewSide *side, const HdSceneFile *file) {
     const bool was_deep = hd_scene_has_deep_trees(&side->file.scene);
     hd_scene_file_free(&side->file);
     side->file = *file;
@@ -384,7 +385,7 @@ HdStatus hd_view_side_open(HdViewSide *side, const HdScenePlan *scene, const HdD
     HdSceneFile file;
     *side = (HdViewSide){.scene_plan = *scene, .devices = *devices};
     HD_TRY(read_file(side, &file, error));
-    take_file(side, &file);
+    set_file(side, &file);
     pthread_mutex_init(&side->mutex, NULL);
     pthread_cond_init(&side->changed, NULL);
     const int reason = hd_start_thread(&side->thread, work, side);
@@ -398,9 +399,9 @@ HdStatus hd_view_side_open(HdViewSide *side, const HdScenePlan *scene, const HdD
 static void read_again(HdViewSide *side) {
     HdSceneFile file;
     HdError error;
-    rest(side);
+    stop_work(side);
     if (read_file(side, &file, &error) == HD_OK)
-        take_file(side, &file);
+        set_file(side, &file);
 }
 
 bool hd_view_side_follow_files(HdViewSide *side) {
@@ -457,7 +458,7 @@ static void change_scene(HdViewSide *side, HdViewSetting setting, int by) {
 
 void hd_view_side_change(HdViewSide *side, HdViewSetting setting, int by) {
     HdPrecision *precision = &side->devices.render.precision;
-    rest(side); /* it reads the plan */
+    stop_work(side); /* the thread reads the plan */
     if (setting == HD_VIEW_BACKEND)
         next_backend(side);
     else if (setting == HD_VIEW_DEVICE)

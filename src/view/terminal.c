@@ -18,15 +18,15 @@
 
 enum {
     ANSWER_WAIT_MS = 1000,
-    USUAL_CELL_WIDTH = 8, /* where the terminal does not tell */
-    SYMBOL_WIDTH = 2,     /* pixels that a symbol shows beside each other */
+    USUAL_CELL_WIDTH = 8, /* if the terminal does not report it */
+    SYMBOL_WIDTH = 2,     /* pixels of a symbol in a row */
     MAX_SIXEL_WIDTH = 640
 };
 
-/* Takes a picture by the kitty protocol off the screen. */
+/* Removes a picture of the kitty protocol from the screen. */
 static const char kitty_clear[] = "\033_Ga=d,q=2\033\\";
 
-/* A part of the screen, from column and row 1. */
+/* Part of the screen, from column and row 1. */
 typedef struct Area {
     int left, top, columns, rows;
 } Area;
@@ -36,21 +36,21 @@ typedef struct Terminal {
     struct termios before;
     bool is_raw;
     ChafaTermInfo *info;     /* owned; its control sequences */
-    ChafaSymbolMap *symbols; /* owned */
-    ChafaPixelMode protocol; /* of pictures */
+    ChafaSymbolMap *symbols; /* owned; set of symbols */
+    ChafaPixelMode protocol; /* protocol of pictures */
     int columns, rows, cell_width, cell_height;
-    Area area; /* of the picture */
+    Area area; /* place of the picture */
     HdViewer *viewer;
-    int version; /* of the picture that is shown */
+    int version; /* version of the shown picture */
     int line_count;
     char lines[HD_VIEW_LINES][HD_VIEW_LINE];
     gchar **shown; /* owned; rows of a picture of symbols; NULL: none is on the screen */
-    FILE *out;  /* standard output; where that is the terminal, a stream into `said`; owned then */
-    char *said; /* owned; for the end */
+    FILE *out;     /* standard output; if that is the terminal, an owned stream into `printed` */
+    char *printed; /* owned; printed at the end */
     size_t said_size;
 } Terminal;
 
-/* ---- bytes to and fro ---- */
+/* ---- input and output ---- */
 
 static HdStatus send_text(const Terminal *t, const char *text, HdError *error) {
     while (*text != '\0') {
@@ -66,7 +66,7 @@ static HdStatus send_text(const Terminal *t, const char *text, HdError *error) {
     return HD_OK;
 }
 
-/* What comes within that time; 0: nothing. */
+/* Returns the bytes received within that time; 0: none. */
 static int receive(const Terminal *t, char *bytes, int size, int wait_ms) {
     struct pollfd entry = {.fd = t->file, .events = POLLIN};
     if (poll(&entry, 1, wait_ms) <= 0)
@@ -75,7 +75,7 @@ static int receive(const Terminal *t, char *bytes, int size, int wait_ms) {
     return got > 0 ? (int)got : 0;
 }
 
-/* ---- what the terminal is ---- */
+/* ---- capabilities of the terminal ---- */
 
 static void measure(Terminal *t) {
     struct winsize size = {0};
@@ -89,8 +89,8 @@ static void measure(Terminal *t) {
     t->cell_height = size.ws_ypixel > 0 ? size.ws_ypixel / size.ws_row : 2 * USUAL_CELL_WIDTH;
 }
 
-/* Attribute 4 of the answer to the question what the terminal can do: "ESC [ ? 62 ; 4 ; 22 c". */
-static bool tells_sixel(const char *answer) {
+/* Finds attribute 4 in the answer to the query of capabilities: "ESC [ ? 62 ; 4 ; 22 c". */
+static bool has_sixel(const char *answer) {
     const char *place = strstr(answer, "\033[?");
     while (place != NULL && *place != 'c' && *place != '\0') {
         place += strcspn(place, ";c");
@@ -101,9 +101,8 @@ static bool tells_sixel(const char *answer) {
     return false;
 }
 
-/* By what the terminal answers, for a variable of the environment may be that of a terminal around
-   it. Every terminal answers the second question, so that nobody waits for an answer to the first.
- */
+/* Queries the terminal, since an environment variable may describe an outer one. Every terminal
+   answers the second query, so that the first one cannot block. */
 static HdStatus find_protocol(Terminal *t, HdError *error) {
     char answer[512] = "";
     int length = 0, got = 1;
@@ -112,18 +111,18 @@ static HdStatus find_protocol(Terminal *t, HdError *error) {
         got = receive(t, answer + length, (int)sizeof answer - 1 - length, ANSWER_WAIT_MS);
         length += got;
         answer[length] = '\0';
-        const char *told = strstr(answer, "\033[?");
-        if (told != NULL && strchr(told, 'c') != NULL)
+        const char *reply = strstr(answer, "\033[?");
+        if (reply != NULL && strchr(reply, 'c') != NULL)
             break;
     }
     t->protocol = strstr(answer, "\033_Gi=31;OK") != NULL ? CHAFA_PIXEL_MODE_KITTY
-                  : tells_sixel(answer)                   ? CHAFA_PIXEL_MODE_SIXELS
+                  : has_sixel(answer)                     ? CHAFA_PIXEL_MODE_SIXELS
                                                           : CHAFA_PIXEL_MODE_SYMBOLS;
     return HD_OK;
 }
 
-/* Colours are those of the environment, pictures have the sequences that any terminal has. A kitty
-   replaces its picture by one of the same number, leaves the cursor alone and does not answer. */
+/* Colours follow the environment, pictures use the sequences of any terminal. A kitty replaces its
+   picture by one of the same number, keeps the cursor and does not answer. */
 static HdStatus find_sequences(Terminal *t, HdError *error) {
     static const char kitty[] = "\033_Ga=T,f=%1,s=%2,v=%3,c=%4,r=%5,i=1,p=1,q=2,C=1,m=1\033\\";
     ChafaTermDb *all = chafa_term_db_get_default();
@@ -144,8 +143,8 @@ static HdStatus find_sequences(Terminal *t, HdError *error) {
 
 /* ---- keys ---- */
 
-/* Waits for some; an escape sequence counts as a whole; what is no arrow does nothing. */
-static void take_keys(Terminal *t) {
+/* Waits for keys. An escape sequence counts as a whole; those other than arrows do nothing. */
+static void read_keys(Terminal *t) {
     char bytes[256];
     const int count = receive(t, bytes, (int)sizeof bytes, hd_viewer_wait_ms(t->viewer));
     const double now = hd_monotonic_seconds();
@@ -164,8 +163,8 @@ static void take_keys(Terminal *t) {
 
 /* ---- drawing ---- */
 
-/* The largest area of the picture's shape above the lines. Sixels are as large as they are on the
-   screen: so few columns that they are sent in time; and below the last row they would scroll. */
+/* Returns the largest area of the picture's shape above the lines. Sixels have the size of the
+   screen: few enough columns to be sent in time; below the last row they would scroll. */
 static Area place_of_picture(const Terminal *t) {
     int width, height, columns = t->columns, rows = MAX(t->rows - t->line_count, 1);
     hd_viewer_size(t->viewer, &width, &height);
@@ -184,7 +183,7 @@ static Area place_of_picture(const Terminal *t) {
     return area;
 }
 
-/* A kitty scales the picture itself, so that it gets no more pixels than there are. */
+/* A kitty scales the picture itself, so that it gets no more pixels than the image has. */
 static ChafaCanvas *create_canvas(const Terminal *t, const HdViewImage *image) {
     ChafaCanvasConfig *config = chafa_canvas_config_new();
     const bool has_all = chafa_term_info_have_seq(t->info, CHAFA_TERM_SEQ_SET_COLOR_FGBG_DIRECT);
@@ -207,7 +206,7 @@ static ChafaCanvas *create_canvas(const Terminal *t, const HdViewImage *image) {
     return canvas;
 }
 
-/* Sends the rows that are other than before. */
+/* Sends the rows that differ from the shown ones. */
 static void write_symbols(Terminal *t, const char *text, GString *out) {
     gchar **rows = g_strsplit(text, "\n", t->area.rows);
     for (int i = 0; rows[i] != NULL; i++)
@@ -235,7 +234,7 @@ static void write_picture(Terminal *t, GString *out) {
     chafa_canvas_unref(canvas);
 }
 
-/* What was on the screen is forgotten. */
+/* Forgets the shown picture too. */
 static void clear_screen(Terminal *t, GString *out) {
     g_string_append(out, "\033[0m\033[2J");
     if (t->protocol == CHAFA_PIXEL_MODE_KITTY)
@@ -286,14 +285,14 @@ static HdStatus draw(Terminal *t, HdError *error) {
 static HdStatus run(Terminal *t, HdError *error) {
     while (hd_viewer_tick(t->viewer, hd_monotonic_seconds())) {
         HD_TRY(draw(t, error));
-        take_keys(t);
+        read_keys(t);
         if (hd_interrupt_signal() != 0)
             return hd_fail(error, HD_INTERRUPTED, "interrupted");
     }
     return HD_OK;
 }
 
-/* ---- from open to close ---- */
+/* ---- open and close ---- */
 
 static HdStatus open_terminal(Terminal *t, HdError *error) {
     t->file = open("/dev/tty", O_RDWR | O_NOCTTY | O_CLOEXEC);
@@ -303,11 +302,11 @@ static HdStatus open_terminal(Terminal *t, HdError *error) {
                        strerror(errno));
     if (tcgetattr(t->file, &t->before) != 0)
         return hd_fail(error, HD_UNAVAILABLE, "--terminal needs a terminal: %s", strerror(errno));
-    t->out = isatty(STDOUT_FILENO) ? open_memstream(&t->said, &t->said_size) : stdout;
+    t->out = isatty(STDOUT_FILENO) ? open_memstream(&t->printed, &t->said_size) : stdout;
     return t->out != NULL ? HD_OK : HD_NO_ROOM(error, "a view");
 }
 
-static HdStatus take_terminal(Terminal *t, HdError *error) {
+static HdStatus set_up_terminal(Terminal *t, HdError *error) {
     struct termios raw = t->before;
     raw.c_iflag &= ~(tcflag_t)(BRKINT | ICRNL | INPCK | ISTRIP | IXON);
     raw.c_oflag &= ~(tcflag_t)OPOST;
@@ -321,8 +320,8 @@ static HdStatus take_terminal(Terminal *t, HdError *error) {
     return find_sequences(t, error);
 }
 
-/* Before anything is waited for, so that nobody is left with a terminal that does not echo. */
-static void give_terminal_back(Terminal *t) {
+/* Precedes all waits, so that the terminal echoes again at once. */
+static void restore_terminal(Terminal *t) {
     HdError ignored;
     if (!t->is_raw)
         return;
@@ -333,15 +332,15 @@ static void give_terminal_back(Terminal *t) {
 }
 
 static void close_terminal(Terminal *t) {
-    give_terminal_back(t);
+    restore_terminal(t);
     hd_viewer_close(t->viewer);
     if (t->file >= 0)
         close(t->file);
     if (t->out != NULL && t->out != stdout)
         fclose(t->out);
-    if (t->said != NULL)
-        fputs(t->said, stdout);
-    free(t->said);
+    if (t->printed != NULL)
+        fputs(t->printed, stdout);
+    free(t->printed);
     if (t->info != NULL)
         chafa_term_info_unref(t->info);
     if (t->symbols != NULL)
@@ -356,7 +355,7 @@ HdStatus hd_view_in_terminal(const HdScenePlan *scene, const HdDevicePlan *devic
     if (status == HD_OK)
         status = hd_viewer_open(&t.viewer, scene, devices, t.out, error);
     if (status == HD_OK)
-        status = take_terminal(&t, error);
+        status = set_up_terminal(&t, error);
     if (status == HD_OK)
         status = run(&t, error);
     close_terminal(&t);

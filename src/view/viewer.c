@@ -13,13 +13,13 @@
 #include "base/trigonometry.h"
 #include "view/side.h"
 
-/* After the last touch the view counts as moving for so long, before it is made whole. */
+/* Seconds without input after which the whole picture is rendered. */
 #define STILL_SECONDS 0.25
 
-/* Between two looks at the files. */
+/* Interval between two checks of the files in seconds. */
 #define WATCH_SECONDS 0.2
 
-/* What one press of a key does. */
+/* Steps of one key press. */
 #define ORBIT_STEP (HD_PI / 60.0)
 #define PAN_STEP   0.03
 #define DOLLY_STEP 1.06
@@ -30,29 +30,29 @@ enum { SAVES = 1, HIDES_FIGURES = 2, SHOWS_HELP = 4, HAS_ENDED = 8 };
 enum { FIRST_GAIN = 16, MAX_GAIN = 128 };
 
 struct HdViewer {
-    FILE *out; /* the host's */
+    FILE *out; /* owned by the caller */
     HdViewSide sides[2];
     int side_count, active;
     HdPose pose;
-    bool is_free; /* the view is `pose`, not the flight's */
+    bool is_free; /* the view is `pose`, not on the camera path */
     int frame;
     bool is_playing;
-    double played_from;  /* when frame 0 would have been */
-    int change;          /* number of what is to be seen */
-    int asked, settling; /* the changes for which moving and whole pictures were wished */
-    double now;          /* of the key, drag or tick that is dealt with */
-    double moved;        /* when it changed last */
+    double played_from;  /* time of frame 0 */
+    int change;          /* number of the current view */
+    int asked, settling; /* changes for which moving and whole pictures were requested */
+    double now;          /* time of the current key, drag or tick */
+    double moved;        /* time of the last change */
     double watched;
     HdPace pace;
-    int max_width;          /* of moving pictures; 0: the scene's */
-    double last_picture;    /* when a moving one came */
-    double picture_seconds; /* between two, smoothed; 0: not known */
+    int max_width;          /* limit of moving pictures; 0: the scene's */
+    double last_picture;    /* time of the last moving picture */
+    double picture_seconds; /* interval between two, smoothed; 0: unknown */
     HdViewImage composed;
     HdSplitFigures figures;
-    int version; /* of what is shown */
+    int version; /* number of the shown picture */
     int gain;
     unsigned flags;
-    char note[512]; /* what the last key came to */
+    char note[512]; /* result of the last key */
 };
 
 static void change_view(HdViewer *viewer) {
@@ -64,7 +64,7 @@ static const HdSceneFile *file_of(const HdViewer *viewer) {
     return &viewer->sides[0].file;
 }
 
-/* ---- where the eye is ---- */
+/* ---- the eye ---- */
 
 static void leave_path(HdViewer *viewer) {
     if (!viewer->is_free)
@@ -87,7 +87,7 @@ static void show_frame(HdViewer *viewer, int frame) {
     change_view(viewer);
 }
 
-static void fly_on(HdViewer *viewer) {
+static void advance_path(HdViewer *viewer) {
     const double passed =
         (viewer->now - viewer->played_from) * file_of(viewer)->output.style.frames_per_second;
     const int frame = (int)fmod(passed, file_of(viewer)->scene.frame_count);
@@ -96,13 +96,13 @@ static void fly_on(HdViewer *viewer) {
 }
 
 static HdStatus find_camera(const HdViewer *viewer, HdCamera *camera, HdError *error) {
-    HdScene scene = file_of(viewer)->scene; /* what it owns stays there */
+    HdScene scene = file_of(viewer)->scene; /* the side keeps ownership */
     if (viewer->is_free)
         hd_pose_apply(&viewer->pose, &scene);
     return hd_camera_at(camera, &scene, viewer->is_free ? 0 : viewer->frame, error);
 }
 
-/* ---- what is wished of the workers ---- */
+/* ---- requests to the workers ---- */
 
 static bool all_idle(HdViewer *viewer) {
     bool idle = true;
@@ -145,8 +145,8 @@ int hd_viewer_wait_ms(HdViewer *viewer) {
     return !all_idle(viewer) ? 1 : is_moving(viewer) ? 4 : 100;
 }
 
-/* A moving picture that is under way is waited for, so that pictures come; a whole one is not. */
-static void ask_workers(HdViewer *viewer) {
+/* A pending moving picture is awaited, so that pictures appear; a whole one is not. */
+static void request_pictures(HdViewer *viewer) {
     const bool idle = all_idle(viewer);
     if (viewer->asked != viewer->change && (idle || viewer->settling != 0))
         request_for(viewer, true);
@@ -154,7 +154,7 @@ static void ask_workers(HdViewer *viewer) {
         request_for(viewer, false);
 }
 
-/* ---- what they made ---- */
+/* ---- pictures of the workers ---- */
 
 static void note_moving_picture(HdViewer *viewer, const HdViewImage *image) {
     const double seconds = viewer->now - viewer->last_picture;
@@ -191,10 +191,10 @@ const HdViewImage *hd_viewer_picture(HdViewer *viewer, int *version) {
     return &viewer->composed;
 }
 
-/* ---- what is kept ---- */
+/* ---- saving ---- */
 
-/* The scene's name without its folder and ending, and the first number that is free. */
-static void free_name(const HdViewer *viewer, char path[160]) {
+/* Makes a name from the scene's, without its folder and ending, and the first free number. */
+static void choose_name(const HdViewer *viewer, char path[160]) {
     char name[128];
     const char *scene = viewer->sides[0].scene_plan.path;
     const char *slash = scene != NULL ? strrchr(scene, '/') : NULL;
@@ -214,7 +214,7 @@ static void save_when_whole(HdViewer *viewer) {
     if ((viewer->flags & SAVES) == 0 || viewer->settling != viewer->change || !all_idle(viewer))
         return;
     viewer->flags ^= SAVES;
-    free_name(viewer, path);
+    choose_name(viewer, path);
     if (hd_view_side_save(&viewer->sides[viewer->active], path, &error) != HD_OK) {
         snprintf(viewer->note, sizeof viewer->note, "%.500s", error.message);
         return;
@@ -233,7 +233,7 @@ static void print_camera(HdViewer *viewer, int by) {
     snprintf(viewer->note, sizeof viewer->note, "the camera goes to standard output");
 }
 
-/* ---- what keys do ---- */
+/* ---- keys ---- */
 
 static void play(HdViewer *viewer, int by) {
     (void)by;
@@ -245,7 +245,7 @@ static void play(HdViewer *viewer, int by) {
     change_view(viewer);
 }
 
-/* 0: back from a view of one's own, where the flight goes on if it is one that plays. */
+/* 0: returns from a free view, and continues a camera path that plays. */
 static void step(HdViewer *viewer, int by) {
     viewer->is_playing = viewer->is_playing && by == 0;
     show_frame(viewer, viewer->frame + by);
@@ -283,8 +283,8 @@ static void change_gain(HdViewer *viewer, int by) {
     viewer->version++;
 }
 
-/* What a key does: something of the above, a step of the eye, a change of a setting of the active
-   side, or none but flags that it sets or turns. */
+/* Action of a key: a function of the above, a step of the eye, a setting of the active side, or
+   only flags that it sets or toggles. */
 static const struct Key {
     int key;
     void (*act)(HdViewer *viewer, int by);
@@ -331,11 +331,11 @@ static const struct Key {
     {.key = 3, .sets = HAS_ENDED}, /* Ctrl-C in a terminal that sends it as a character */
 };
 
-/* What keys do, for people; each line below 64 characters. */
+/* Help for the keys; each line below 64 characters. */
 static const char *const key_lines[] = {
-    "space    play the flight, or stop it",
+    "space    play the camera path, or stop it",
     ", .      a frame back, a frame on",
-    "0        back from a view of your own to the flight",
+    "0        back from a free view to the camera path",
     "arrows   turn about the target (drag with the left button)",
     "w a s d  move (drag with the right button)",
     "+ -      nearer, farther (the wheel)",
@@ -352,7 +352,7 @@ static const char *const key_lines[] = {
     "o h q    figures, this help, quit",
 };
 
-/* A flight that was read anew may be shorter. */
+/* A camera path that was read again may be shorter. */
 static void settings_changed(HdViewer *viewer) {
     viewer->frame %= file_of(viewer)->scene.frame_count;
     change_view(viewer);
@@ -385,14 +385,14 @@ void hd_viewer_drag(HdViewer *viewer, bool moves, double right, double down, dou
         move_eye(viewer, hd_pose_orbit, -HD_PI * right, HD_PI * down);
 }
 
-/* ---- what is told ---- */
+/* ---- lines of text ---- */
 
 typedef struct Lines {
     char (*text)[HD_VIEW_LINE];
     int count;
 } Lines;
 
-/* Cuts what is too long for a line where there is a space, and goes on below. */
+/* Breaks text that is too long for a line at a space. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
@@ -432,8 +432,8 @@ static void add_settings(Lines *lines, HdViewer *viewer, int number) {
         scene->samples_per_side);
     if (problem[0] != '\0')
         add(lines, "! %s", problem);
-    if (side->mistake[0] != '\0' && number == 0)
-        add(lines, "! %s", side->mistake);
+    if (side->file_error[0] != '\0' && number == 0)
+        add(lines, "! %s", side->file_error);
 }
 
 static void add_whole(Lines *lines, const HdViewImage *image) {
@@ -472,7 +472,7 @@ static void add_difference(Lines *lines, const HdViewer *viewer) {
 static void add_place(Lines *lines, const HdViewer *viewer) {
     const int count = viewer->sides[0].file.scene.frame_count;
     if (viewer->is_free)
-        add(lines, "a view of your own; h: help");
+        add(lines, "a free view; h: help");
     else
         add(lines, "frame %d of %d%s; h: help", viewer->frame, count,
             viewer->is_playing ? ", playing" : "");
@@ -491,8 +491,8 @@ int hd_viewer_lines(HdViewer *viewer, char text[HD_VIEW_LINES][HD_VIEW_LINE]) {
         add_place(&lines, viewer);
     if ((viewer->flags & SAVES) != 0)
         add(&lines, "once the picture is finished, it goes to a file");
-    if (!has_figures && viewer->sides[0].mistake[0] != '\0')
-        add(&lines, "! %s", viewer->sides[0].mistake);
+    if (!has_figures && viewer->sides[0].file_error[0] != '\0')
+        add(&lines, "! %s", viewer->sides[0].file_error);
     add(&lines, "%s", viewer->note);
     for (size_t i = 0;
          (viewer->flags & SHOWS_HELP) != 0 && i < sizeof key_lines / sizeof key_lines[0]; i++)
@@ -500,7 +500,7 @@ int hd_viewer_lines(HdViewer *viewer, char text[HD_VIEW_LINES][HD_VIEW_LINE]) {
     return lines.count;
 }
 
-/* ---- from open to close ---- */
+/* ---- open and close ---- */
 
 static void watch_files(HdViewer *viewer) {
     if (viewer->now - viewer->watched < WATCH_SECONDS)
@@ -515,8 +515,8 @@ bool hd_viewer_tick(HdViewer *viewer, double now) {
     viewer->now = now;
     fetch_pictures(viewer);
     watch_files(viewer);
-    fly_on(viewer);
-    ask_workers(viewer);
+    advance_path(viewer);
+    request_pictures(viewer);
     save_when_whole(viewer);
     return (viewer->flags & HAS_ENDED) == 0;
 }

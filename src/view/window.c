@@ -9,10 +9,10 @@
 #include "system/machine.h"
 #include "view/viewer.h"
 
-/* Smaller scenes get a window of this width at least. */
+/* Width of the window, at least, for smaller scenes. */
 enum { MIN_WIDTH = 960, MARGIN = 6 };
 
-/* Seconds after which a held arrow glides, and how fast: shares of the picture's width in one. */
+/* Seconds after which a held arrow glides, and its speed in widths of the picture a second. */
 #define GLIDE_AFTER 0.2
 #define GLIDE       0.3
 
@@ -22,11 +22,11 @@ typedef struct Window {
     SDL_Texture *picture;
     int picture_width, picture_height;
     HdViewer *viewer;
-    int version;                             /* of the picture that is shown */
-    char lines[HD_VIEW_LINES][HD_VIEW_LINE]; /* that are shown */
+    int version;                             /* number of the shown picture */
+    char lines[HD_VIEW_LINES][HD_VIEW_LINE]; /* shown lines */
     int line_count;
-    bool is_changed; /* something else than picture and lines is */
-    int held;        /* arrow key that is down; 0: none */
+    bool is_changed; /* something other than picture and lines changed */
+    int held;        /* pressed arrow key; 0: none */
     double held_from, glided;
 } Window;
 
@@ -39,7 +39,7 @@ enum {
     LETTER_HEIGHT = 11
 };
 
-/* From space to tilde: 9 rows of 5 bits, the first of which is the highest of all. */
+/* From space to tilde: 9 rows of 5 bits, the first row in the highest bits. */
 static const uint64_t letters[] = {
     0x000000000000, 0x042108401000, 0x0a5280000000, 0x0a57d5f52800, 0x047d1c5f1000, 0x19c88889cc00,
     0x0c9511593400, 0x042100000000, 0x022210820800, 0x082084222000, 0x00255d520000, 0x00213e420000,
@@ -59,7 +59,7 @@ static const uint64_t letters[] = {
     0x0007c4447c00, 0x022110420800, 0x042108421000, 0x082104422000, 0x00022a200000,
 };
 
-/* Every pixel of a letter becomes scale x scale pixels. What is not ASCII is a question mark. */
+/* Draws each pixel of a letter as scale x scale pixels; a question mark if it is not ASCII. */
 static void draw_letter(SDL_Renderer *renderer, char letter, int left, int top, int scale) {
     const uint64_t bits = letters[(letter < ' ' || letter > '~' ? '?' : letter) - ' '];
     SDL_Rect pixels[LETTER_BITS];
@@ -89,7 +89,7 @@ static HdStatus update_picture(Window *w, HdError *error) {
         w->picture = SDL_CreateTexture(w->renderer, SDL_PIXELFORMAT_RGBA32,
                                        SDL_TEXTUREACCESS_STREAMING, image->width, image->height);
         if (w->picture == NULL)
-            return fail(error, "no room for a picture on the screen");
+            return fail(error, "the screen has no space for a picture");
         w->picture_width = image->width;
         w->picture_height = image->height;
     }
@@ -97,7 +97,7 @@ static HdStatus update_picture(Window *w, HdError *error) {
     return HD_OK;
 }
 
-/* Beside the edges where the picture has another shape than the window. */
+/* Leaves borders if the picture has another shape than the window. */
 static SDL_Rect place_of_picture(const Window *w, int width, int height) {
     int scene_width, scene_height;
     hd_viewer_size(w->viewer, &scene_width, &scene_height);
@@ -111,7 +111,7 @@ static SDL_Rect place_of_picture(const Window *w, int width, int height) {
     return place;
 }
 
-/* Lines on a dark ground, at the top left, or where a split view has room; mistakes in red. */
+/* Draws lines on a dark ground, at the top left, or in a split view's empty part; errors in red. */
 static void draw_text(const Window *w, int width, int height) {
     const int scale = width >= 1600 ? 3 : width >= 800 ? 2 : 1;
     const bool is_split = hd_viewer_is_split(w->viewer);
@@ -137,7 +137,7 @@ static void draw_text(const Window *w, int width, int height) {
     }
 }
 
-/* Whether the lines are other than those that are shown, whose place they take. */
+/* Replaces the shown lines, and returns whether they differ. */
 static bool update_lines(Window *w) {
     char lines[HD_VIEW_LINES][HD_VIEW_LINE] = {{0}};
     w->line_count = hd_viewer_lines(w->viewer, lines);
@@ -167,7 +167,7 @@ static HdStatus draw(Window *w, HdError *error) {
 
 /* ---- events ---- */
 
-/* Letters come as text, so that they are what the keyboard's layout says; these do not. */
+/* Letters arrive as text, following the keyboard's layout; these keys do not. */
 static int special_key(SDL_Keycode key) {
     static const struct {
         SDL_Keycode code;
@@ -189,7 +189,7 @@ static void move_mouse(Window *w, const SDL_MouseMotionEvent *event, double now)
                    (double)event->yrel / width, now);
 }
 
-/* A held arrow turns the view evenly, at any rate of pictures. */
+/* A held arrow turns the view evenly, independent of the frame rate. */
 static void glide(Window *w, double now) {
     const double start = w->held_from + GLIDE_AFTER;
     const double step = GLIDE * (now - (w->glided > start ? w->glided : start));
@@ -242,7 +242,7 @@ static HdStatus run(Window *w, HdError *error) {
     return HD_OK;
 }
 
-/* ---- from open to close ---- */
+/* ---- open and close ---- */
 
 static HdStatus open_window(Window *w, HdError *error) {
     int width, height;
@@ -259,7 +259,7 @@ static HdStatus open_window(Window *w, HdError *error) {
     return HD_OK;
 }
 
-/* Without a display SDL takes a driver that shows nothing, if it has one. */
+/* Without a display SDL uses a driver that shows nothing, if it has one. */
 static HdStatus open_display(HdError *error) {
     const char *why = SDL_Init(SDL_INIT_VIDEO) != 0 ? SDL_GetError() : NULL;
     const char *driver = why == NULL ? SDL_GetCurrentVideoDriver() : "";

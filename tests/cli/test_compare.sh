@@ -93,7 +93,7 @@ expect_stderr_contains 'deep.png cannot have 32 bits a channel: expected output.
 expect_exit 0 "$hedron" compare --json bright.pfm plain.png --fail-above 0.51
 expect_output_json 'j["curve"] == "linear" and abs(j["display"]["largest"] - 0.5) < 1e-9'
 expect_refusal 2 "$hedron" compare plain.png half.png
-expect_stderr_contains 'half.png says that it is on the sRGB curve, and plain.png does not'
+expect_stderr_contains 'half.png is marked as sRGB, but plain.png is not'
 for curve in linear srgb; do
     expect_exit 0 "$hedron" compare --json plain.png half.png --curve "$curve"
     expect_output_json "j['curve'] == '$curve' and j['display']['largest'] == 60"

@@ -16,7 +16,7 @@ render=("$hedron" render "${small[@]}" --frames 0 --backend cuda --quiet -o pict
 # ---- a driver that does not start
 cannot_start=(env FAKE_CUDA_FAILS=cuInit FAKE_CUDA_FAILS_AT=1)
 expect_refusal 3 "${cannot_start[@]}" FAKE_CUDA_ERROR=999 "${render[@]}"
-expect_stderr_contains 'cuInit failed with CUDA_ERROR_UNKNOWN (999); after the machine slept, this helps: '
+expect_stderr_contains 'cuInit failed with CUDA_ERROR_UNKNOWN (999); after suspend, run: '
 
 # ---- where any device will do, a GPU that is passed over is told in one line, with what would help
 any=("$hedron" render --size 320x240 --samples 2 --frames 0-1 --threads 1 --lanes 1 -o any/%d.data)
@@ -34,7 +34,7 @@ expect_stderr_contains "no NVRTC library here compiles for Fake device 0 (sm_61)
 expect_refusal 3 "${too_new[@]}" FAKE_CUDA_CAPABILITY=120 FAKE_CUDA_DRIVER=13000 "${render[@]}"
 expect_stderr_contains 'pip install nvidia-cuda-nvrtc, or name a libnvrtc.so in HEDRON_NVRTC; found: NVRTC 13.0 for sm_75 to sm_90'
 expect_refusal 1 env FAKE_CUDA_DRIVER=11040 FAKE_CUDA_REFUSES=1 "${render[@]}" --math fast
-expect_stderr_contains "the driver, of CUDA 11, does not load what NVRTC 12.8 compiled for sm_61 (cuModuleLoadDataEx: CUDA_ERROR_OUT_OF_MEMORY); what suits both is in Python's package nvidia-cuda-nvrtc-cu11"
+expect_stderr_contains "the driver, of CUDA 11, does not load what NVRTC 12.8 compiled for sm_61 (cuModuleLoadDataEx: CUDA_ERROR_OUT_OF_MEMORY); Python's package nvidia-cuda-nvrtc-cu11 suits both"
 
 # ---- NVRTC beside the program, where ./dev fetches one to
 mkdir -p "$work/build/release" "$work/build/nvrtc12/nvidia/cuda_nvrtc/lib"
@@ -76,7 +76,7 @@ if [[ -e $with_ptx ]]; then
     expect_stderr_contains 'no NVRTC library here compiles for Fake device 0 (sm_61)'
     expect_stderr_contains 'found: none; the PTX in this program is for strict arithmetic, at most 128 planes, depth 64, and blocks of 128 threads'
     expect_refusal 3 "${off[@]}" FAKE_CUDA_REFUSES=1 "${ptx[@]}"
-    expect_stderr_contains 'does not load what the driver from PTX of NVRTC 12.8 compiled for sm_61 (cuModuleLoadDataEx: CUDA_ERROR_OUT_OF_MEMORY); what suits both is in'
+    expect_stderr_contains 'does not load what the driver from PTX of NVRTC 12.8 compiled for sm_61 (cuModuleLoadDataEx: CUDA_ERROR_OUT_OF_MEMORY); Python'
     expect_refusal 3 "${off[@]}" FAKE_CUDA_CAPABILITY=60 "${ptx[@]}"
     expect_stderr_contains 'no NVRTC library here compiles for Fake device 0 (sm_60)'
     # A file that is named is that one or none.

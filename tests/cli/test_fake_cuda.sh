@@ -29,7 +29,7 @@ rm -r "$work/cache"
 # ---- kernels that need no test are kept; then NVRTC is not loaded
 fast=("${render[@]}" --math fast --verbose)
 expect_exit 0 "${fast[@]}"
-expect_build 'compiled in [0-9]+ ms by NVRTC 12\.[0-9]+; not tested, for the arithmetic is fast; cached'
+expect_build 'compiled in [0-9]+ ms by NVRTC 12\.[0-9]+; not tested, since the arithmetic is fast; cached'
 expect_exit 0 env LD_DEBUG=files LD_DEBUG_OUTPUT="$work/loaded" "${fast[@]}"
 expect_build "taken from $work/cache, made by NVRTC 12\.[0-9]+"
 grep -q 'libcuda' "$work"/loaded.* || fail 'nothing tells which libraries were loaded'
@@ -86,7 +86,7 @@ rm -r passes
 waves=(env FAKE_CUDA_SKIPS=1 FAKE_CUDA_MEMORY=9000000000 FAKE_CUDA_LARGEST=30000000 "$hedron" render "$work/cube.json"
     --size 512x512 --samples 4 --frames 0 --backend cuda --math fast --pipeline wavefront -o wave.data)
 expect_exit 0 "${waves[@]}" --verbose
-expect_stderr_contains 'the queue cut to 33.6 MB, for more memory was refused'
+expect_stderr_contains 'the queue cut to 33.6 MB, since more memory was refused'
 rm wave.data
 
 # ---- whatever fails, nothing is left behind

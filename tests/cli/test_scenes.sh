@@ -161,7 +161,7 @@ expect_stdout_lines 1 'first\.json'
 expect_same first.json "$project/scenes/starter.json"
 printf 'mine' >first.json
 expect_refusal 2 "$hedron" new first.json
-expect_stderr_contains 'first.json is there already'
+expect_stderr_contains 'first.json exists already'
 [[ $(cat first.json) == mine ]] || fail "'hedron new' wrote over a file"
 expect_refusal 1 "$hedron" new missing/first
 rm first.json

@@ -10,7 +10,7 @@
 #include "system/dynamic_library.h"
 
 static const char *advise_start(const HdCudaDriver *driver, HdCuResult code) {
-    enum { BRANCH_590 = 13010 }; /* what the first driver without cards before sm_75 tells */
+    enum { BRANCH_590 = 13010 }; /* version of the first driver without cards before sm_75 */
     int version = 0;
     switch (code) {
     case HD_CU_ERROR_NO_DEVICE:
@@ -18,10 +18,10 @@ static const char *advise_start(const HdCudaDriver *driver, HdCuResult code) {
                    ? "; it is of branch 590 or newer, which drives no card before sm_75: the "
                      "branch "
                      "580 is the last for older ones, such as a GTX 1050"
-                   : "; no card is there that it drives, or CUDA_VISIBLE_DEVICES hides it";
+                   : "; it finds no card that it supports, or CUDA_VISIBLE_DEVICES hides it";
     case HD_CU_ERROR_UNKNOWN:
-        return "; after the machine slept, this helps: sudo rmmod nvidia_uvm && sudo modprobe "
-               "nvidia_uvm, or a restart";
+        return "; after suspend, run: sudo rmmod nvidia_uvm && sudo modprobe "
+               "nvidia_uvm, or restart";
     default:
         return "";
     }
@@ -59,7 +59,7 @@ const char *hd_cuda_error_name(const HdCudaDriver *driver, HdCuResult code) {
     return name;
 }
 
-/* A device that another program has for itself alone is unavailable from the begin. */
+/* A device that another program uses exclusively is unavailable from the start, not lost. */
 static bool is_lost(const char *function, HdCuResult code) {
     switch (code) {
     case HD_CU_ERROR_DEVICE_UNAVAILABLE:

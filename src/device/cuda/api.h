@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The part of NVIDIA's driver interface and of its run-time compiler that is used here, declared by
-   us and loaded while the program runs, so that it is built on any machine. Where a toolkit is
-   installed, tests/cuda_headers_check.c compares the declarations with NVIDIA's. */
+/* The used part of NVIDIA's driver interface and run-time compiler, declared here and loaded at run
+   time, so that any machine can build it. If a toolkit is installed, tests/cuda_headers_check.c
+   compares the declarations with NVIDIA's. */
 #ifndef HD_DEVICE_CUDA_API_H
 #define HD_DEVICE_CUDA_API_H
 
@@ -9,11 +9,11 @@
 
 #include "base/error.h"
 
-typedef unsigned int HdCuResult; /* enumerations are as wide and as signed as this */
+typedef unsigned int HdCuResult; /* enumerations have this width and sign */
 typedef unsigned int HdCuAttribute;
 typedef unsigned int HdCuJitOption;
 typedef int HdCuDevice;
-typedef unsigned long long HdCuPointer; /* to memory of the device */
+typedef unsigned long long HdCuPointer; /* address in device memory */
 typedef struct CUctx_st *HdCuContext;
 typedef struct CUmod_st *HdCuModule;
 typedef struct CUfunc_st *HdCuFunction;
@@ -108,16 +108,16 @@ typedef struct HdCudaDriver {
 } HdCudaDriver;
 #undef HD_CUDA_MEMBER
 
-/* Loads and initialises the driver. HD_UNAVAILABLE where there is none or it knows no device,
-   HD_FAILED where it does not start, with what may help. The library stays loaded. */
+/* Loads and initialises the driver, which stays loaded. HD_UNAVAILABLE if it is missing or knows no
+   device, HD_FAILED if it does not start; the message adds advice. */
 HdStatus hd_cuda_load_driver(HdCudaDriver *driver, HdError *error);
 
-/* Fails with the names of the function and of the error, and says so where it means that the device
-   is lost: no call of this process will succeed on it. */
+/* Fails with the names of the function and of the error. Says so if the device is lost, so that no
+   later call of this process succeeds on it. */
 HdStatus hd_cuda_fail(const HdCudaDriver *driver, const char *function, HdCuResult code,
                       HdError *error);
 
-/* "CUDA_ERROR_OUT_OF_MEMORY" */
+/* Returns the error's name: "CUDA_ERROR_OUT_OF_MEMORY". */
 const char *hd_cuda_error_name(const HdCudaDriver *driver, HdCuResult code);
 
 typedef unsigned int HdNvrtcResult;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* CUDA as a driver of GPUs (device/gpu/driver.h). */
+/* CUDA as a GPU driver (device/gpu/driver.h). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,14 +19,13 @@ static HdStatus check(const HdCudaDriver *driver, HdCuResult code, const char *f
     return code == HD_CU_SUCCESS ? HD_OK : hd_cuda_fail(driver, function, code, error);
 }
 
-/* ---- PTX of the program ---- */
+/* ---- embedded PTX ---- */
 
 bool hd_cuda_ptx_suits(int arch) {
     return hd_cuda_ptx_count > 0 && arch >= HD_CUDA_PTX_ARCH;
 }
 
-/* Surveyed pixels are laid out otherwise; the probe has nothing of pipelines and first
-   hits. */
+/* Pixels with an error bound have another layout; the probe has no pipelines and first hits. */
 static bool does_all(const HdKernelShape *ptx, const HdKernelShape *shape) {
     return shape->is_probe == ptx->is_probe && !shape->rounds_by_fma &&
            (shape->is_probe ||
@@ -74,7 +73,7 @@ static int query_driver_version(const HdCudaDriver *driver) {
     return driver->cuDriverGetVersion(&version) == HD_CU_SUCCESS ? version : 0;
 }
 
-/* Whether what the program brings will do. */
+/* Returns whether the embedded PTX is used. */
 static bool takes_ptx(int arch) {
     return !hd_nvrtc_is_named() && hd_cuda_ptx_suits(arch);
 }
@@ -88,7 +87,7 @@ static HdStatus query_device(HdDevice *device, const HdCudaDriver *driver, int i
     int arch = device->nvidia_arch, version = query_driver_version(driver);
     snprintf(device->driver, sizeof device->driver, "sm_%d, driver for CUDA %d.%d", arch,
              version / 1000, version % 1000 / 10);
-    /* Fails where there is no compiler, so that a choice among devices can pass it over. */
+    /* Fails without a compiler, so that a choice among devices can skip this one. */
     HdStatus status = hd_nvrtc_check(device->name, arch, version / 1000, error);
     return status != HD_OK && takes_ptx(arch) ? HD_OK : status;
 }
@@ -126,16 +125,16 @@ typedef struct Device {
     HdDevice is;
     HdCuDevice handle;
     HdCuContext context;
-    HdCuStream stream; /* of everything but the copies to the host, */
-    HdCuStream copies; /* so that kernels of the next frame run beside them */
-    HdNvrtc nvrtc;     /* once kernels were compiled */
-    HdCudaCode code;   /* of the module */
-    HdCuModule module; /* NULL: there is none */
+    HdCuStream stream; /* everything but copies to the host */
+    HdCuStream copies; /* copies to the host, concurrent with the next frame's kernels */
+    HdNvrtc nvrtc;     /* loaded after the first compilation */
+    HdCudaCode code;   /* code of the module */
+    HdCuModule module; /* NULL: none */
     HdCuFunction kernels[HD_KERNEL_COUNT];
     int registers, local_bytes; /* of the tracing kernel */
 } Device;
 
-/* The device's own context, which others in this process may share. */
+/* The device's primary context, which others in this process may share. */
 static HdStatus enter(void *state, HdError *error) {
     const Device *device = state;
     return CALL(device->driver, cuCtxSetCurrent, (device->context), error);
@@ -221,7 +220,7 @@ static HdStatus allocate(void *state, HdGpuMemory *memory, HdGpuPlace place, siz
     *refusal = (HdGpuRefusal){.lacks_memory = true,
                               .function = function,
                               .reason = hd_cuda_error_name(driver, code),
-                              .tells_free = true,
+                              .knows_free = true,
                               .free = (double)available};
     return HD_FAILED;
 }
@@ -235,7 +234,7 @@ static void release(void *state, HdGpuMemory *memory) {
         device->driver.cuMemFree(pointer_to(memory));
 }
 
-/* Only from memory that the device reads by itself does the host not wait. */
+/* The host does not wait if the device reads the memory by itself. */
 static HdStatus write_memory(void *state, const HdGpuMemory *memory, const void *data, size_t bytes,
                              HdGpuRefusal *refusal, HdError *error) {
     const Device *device = state;
@@ -264,8 +263,9 @@ static void write_options(void *state, const HdKernelShape *shape, char *text, s
     hd_cuda_options(text, capacity, hd_cuda_target(shape, device->is.nvidia_arch), shape);
 }
 
-/* The machine code depends on NVRTC's version as well. To ask for it would need NVRTC; an entry
-   tells it, and kernels of any version have passed the test. The one that the user names counts. */
+/* The machine code depends on NVRTC's version too, but to query it would need NVRTC. The entry
+   names it, and kernels of any version have passed the test. Only a library that the user names
+   counts. */
 static void write_version(void *state, char *text, size_t capacity) {
     const char *named = getenv("HEDRON_NVRTC");
     (void)state;
@@ -310,7 +310,7 @@ static HdStatus get_kernels(Device *device, const HdKernelShape *shape, HdError 
     return query_kernel(device, HD_CU_FUNCTION_LOCAL_BYTES, &device->local_bytes, error);
 }
 
-/* Of PTX the driver makes machine code, as NVRTC would be asked to. */
+/* Compiles PTX to machine code by the driver, with the register limit that NVRTC would have. */
 static HdCuResult load_image(const Device *device, const HdKernelShape *shape, const char *image,
                              HdCuModule *module) {
     HdCuJitOption option = HD_CU_JIT_MAX_REGISTERS;
@@ -328,7 +328,7 @@ static HdStatus load_module(Device *device, const HdKernelShape *shape, const ch
     if (result != HD_CU_SUCCESS)
         return hd_fail(error, HD_FAILED,
                        "the driver, of CUDA %d, does not load what %s compiled for sm_%d "
-                       "(cuModuleLoadDataEx: %s); what suits both is in Python's package %s",
+                       "(cuModuleLoadDataEx: %s); Python's package %s suits both",
                        major, maker, arch, hd_cuda_error_name(&device->driver, result),
                        hd_nvrtc_package(arch, major));
     device->module = module;
@@ -341,7 +341,7 @@ static HdStatus load(void *state, const HdKernelShape *shape, const char *option
     return load_module(state, shape, (const char *)binary, maker, error);
 }
 
-/* What the program brings, in place of what no NVRTC is there to compile; the error tells that. */
+/* Loads the embedded PTX if no NVRTC can compile; the error says why. */
 static HdStatus load_ptx(Device *device, const HdKernelShape *shape, char *maker, size_t capacity,
                          HdError *error) {
     const HdCudaPtx *ptx = hd_cuda_ptx_find(shape, device->is.nvidia_arch);
@@ -381,7 +381,7 @@ static HdStatus compile(void *state, const HdKernelShape *shape, const char *opt
 static unsigned char *copy_binary(const void *state, size_t *size) {
     const Device *device = state;
     *size = device->code.size;
-    if (*size == 0) /* the driver made it of PTX */
+    if (*size == 0) /* the driver compiled it from PTX */
         return NULL;
     unsigned char *copy = malloc(*size);
     if (copy != NULL)
@@ -399,7 +399,7 @@ static HdStatus query_max_threads(void *state, size_t *threads, HdError *error) 
 
 /* ---- launches ---- */
 
-/* To wait for the end of something must not cost a core. */
+/* Waiting for an event must not keep a core busy. */
 static HdStatus record(const Device *device, void **event, HdCuStream stream, HdError *error) {
     HdCuEvent made = *event;
     if (made == NULL)

@@ -17,15 +17,15 @@
 
 enum { MAX_ARCHS = 256 };
 
-/* The virtual environment, below the home folder, that messages advise to make: the system's own
-   Python often lets nobody install into it. */
+/* Virtual environment below the home folder that messages advise: many systems do not let users
+   install into the system's Python. */
 #define HD_NVRTC_VENV ".local/share/hedron"
 
 typedef struct Search {
     int arch, driver_major;
     bool has_best;
     HdNvrtc best;
-    char found[512]; /* what was found and does not fit, for people */
+    char found[512]; /* libraries that do not fit, for people */
 } Search;
 
 static bool load(HdNvrtc *nvrtc, const char *path) {
@@ -85,7 +85,7 @@ static void consider(Search *search, const char *path) {
     hd_nvrtc_close(&nvrtc);
 }
 
-/* `folder` may be NULL or empty: nothing is below it. */
+/* `folder` may be NULL or empty: nothing is found below it. */
 static void consider_below(Search *search, const char *folder, const char *pattern) {
     char path[HD_MAX_PATH];
     glob_t paths;
@@ -105,7 +105,7 @@ static void consider_below(Search *search, const char *folder, const char *patte
 static void search_everywhere(Search *search) {
     static const char *const names[] = {"libnvrtc.so.13", "libnvrtc.so.12", "libnvrtc.so.11.2",
                                         "libnvrtc.so"};
-    char build[HD_MAX_PATH]; /* where the program lies */
+    char build[HD_MAX_PATH]; /* folder of the program */
     const char *home = getenv("HOME"), *conda = getenv("CONDA_PREFIX");
     const char *program = hd_path_of_program(build) ? build : NULL;
     const struct {
@@ -121,7 +121,7 @@ static void search_everywhere(Search *search) {
         {getenv("VIRTUAL_ENV"), PYTHON_PACKAGES},
         {conda, "lib/libnvrtc.so*"},
         {conda, PYTHON_PACKAGES},
-        /* Where ./dev puts one, seen from the build's folder or one below it. */
+        /* The place that ./dev installs to, seen from the build folder or one below it. */
         {program, "../nvrtc12/nvidia/*/lib/libnvrtc.so*"},
         {program, "../../nvrtc12/nvidia/*/lib/libnvrtc.so*"},
     };
@@ -140,7 +140,7 @@ const char *hd_nvrtc_package(int arch, int driver_major) {
     return "nvidia-cuda-nvrtc";
 }
 
-/* Which branch of the driver not to go beyond. */
+/* Returns advice on the newest driver branch for the architecture. */
 static const char *advise_driver(int arch) {
     if (arch < 50)
         return "; the driver's branch 470 is the last for this card";
@@ -181,8 +181,8 @@ HdStatus hd_nvrtc_open(HdNvrtc *nvrtc, const char *device, int arch, int driver_
     if (!search.has_best)
         return fail_to_find(&search, device, named, error);
     *nvrtc = search.best;
-    /* NVRTC opens its helper by name and relies on the loader to look in NVRTC's own folder, which
-       it does not do when a sanitizer stands between. A library that is loaded already is found. */
+    /* NVRTC opens its helper by name and expects the loader to search NVRTC's own folder, which
+       fails under a sanitizer. The loader finds a library that is loaded already. */
     snprintf(builtins, sizeof builtins, "libnvrtc-builtins.so.%d.%d", nvrtc->major, nvrtc->minor);
     hd_library_close(hd_library_open_adjacent(nvrtc->library, "nvrtcVersion", builtins));
     return HD_OK;
@@ -193,7 +193,7 @@ void hd_nvrtc_close(HdNvrtc *nvrtc) {
     *nvrtc = (HdNvrtc){0};
 }
 
-/* ---- what is remembered ---- */
+/* ---- remembered libraries ---- */
 
 enum { RECORD_KEY_LENGTH = HD_MAX_PATH + 128, RECORD_LENGTH = HD_MAX_PATH + 64 };
 
@@ -205,7 +205,7 @@ static void write_key(char key[RECORD_KEY_LENGTH], int arch, int driver_major) {
              HD_VERSION, arch, driver_major, HD_MAX_PATH, named != NULL ? named : "");
 }
 
-/* Size and time tell a library from one that was installed over it. */
+/* Size and time reveal a library that another one replaced. */
 static bool write_record(char record[RECORD_LENGTH], const char *library) {
     struct stat found;
     if (library[0] != '/' || stat(library, &found) != 0 || !S_ISREG(found.st_mode))
@@ -227,7 +227,7 @@ static bool is_remembered(int arch, int driver_major) {
 
 void hd_nvrtc_remember(const char *library, int arch, int driver_major) {
     char key[RECORD_KEY_LENGTH], record[RECORD_LENGTH];
-    HdError ignored; /* next time it is loaded again */
+    HdError ignored; /* the library is loaded again next time */
     write_key(key, arch, driver_major);
     if (write_record(record, library))
         hd_cache_put_text(record_kind, key, record, &ignored);
@@ -245,7 +245,7 @@ HdStatus hd_nvrtc_check(const char *device, int arch, int driver_major, HdError 
     return HD_OK;
 }
 
-/* ---- what it compiles ---- */
+/* ---- compilation ---- */
 
 enum { MAX_PARTS = 48, MAX_TEXT = 1024 };
 
@@ -255,7 +255,7 @@ static HdStatus fail_by_code(const HdNvrtc *nvrtc, const char *function, HdNvrtc
                    nvrtc->functions.error_string(code));
 }
 
-/* A compiler that claims more lies. */
+/* A larger claimed size is an error of the compiler. */
 enum { MAX_LOG_BYTES = 1 << 26 };
 
 /* Returns the log, "" if there is none, or NULL when out of memory. */
@@ -297,7 +297,7 @@ static HdStatus fail_with_log(const HdNvrtc *nvrtc, HdNvrtcProgram program, HdCu
     char *log = copy_log(nvrtc, program);
     hd_fail(error, HD_FAILED, "NVRTC %d.%d refused the kernels for %s_%d (%s):\n%s", nvrtc->major,
             nvrtc->minor, prefix_of(target), target.arch, nvrtc->functions.error_string(result),
-            log && log[0] ? log : "(it left no log)");
+            log && log[0] ? log : "(no log)");
     free(log);
     return HD_FAILED;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The kernels, compiled for one NVIDIA architecture, which needs no device: by an NVRTC library
-   of this machine, or earlier, while the program was built. */
+/* Compiles the kernels for one NVIDIA architecture, without a device: by an NVRTC library of this
+   machine, or while the program is built. */
 #ifndef HD_DEVICE_CUDA_COMPILE_H
 #define HD_DEVICE_CUDA_COMPILE_H
 
@@ -16,33 +16,32 @@ typedef struct HdNvrtc {
     void *library; /* owned */
 } HdNvrtc;
 
-/* Takes the newest library that compiles for sm_`arch`, one that is not newer than the driver
-   (`driver_major`, 0: unknown) before one that is. Looks at the file `path`; if that is NULL, at
-   the file that HEDRON_NVRTC names, or at none if it is "off"; else in the folders that
-   docs/development/backends.md names. Otherwise the message says what was found and what to
-   install for `device`. */
+/* Opens the newest library that compiles for sm_`arch`; prefers those not newer than the driver
+   (`driver_major`, 0: unknown). Tries only `path`; if that is NULL, only the file in HEDRON_NVRTC,
+   or none if that is "off"; if it is unset, the folders of docs/development/backends.md. The error
+   lists the libraries found and what to install for `device`. */
 HdStatus hd_nvrtc_open(HdNvrtc *nvrtc, const char *device, int arch, int driver_major,
                        const char *path, HdError *error);
 void hd_nvrtc_close(HdNvrtc *nvrtc);
 
-/* Whether HEDRON_NVRTC names a file, so that nothing else will do. */
+/* Returns whether HEDRON_NVRTC names a file, which excludes all other compilers. */
 bool hd_nvrtc_is_named(void);
 
-/* The package for Python whose NVRTC compiles for sm_`arch` what a driver for that CUDA takes. */
+/* Returns the Python package whose NVRTC compiles for sm_`arch` and for a driver of that CUDA
+   version. */
 const char *hd_nvrtc_package(int arch, int driver_major);
 
-/* Fails as hd_nvrtc_open does where nothing compiles for sm_`arch`. A library that did once is
-   remembered in the cache folder (cache_folder.h); as long as the same file lies there and
-   HEDRON_NVRTC names what it named, it is not loaded. */
+/* Fails as hd_nvrtc_open does if nothing compiles for sm_`arch`. Does not load a library that is
+   remembered in the cache folder (cache_folder.h), if the file and HEDRON_NVRTC are unchanged. */
 HdStatus hd_nvrtc_check(const char *device, int arch, int driver_major, HdError *error);
 
-/* Remembers that the library compiles for sm_`arch`. What cannot be remembered is not. */
+/* Remembers that the library compiles for sm_`arch`. Ignores failures. */
 void hd_nvrtc_remember(const char *library, int arch, int driver_major);
 
 typedef struct HdCudaCode {
     char *image; /* owned; machine code, or PTX with its NUL */
     size_t size;
-    char *log; /* owned; what the compiler had to say, "" at least */
+    char *log; /* owned; output of the compiler, "" if there is none */
 } HdCudaCode;
 
 typedef struct HdCudaTarget {
@@ -50,23 +49,23 @@ typedef struct HdCudaTarget {
     bool is_ptx; /* PTX for compute_61, otherwise the machine code of sm_61 */
 } HdCudaTarget;
 
-/* What the shape is compiled to for a device of sm_`arch`. */
+/* Returns the target of the shape on a device of sm_`arch`. */
 HdCudaTarget hd_cuda_target(const HdKernelShape *shape, int arch);
 
-/* The compiler's options for that target, a space between two. With PTX the limit of registers
-   is the driver's business, and here for whoever compares options. */
+/* Writes the compiler's options for that target, separated by spaces. For PTX the register limit is
+   applied by the driver; here it distinguishes options. */
 void hd_cuda_options(char *options, size_t capacity, HdCudaTarget target,
                      const HdKernelShape *shape);
 
-/* Compiles the embedded text with these options, for that target. On failure the whole log is in
-   the message and there is nothing to free. */
+/* Compiles the embedded text with these options, for that target. On failure the message holds the
+   whole log, and nothing needs freeing. */
 HdStatus hd_cuda_compile(HdCudaCode *code, const HdNvrtc *nvrtc, HdCudaTarget target,
                          const char *options, HdError *error);
 
 void hd_cuda_code_free(HdCudaCode *code);
 
-/* ---- PTX that was compiled while the program was built, where an NVRTC was there to do it: for
-   users who have none. It is general, for one text is to serve most scenes. ---- */
+/* ---- PTX compiled at build time if NVRTC was available, for users without NVRTC. It is general:
+   one text serves most scenes. ---- */
 
 typedef struct HdCudaPtx {
     HdKernelShape shape;
@@ -76,7 +75,7 @@ typedef struct HdCudaPtx {
 } HdCudaPtx;
 
 /* Made by cmake/embed_ptx.c: the kernels of the probe (verify/probe.h) and others, with strict
-   arithmetic and all that a scene may need up to the bounds below; none without NVRTC. */
+   arithmetic and all features of a scene up to the bounds below. Empty without NVRTC. */
 extern const HdCudaPtx hd_cuda_ptx[];
 extern const int hd_cuda_ptx_count;
 
@@ -88,10 +87,10 @@ enum {
     HD_CUDA_PTX_NODE_STACK = 32
 };
 
-/* True where some of it can run on a device of sm_`arch`. */
+/* Returns whether any of it runs on a device of sm_`arch`. */
 bool hd_cuda_ptx_suits(int arch);
 
-/* What does all that kernels of that shape would; NULL: there is none. */
+/* Returns the PTX that covers kernels of that shape, or NULL. */
 const HdCudaPtx *hd_cuda_ptx_find(const HdKernelShape *shape, int arch);
 
 #endif

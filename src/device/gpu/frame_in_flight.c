@@ -11,7 +11,7 @@ _Static_assert(sizeof(HdRayCounts) == sizeof(RayCounts), "the counts are copied 
 
 static const size_t SUM_BYTES = sizeof(HdRayCounts) * HD_SUM_WORKERS;
 
-static void close_flight(HdGpuFrameInFlight *in_flight, const HdGpu *gpu) {
+static void close_frame(HdGpuFrameInFlight *in_flight, const HdGpu *gpu) {
     enum { EVENTS = 5 };
     HdGpuEvent *const events[EVENTS] = {&in_flight->first, &in_flight->later, &in_flight->summed,
                                         &in_flight->encoded, &in_flight->copied};
@@ -26,14 +26,14 @@ static void close_flight(HdGpuFrameInFlight *in_flight, const HdGpu *gpu) {
 
 void hd_gpu_frames_in_flight_close(HdGpuRenderer *renderer) {
     for (int i = 0; i < HD_FRAMES_IN_FLIGHT; i++)
-        close_flight(&renderer->frames_in_flight.frames_in_flight[i], &renderer->gpu);
+        close_frame(&renderer->frames_in_flight.list[i], &renderer->gpu);
 }
 
 static size_t pixel_count(const HdGpuFrameInFlight *in_flight) {
     return (size_t)in_flight->of->width * (size_t)in_flight->of->height;
 }
 
-/* Of what is copied. */
+/* Bytes that are copied to the host. */
 static size_t picture_bytes(const HdGpuFrameInFlight *in_flight) {
     return pixel_count(in_flight) *
            (in_flight->encodes ? 4 : (size_t)in_flight->of->floats * sizeof(float));
@@ -68,8 +68,8 @@ HdStatus hd_gpu_frame_begin(HdGpuRenderer *renderer, const HdFrameTables *tables
                             bool encodes, HdGpuFrameInFlight **out, HdError *error) {
     HdGpuFramesInFlight *frames_in_flight = &renderer->frames_in_flight;
     HdGpuFrameInFlight *in_flight =
-        &frames_in_flight->frames_in_flight[(frames_in_flight->oldest + frames_in_flight->count) %
-                                            HD_FRAMES_IN_FLIGHT];
+        &frames_in_flight
+             ->list[(frames_in_flight->oldest + frames_in_flight->count) % HD_FRAMES_IN_FLIGHT];
     in_flight->encodes = encodes;
     in_flight->of = tables;
     in_flight->items = items;
@@ -92,8 +92,8 @@ HdStatus hd_gpu_frame_launch(const HdGpuRenderer *renderer, HdGpuFrameInFlight *
     return gpu->driver->launch(gpu->handle, launch, in_flight->untimed, error);
 }
 
-/* The launch took at most what passed since it was queued, and at least what the host waited for it
-   alone. So one that was short enough is known, and one that was too long; otherwise negative. */
+/* Bounds the time by the host's clock: at most since it was queued, at least what the host waited
+   for it alone. Returns a bound that shows if the launch was too long, otherwise -1. */
 static double launch_by_host(const HdGpuFramesInFlight *frames_in_flight,
                              const HdGpuFrameInFlight *in_flight, double waited) {
     double now = hd_monotonic_seconds(), most = now - in_flight->launched;
@@ -154,7 +154,7 @@ static HdStatus fill(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight, HdF
         HD_TRY(hd_gpu_frame_time_launch(renderer, in_flight, waited, error));
     hd_gpu_frame_report(in_flight, in_flight->items);
     frame->longest_launch = in_flight->longest_launch;
-    /* Where the device does not tell, what the host sees: frames are traced one after the other. */
+    /* Without the device's times, the host's count: frames are traced one after the other. */
     if (seconds < 0.0)
         seconds = hd_monotonic_seconds() -
                   fmax(in_flight->submitted, renderer->frames_in_flight.collected);
@@ -169,7 +169,7 @@ static HdStatus fill(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight, HdF
 HdStatus hd_gpu_frame_collect(HdGpuRenderer *renderer, HdFrame *frame, HdError *error) {
     HdGpuFramesInFlight *frames_in_flight = &renderer->frames_in_flight;
     HdStatus status =
-        fill(renderer, &frames_in_flight->frames_in_flight[frames_in_flight->oldest], frame, error);
+        fill(renderer, &frames_in_flight->list[frames_in_flight->oldest], frame, error);
     frames_in_flight->collected = hd_monotonic_seconds();
     frames_in_flight->oldest = (frames_in_flight->oldest + 1) % HD_FRAMES_IN_FLIGHT;
     frames_in_flight->count--;

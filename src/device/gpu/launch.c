@@ -30,7 +30,7 @@ static HdGpuLaunch launch_of(const HdGpuRenderer *renderer, HdKernel kernel) {
     return (HdGpuLaunch){.kernel = kernel, .group_size = renderer->program.group_size};
 }
 
-/* With the tables as its first arguments. */
+/* The launch has the tables as its first arguments. */
 static HdGpuLaunch tracing_of(const HdGpuRenderer *renderer, HdKernel kernel) {
     HdGpuLaunch launch = launch_of(renderer, kernel);
     for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++)
@@ -40,7 +40,7 @@ static HdGpuLaunch tracing_of(const HdGpuRenderer *renderer, HdKernel kernel) {
     return launch;
 }
 
-/* As many groups as the items need, but no more than the grid may have. */
+/* As many groups as the items need, limited by the grid. */
 static int group_count(const HdGpuRenderer *renderer, int items, int items_per_group) {
     int groups = (items + items_per_group - 1) / items_per_group;
     bool is_limited = renderer->has_groups && renderer->options.grid > 0;
@@ -52,15 +52,15 @@ static HdStatus queue_launch(const HdGpuRenderer *renderer, const HdGpuLaunch *l
     return renderer->gpu.driver->launch(renderer->gpu.handle, launch, event, error);
 }
 
-static HdStatus check_wanted(const HdFrameTables *tables, HdError *error) {
+static HdStatus check_cancelled(const HdFrameTables *tables, HdError *error) {
     return hd_interrupt_signal() != 0 || hd_watched_is_unwanted(&tables->watched)
-               ? hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame")
+               ? hd_fail(error, HD_INTERRUPTED, "interrupted during a frame")
                : HD_OK;
 }
 
-/* Launches are queued one by one, so that a signal ends the frame between two of them, so that
-   each tells how large the next one may be, and so that it is known what is done: the items before
-   number `done`. CPUs drive no display, but the rest holds for them too. */
+/* Launches are queued one by one. A signal can end the frame between two of them, each determines
+   the size of the next, and the items before number `done` are known to be done. CPUs drive no
+   display, but need the rest too. */
 static HdStatus wait_between(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight, int done,
                              HdError *error) {
     const HdGpu *gpu = &renderer->gpu;
@@ -68,11 +68,11 @@ static HdStatus wait_between(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_fli
     HD_TRY(gpu->driver->wait_for_launch(gpu->handle, in_flight->untimed, error));
     HD_TRY(hd_gpu_frame_time_launch(renderer, in_flight, waited, error));
     hd_gpu_frame_report(in_flight, done);
-    return check_wanted(in_flight->of, error);
+    return check_cancelled(in_flight->of, error);
 }
 
-/* Among how many threads of a group the samples of a pixel are shared: the greatest divisor of
-   their number up to the group's size and 64, so that all of them have as many. */
+/* Returns how many threads of a group share the samples of a pixel. It is the greatest divisor of
+   their number up to the group's size and 64, so that each has equally many. */
 static int sample_parts(int samples, int group_size) {
     enum { MAX_PARTS = 64 };
     int parts = hd_min(group_size, MAX_PARTS);
@@ -106,7 +106,7 @@ static HdStatus launch_mega(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flig
     return HD_OK;
 }
 
-/* Of the wavefront, with a queue each; on CPUs so many strive to be even. */
+/* Workers of the wavefront, with a queue each; on CPUs enough for an even load. */
 static int worker_count(const HdGpuRenderer *renderer, int items) {
     enum { WORKERS_PER_UNIT = 8 };
     return renderer->has_groups ? 1
@@ -191,8 +191,7 @@ static HdStatus store_batch(const HdGpuRenderer *renderer, const HdGpuFrameInFli
     return queue_launch(renderer, &launch, NULL, error);
 }
 
-/* Samples of a batch are taken from its end on, each time once all rays of those before are
-   traced. */
+/* A batch's samples start from its end, each time once all rays before them are traced. */
 static void report_step(HdGpuFrameInFlight *in_flight, const HdWaveStep *step) {
     const int samples = in_flight->of->samples;
     const int last =
@@ -215,7 +214,7 @@ static HdStatus launch_waves(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_fli
     unsigned taken = 0;
     HD_TRY(hd_gpu_wave_queue_empty(&renderer->queue, &renderer->gpu, error));
     for (;;) {
-        HD_TRY(check_wanted(in_flight->of, error));
+        HD_TRY(check_cancelled(in_flight->of, error));
         HD_TRY(hd_wave_next(&run, taken, &renderer->frames_in_flight.size, error));
         if (step->action == HD_WAVE_IS_DONE)
             return HD_OK;
@@ -250,7 +249,7 @@ static HdStatus trace(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight, in
     return launch_sum(renderer, in_flight, count_slots, error);
 }
 
-/* ---- 8 bits ---- */
+/* ---- 8-bit pixels ---- */
 
 static HdStatus write_thresholds(HdGpuRenderer *renderer, HdCurve curve, HdError *error) {
     const HdGpu *gpu = &renderer->gpu;
@@ -300,7 +299,7 @@ static HdStatus reserve_queue(HdGpuRenderer *renderer, const HdGpuFrameInFlight 
                                      worker_count(renderer, items), error);
 }
 
-/* `from` must live until the device has it. */
+/* `from` must live until the copy is done. */
 static HdStatus write_frame_table(HdGpuRenderer *renderer, int table, const void *from,
                                   size_t bytes, HdError *error) {
     return hd_gpu_write_table(&renderer->gpu, &renderer->frame[table], from, bytes,
@@ -320,7 +319,7 @@ static HdStatus write_frame(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flig
     return HD_OK;
 }
 
-/* Parts of it are counted one by one. */
+/* Some items are reported one by one. */
 HdStatus hd_gpu_launch_frame(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_flight, HdCurve curve,
                              HdError *error) {
     const HdGpuProgram *program = &renderer->program;
@@ -338,13 +337,13 @@ HdStatus hd_gpu_launch_frame(HdGpuRenderer *renderer, HdGpuFrameInFlight *in_fli
     return in_flight->encodes ? encode(renderer, in_flight, curve, error) : HD_OK;
 }
 
-/* ---- what is met first ---- */
+/* ---- first hits ---- */
 
-/* A sample costs less here than where light is traced, by which the size of launches is learned:
-   they are short enough. */
+/* A sample costs less here than in tracing, from which the launch size is learned: launches are
+   short enough. */
 static HdStatus launch_first_hits(HdGpuRenderer *renderer, const HdFrameTables *tables, int items,
                                   int floats, HdError *error) {
-    enum { MAX_THREADS = 64 }; /* of a group, which has nothing to do together */
+    enum { MAX_THREADS = 64 }; /* of a group, whose threads share nothing */
     HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_FIRST_HITS);
     FirstHits own = {.floats = floats, .hits = &renderer->first_hits};
     const HdGpu *gpu = &renderer->gpu;
@@ -354,7 +353,7 @@ static HdStatus launch_first_hits(HdGpuRenderer *renderer, const HdFrameTables *
     for (int done = 0; done < items; done += own.item_count) {
         if (done > 0) {
             HD_TRY(gpu->driver->wait_for_launch(gpu->handle, &renderer->first_hits_found, error));
-            HD_TRY(check_wanted(tables, error));
+            HD_TRY(check_cancelled(tables, error));
         }
         own.first_item = done;
         own.item_count = hd_launch_size_items(&renderer->frames_in_flight.size, items - done, work,

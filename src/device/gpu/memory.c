@@ -13,7 +13,7 @@ HdStatus hd_gpu_refuse(const HdGpu *gpu, HdGpuPlace place, size_t bytes, const c
     char need[HD_BYTE_TEXT_SIZE], is_free[HD_BYTE_TEXT_SIZE] = "too little", all[HD_BYTE_TEXT_SIZE];
     hd_byte_text((double)bytes, need);
     hd_byte_text((double)gpu->facts.memory, all);
-    if (refusal->tells_free)
+    if (refusal->knows_free)
         hd_byte_text(refusal->free, is_free);
     if (place == HD_GPU_HOST && !gpu->driver->counts_host_memory)
         return hd_fail(error, HD_FAILED,
@@ -35,7 +35,7 @@ static HdStatus check_size(const HdGpu *gpu, size_t bytes, const char *what, HdE
                    what, need, gpu->name, at_once, all);
 }
 
-/* Fails with `refusal` where there is too little memory. */
+/* Fails with `refusal` if memory is lacking. */
 static HdStatus try_to_reserve(const HdGpu *gpu, HdGpuMemory *memory, HdGpuPlace place,
                                size_t bytes, HdGpuRefusal *refusal, HdError *error) {
     if (memory->handle != NULL && memory->bytes >= bytes)

@@ -8,7 +8,7 @@
 
 enum { OPTIONS_LENGTH = 1024, VERSION_LENGTH = HD_KERNEL_KEY_LENGTH, MAKER_LENGTH = 48 };
 
-/* A kernel that needs many registers may allow smaller groups only. */
+/* A kernel that needs many registers may allow only smaller groups. */
 static HdStatus limit_group_size(HdGpuProgram *program, const HdGpu *gpu, HdError *error) {
     size_t most = 0;
     HD_TRY(gpu->driver->max_threads(gpu->handle, &most, error));
@@ -24,7 +24,7 @@ static HdStatus limit_group_size(HdGpuProgram *program, const HdGpu *gpu, HdErro
     return HD_OK;
 }
 
-/* True where the kernels were in the cache and the driver took them. */
+/* Returns whether the kernels were cached and the driver accepted them. */
 static bool load_cached(HdGpuProgram *program, const HdGpu *gpu, const char *options,
                         HdError *error) {
     const HdGpuDriver *driver = gpu->driver;
@@ -58,7 +58,7 @@ static HdStatus compile(HdGpuProgram *program, const HdGpu *gpu, const char *opt
     return HD_OK;
 }
 
-/* Has the kernels of the cache's shape in place of those that there are. */
+/* Builds the kernels of the cache's shape, replacing others. */
 static HdStatus build(HdGpuProgram *program, const HdGpu *gpu, HdError *error) {
     char options[OPTIONS_LENGTH];
     HdKernelShape *shape = &program->cache.shape;
@@ -88,7 +88,7 @@ HdStatus hd_gpu_build(HdGpuProgram *program, const HdGpu *gpu, const HdKernelNee
     return build(program, gpu, error);
 }
 
-/* The bounds of a scene are nothing to the probe. */
+/* The probe does not depend on a scene's bounds. */
 HdStatus hd_gpu_build_probe(HdGpuProgram *program, const HdGpu *gpu, HdError *error) {
     HdKernelShape *shape = &program->cache.shape;
     if (program->is_built && shape->is_probe && shape->rounds_by_fma == program->probes_by_fma)
@@ -103,7 +103,7 @@ HD_GPU_ARGUMENTS(Probe, add_probe, HD_PROBE_ARGUMENTS)
 
 enum { PARTS = 8 };
 
-/* Few groups for each unit: the tuples are few. */
+/* Few groups for each unit suffice for few tuples. */
 static HdStatus launch_probe(const HdGpuProgram *program, const HdGpu *gpu,
                              const HdGpuMemory capacity[PARTS], int count, HdError *error) {
     enum { TUPLES_PER_THREAD = 4 };
@@ -130,8 +130,8 @@ HdStatus hd_gpu_run_probe(const HdGpuProgram *program, const HdGpu *gpu, const H
     const size_t numbers =
         count * (batch->precision == HD_PRECISION_DOUBLE ? sizeof(double) : sizeof(float));
     const struct {
-        const void *from; /* NULL: nothing is written */
-        void *to;         /* NULL: nothing is read */
+        const void *from; /* NULL: not written */
+        void *to;         /* NULL: not read */
         size_t bytes;
     } parts[PARTS] = {
         {batch->operands[0], NULL, numbers},

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The one renderer over a driver of GPUs. */
+/* The renderer over a GPU driver. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 #include "system/machine.h"
 #include "tables/table.h"
 
-/* Of a wavefront's queue: on CPUs for each of its workers, elsewhere at most. */
+/* Bytes of a wavefront's queue: on CPUs for each worker, otherwise at most. */
 enum { CPU_QUEUE_BYTES = 512 << 10, GROUPS_QUEUE_BYTES = 1 << 30 };
 
 static HdStatus enter(const HdGpuRenderer *renderer, HdError *error) {
@@ -26,7 +26,7 @@ static void choose_shape(HdGpuRenderer *renderer) {
     const HdRenderOptions *options = &renderer->options;
     HdKernelShape *shape = &renderer->program.cache.shape;
     bool has_groups = renderer->has_groups;
-    /* As many lanes as a register has, within what the kernels are written for. */
+    /* As many lanes as a register has, within HD_LANE_COUNTS. */
     int width = gpu->facts.native_lanes[options->precision];
     int lanes = has_groups ? 1 : width >= 16 ? 16 : width >= 8 ? 8 : 4;
     int group_size = options->block > 0 ? options->block : gpu->driver->group_size;
@@ -99,7 +99,7 @@ static void gpu_close(void *state) {
 
 /* ---- upload ---- */
 
-/* Lets a table be where the kernels that were built read it: in constant memory or not. */
+/* Places the table in constant or global memory, as the kernels were compiled for. */
 static void place_table(HdGpuRenderer *renderer, HdGpuMemory *memory, const char *name) {
     const HdGpu *gpu = &renderer->gpu;
     HdGpuMemory constant = {0};
@@ -153,7 +153,7 @@ static HdStatus gpu_upload(void *state, const HdSceneTables *tables, HdError *er
     HD_TRY(hd_gpu_build(&renderer->program, gpu, &needs, error));
     place_tables(renderer);
     HdStatus status = write_scene(renderer, tables, error);
-    /* After a failure too: copies that are under way read the tables, which are the caller's. */
+    /* Also after a failure: pending copies read the tables, which are the caller's. */
     HdStatus finished = gpu->driver->finish(gpu->handle, status == HD_OK ? error : &later);
     return status == HD_OK ? finished : status;
 }
@@ -174,12 +174,12 @@ static HdStatus gpu_submit(void *state, const HdFrameTables *tables, const HdFra
         status = hd_gpu_launch_frame(renderer, in_flight, request->curve, error);
     if (status == HD_OK)
         status = hd_gpu_frame_send(renderer, in_flight, error);
-    if (status != HD_OK) /* the next frame takes the flight's memory */
+    if (status != HD_OK) /* the next frame uses the same memory */
         renderer->gpu.driver->drain(renderer->gpu.handle);
     return status;
 }
 
-/* Flights end in the order of their frames. What the launches on a CPU take does no harm. */
+/* Frames retire in their order. Launches on a CPU block no display: ignores their times. */
 static HdStatus gpu_collect(void *state, const HdFrameTables *tables, HdFrame *frame,
                             HdError *error) {
     HdGpuRenderer *renderer = state;
@@ -192,14 +192,14 @@ static HdStatus gpu_collect(void *state, const HdFrameTables *tables, HdFrame *f
     return status;
 }
 
-/* The launches follow those of the frames under way, whose tables they may replace. */
+/* The launches follow those of the frames in flight, whose tables they may replace. */
 static HdStatus gpu_first_hits(void *state, const HdFrameTables *tables, HdFrame *frame,
                                HdError *error) {
     HdGpuRenderer *renderer = state;
     HdError later;
     HD_TRY(enter(renderer, error));
     HdStatus status = hd_gpu_find_first_hits(renderer, tables, frame, error);
-    if (status != HD_OK) /* copies that are under way read the tables, which are the caller's */
+    if (status != HD_OK) /* pending copies read the tables, which are the caller's */
         renderer->gpu.driver->finish(renderer->gpu.handle, &later);
     return status;
 }
@@ -224,7 +224,7 @@ static HdStatus gpu_probe(void *state, const HdProbeBatch *batch, HdProbeResults
     return hd_gpu_run_probe(program, &renderer->gpu, batch, results, error);
 }
 
-/* ---- what was chosen ---- */
+/* ---- descriptions ---- */
 
 static HdKernelCache *gpu_kernels(void *state) {
     HdGpuRenderer *renderer = state;
@@ -249,7 +249,7 @@ static void gpu_describe(const void *state, char *text, int capacity) {
         char memory[HD_BYTE_TEXT_SIZE];
         hd_byte_text((double)renderer->queue.bytes, memory);
         snprintf(text + length, (size_t)(capacity - length),
-                 ", the queue cut to %s, for more memory was refused", memory);
+                 ", the queue cut to %s, since more memory was refused", memory);
     }
 }
 

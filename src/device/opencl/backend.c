@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* OpenCL as a driver of GPUs (device/gpu/driver.h), and of CPUs. */
+/* OpenCL as a driver of GPUs and CPUs (device/gpu/driver.h). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,11 +13,11 @@ enum { GPU_GROUP_SIZE = 64, OPTIONS_LENGTH = 1024 };
 typedef struct Device {
     cl_device_id id;
     HdDevice is;
-    cl_ulong at_once; /* most bytes of a buffer */
+    cl_ulong at_once; /* bytes of a buffer, at most */
     cl_context context;
-    cl_command_queue queue;  /* of everything but the copies to the host, */
-    cl_command_queue copies; /* so that kernels of the next frame run beside them */
-    cl_program program;      /* NULL: there is none */
+    cl_command_queue queue;  /* everything but copies to the host */
+    cl_command_queue copies; /* copies to the host, concurrent with the next frame's kernels */
+    cl_program program;      /* NULL: none */
     cl_kernel kernels[HD_KERNEL_COUNT];
 } Device;
 
@@ -65,8 +65,8 @@ static HdStatus open_device(void *state, const HdDevice *is, HdGpuFacts *facts, 
 
 /* ---- memory ---- */
 
-static HdStatus check_room(cl_int code, const char *function, HdGpuRefusal *refusal,
-                           HdError *error) {
+static HdStatus check_memory(cl_int code, const char *function, HdGpuRefusal *refusal,
+                             HdError *error) {
     if (code != CL_MEM_OBJECT_ALLOCATION_FAILURE && code != CL_OUT_OF_RESOURCES &&
         code != CL_OUT_OF_HOST_MEMORY)
         return check(code, function, error);
@@ -107,10 +107,10 @@ static HdStatus allocate(void *state, HdGpuMemory *memory, HdGpuPlace place, siz
     memory->bytes = bytes;
     if (code == CL_SUCCESS && place == HD_GPU_DEVICE_AT_ONCE)
         code = clEnqueueWriteBuffer(device->queue, memory->handle, CL_TRUE, 0, 1, "", 0, NULL,
-                                    NULL); /* drivers may take it only when it is touched first */
+                                    NULL); /* drivers may allocate it only on first use */
     if (code == CL_SUCCESS && place == HD_GPU_HOST)
         return map(device, memory, error);
-    return check_room(code, "clCreateBuffer", refusal, error);
+    return check_memory(code, "clCreateBuffer", refusal, error);
 }
 
 static HdStatus write_memory(void *state, const HdGpuMemory *memory, const void *data, size_t bytes,
@@ -118,7 +118,7 @@ static HdStatus write_memory(void *state, const HdGpuMemory *memory, const void 
     Device *device = state;
     cl_int code = clEnqueueWriteBuffer(device->queue, memory->handle, CL_FALSE, 0, bytes, data, 0,
                                        NULL, NULL);
-    return check_room(code, "clEnqueueWriteBuffer", refusal, error);
+    return check_memory(code, "clEnqueueWriteBuffer", refusal, error);
 }
 
 static HdStatus read_memory(void *state, const HdGpuMemory *memory, void *to, size_t bytes,
@@ -131,7 +131,7 @@ static HdStatus read_memory(void *state, const HdGpuMemory *memory, void *to, si
 
 /* ---- kernels ---- */
 
-/* Not every driver knows it; how one divides is measured (verify/probe.h). */
+/* Not every driver knows the option; the probe measures the division (verify/probe.h). */
 static const char rounding[] = " -cl-fp32-correctly-rounded-divide-sqrt";
 
 static void write_options(void *state, const HdKernelShape *shape, char *text, size_t capacity) {
@@ -146,7 +146,7 @@ static void write_options(void *state, const HdKernelShape *shape, char *text, s
     snprintf(text, capacity, "-cl-std=CL1.2%s%s%s", math, defines, limit);
 }
 
-/* Tells what the device's name and driver do not, such as which LLVM PoCL has. */
+/* Writes what the device's name and driver do not state, such as the LLVM version of PoCL. */
 static void write_version(void *state, char *text, size_t capacity) {
     const Device *device = state;
     cl_platform_id platform;
@@ -188,12 +188,12 @@ static HdStatus fail_with_log(const Device *device, cl_int code, HdError *error)
     if (log)
         clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);
     hd_fail(error, HD_FAILED, "the compiler of %s refused the kernels (clBuildProgram: %s):\n%s",
-            device->is.name, hd_opencl_error_name(code), log && log[0] ? log : "(it left no log)");
+            device->is.name, hd_opencl_error_name(code), log && log[0] ? log : "(no log)");
     free(log);
     return HD_FAILED;
 }
 
-/* Once more without the option that a driver may refuse. */
+/* Tries again without the option that a driver may refuse. */
 static cl_int build(const Device *device, const char *options) {
     char other[OPTIONS_LENGTH];
     const char *refused = strstr(options, rounding);
@@ -238,7 +238,7 @@ static HdStatus load(void *state, const HdKernelShape *shape, const char *option
                               : hd_opencl_fail(error, "clBuildProgram", code);
 }
 
-/* PoCL hands out its machine code too, once the kernels have run. */
+/* PoCL returns its machine code too, once the kernels have run. */
 static unsigned char *read_binary(const void *state, size_t *size) {
     const Device *device = state;
     *size = 0;
@@ -262,7 +262,7 @@ static HdStatus query_max_threads(void *state, size_t *threads, HdError *error) 
                  "clGetKernelWorkGroupInfo", error);
 }
 
-/* ---- launches; a mark is the event of its last command ---- */
+/* ---- launches; their event is that of the last command ---- */
 
 static void forget(void *state, HdGpuEvent *event) {
     (void)state;
@@ -291,7 +291,7 @@ static HdStatus launch(void *state, const HdGpuLaunch *launch, HdGpuEvent *event
     return check(code, "clEnqueueNDRangeKernel", error);
 }
 
-/* What another queue waits for is to be flushed first. */
+/* A queue must be flushed before another one waits for it. */
 static HdStatus copy_back(void *state, const HdGpuEvent *after, const HdGpuCopy *copies, int count,
                           HdGpuEvent *done, HdError *error) {
     Device *device = state;
@@ -329,7 +329,7 @@ static void drain(void *state) {
     clFinish(device->copies);
 }
 
-/* Nothing is told without a profile. */
+/* Without profiling the times are unknown. */
 static HdStatus measure_seconds(void *state, const HdGpuEvent *from, const HdGpuEvent *to,
                                 double *seconds, HdError *error) {
     cl_ulong start = 0, end = 0;

@@ -84,8 +84,8 @@ const char *hd_opencl_error_name(cl_int code) {
     return is_known ? names[-code] : "an unknown error";
 }
 
-/* Drivers report what became of a kernel to those who wait for it; NVIDIA's has no other words than
-   a number of its own for one that crashed. */
+/* Drivers report a kernel's failure to those who wait for it; NVIDIA's has only a number of its own
+   for a crash. */
 static bool is_lost(const char *function, cl_int code) {
     enum { NVIDIA_ILLEGAL_ACCESS = -9999 };
     bool waits = strcmp(function, "clFinish") == 0 || strcmp(function, "clWaitForEvents") == 0 ||
@@ -98,7 +98,7 @@ static bool is_lost(const char *function, cl_int code) {
     case CL_INVALID_DEVICE:
     case NVIDIA_ILLEGAL_ACCESS:
         return true;
-    case CL_OUT_OF_RESOURCES: /* elsewhere a lack of memory */
+    case CL_OUT_OF_RESOURCES: /* other functions: a lack of memory */
         return waits;
     default:
         return false;
@@ -122,7 +122,7 @@ typedef struct Entry {
     cl_device_id device;
 } Entry;
 
-/* A query that fails is answered with "no": an OpenCL 1.0 device does not know every question. */
+/* A failing query counts as "no": an OpenCL 1.0 device does not know every query. */
 static cl_ulong query(cl_device_id device, cl_device_info what) {
     union {
         cl_ulong wide;
@@ -138,13 +138,13 @@ static int query_int(cl_device_id device, cl_device_info what) {
     return (int)query(device, what);
 }
 
-/* Of a device or, where the entry has none, of a platform. */
+/* Queries a device or, if the entry has none, a platform. */
 static cl_int query_bytes(Entry of, cl_uint what, size_t size, void *value, size_t *needed) {
     return of.device ? clGetDeviceInfo(of.device, what, size, value, needed)
                      : clGetPlatformInfo(of.platform, what, size, value, needed);
 }
 
-/* Without space at both ends. A buffer that is too small is an error in OpenCL. */
+/* Trims spaces at both ends. OpenCL fails if the buffer is too small. */
 static void query_text(Entry of, cl_uint what, char *text, size_t capacity) {
     text[0] = '\0';
     size_t size = 0;
@@ -164,7 +164,7 @@ static void query_text(Entry of, cl_uint what, char *text, size_t capacity) {
     free(whole);
 }
 
-/* Why no kernel of ours can run; empty: one can. */
+/* Writes the reason why no kernel can run; empty: usable. */
 static void find_unsupported(cl_device_id device, char *reasons, size_t capacity) {
     char version[64];
     int major = 0, minor = 0;
@@ -190,7 +190,7 @@ static bool has_extension(cl_device_id device, const char *name) {
     return strstr(extensions, name) != NULL;
 }
 
-/* Only NVIDIA's driver tells. */
+/* Only NVIDIA's driver reports this. */
 static bool has_timeout(cl_device_id id) {
     enum { KERNEL_EXEC_TIMEOUT_NV = 0x4005 };
     cl_bool reported = CL_FALSE;
@@ -212,8 +212,7 @@ static void describe_device(HdDevice *device, Entry entry, int index) {
     device->is_cpu = query(entry.device, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU;
     device->compute_units = query_int(entry.device, CL_DEVICE_MAX_COMPUTE_UNITS);
     device->clock_mhz = query_int(entry.device, CL_DEVICE_MAX_CLOCK_FREQUENCY);
-    /* NVIDIA's extensions: the build option -cl-nv-maxrregcount, and the question for the version.
-     */
+    /* NVIDIA's extensions: the build option -cl-nv-maxrregcount, and the query of the version. */
     if (has_extension(entry.device, "cl_nv_compiler_options"))
         device->nvidia_arch = 10 * query_int(entry.device, CAPABILITY_MAJOR) +
                               query_int(entry.device, CAPABILITY_MINOR);
@@ -252,7 +251,7 @@ static HdStatus list_devices(Entry *entries, int capacity, int *count, HdError *
             last_code = code;
             continue;
         }
-        /* Of a driver that claims more than it lists, those that it lists. */
+        /* A driver may claim more devices than it lists. */
         for (cl_uint d = 0; d < found && d < HD_MAX_DEVICES && *count < capacity; d++)
             if (devices[d] != NULL)
                 entries[(*count)++] = (Entry){platforms[p], devices[d]};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The OpenCL devices of this machine, what they can do, and OpenCL's errors in words. */
+/* Lists the OpenCL devices of this machine and their capabilities, and names OpenCL's errors. */
 #ifndef HD_DEVICE_OPENCL_DEVICES_H
 #define HD_DEVICE_OPENCL_DEVICES_H
 
@@ -8,20 +8,20 @@
 
 #include "device/gpu/driver.h"
 
-/* Of what a driver says; one that claims more lies. */
+/* Size limit of a driver's answers; a larger claim is an error of the driver. */
 enum { HD_OPENCL_MAX_BYTES = 1 << 26 };
 
-/* As HdBackend's; all devices of all platforms, in the order in which they are reported. */
+/* Lists all devices of all platforms in the order of the driver, as HdBackend's `enumerate`. */
 HdStatus hd_opencl_enumerate(HdDevice *devices, int capacity, int *count, HdError *error);
 
-/* The device with that number. Fails with HD_UNAVAILABLE where no kernel can run on it at all. */
+/* Finds the device with that number. HD_UNAVAILABLE if no kernel can run on it. */
 HdStatus hd_opencl_find(cl_device_id *device, int index, HdGpuFacts *facts, HdError *error);
 
-/* "CL_OUT_OF_RESOURCES"; for codes that the standard does not have, "an unknown error". */
+/* Returns the name, such as "CL_OUT_OF_RESOURCES"; "an unknown error" for non-standard codes. */
 const char *hd_opencl_error_name(cl_int code);
 
-/* Fails with the name of the function and of the error: HD_UNAVAILABLE where that means that the
-   device is lost (hd_fail_lost), else HD_FAILED. */
+/* Fails with the names of the function and of the error: HD_UNAVAILABLE if the device is lost
+   (hd_fail_lost), otherwise HD_FAILED. */
 HdStatus hd_opencl_fail(HdError *error, const char *function, cl_int code);
 
 #endif

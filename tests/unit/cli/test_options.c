@@ -192,7 +192,7 @@ TEST(wrong_lines_are_refused) {
         {"help man page", "takes one name only"},
         {"check --", "needs the name of a scene"},
         {"convert one.in two.in", ""},
-        {"check --schema a.json", "looks at no scene"},
+        {"check --schema a.json", "reads no scene"},
         {"render a.json b.json", "'b.json' came after 'a.json'"},
         {"devices c", "takes options only, but 'c'"},
         {"--stats -", "expected a file"},

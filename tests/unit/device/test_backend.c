@@ -63,7 +63,7 @@ static void expect_unsupported(const HdDevice *device, HdRenderOptions options,
 
 TEST(a_wavefront_of_groups_needs_wide_atomics) {
     static const char lack[] = "the wavefront pipeline needs 64-bit integer atomics, which the "
-                               "device lacks; --pipeline mega would take it";
+                               "device lacks; --pipeline mega would work";
     const HdRenderOptions waves = {.pipeline = HD_PIPELINE_WAVEFRONT};
     const HdDevice *lacking = &devices[GPU_WITHOUT_ATOMICS];
     expect_unsupported(lacking, waves, lack);

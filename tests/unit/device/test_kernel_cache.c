@@ -115,7 +115,7 @@ TEST(damaged_kernels_are_compiled_anew) {
 TEST(what_a_driver_hides_is_not_cached) {
     fake.hides_binary = true;
     expect_rendered(HD_OK, 1, 0);
-    expect_contains(note, "not cached; the driver does not hand them out");
+    expect_contains(note, "not cached; the driver does not provide them");
 }
 
 /* ---- the self-test ---- */
@@ -155,7 +155,7 @@ TEST(what_is_wrong_is_refused_and_frames_under_way_are_dropped) {
     hd_renderer_drop(renderer);
     assert_int_equal(fake.dropped, 0);
     assert_int_equal(hd_renderer_submit(renderer, &view, &radiance, &error), HD_BAD_INPUT);
-    expect_contains(error.message, "by kernels that are not tested");
+    expect_contains(error.message, "with untested kernels");
     assert_int_equal(hd_put_tables(renderer, &tables, &error), HD_OK);
     assert_int_equal(hd_renderer_submit(renderer, &view, &radiance, &error), HD_OK);
     assert_int_equal(hd_renderer_submit(renderer, &view, &radiance, &error), HD_OK);
@@ -206,7 +206,7 @@ TEST(fast_arithmetic_is_not_tested) {
     expect_rendered(HD_OK, 1, 0);
     assert_int_equal(fake.rendered, 1);
     assert_int_equal(fake.probed, 0);
-    expect_contains(note, "not tested, for the arithmetic is fast; cached");
+    expect_contains(note, "not tested, since the arithmetic is fast; cached");
     expect_rendered(HD_OK, 0, 1);
     options.math = HD_MATH_STRICT;
     expect_rendered(HD_UNAVAILABLE, 2, 0);

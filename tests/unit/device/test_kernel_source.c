@@ -98,8 +98,8 @@ TEST(needs_are_told_in_words) {
     needs.refracts = needs.lit_from_behind = needs.many_lights = needs.bounded = true;
     needs.node_stack_bound = 32;
     hd_kernel_needs_describe(&needs, text, sizeof text);
-    expect_contains(text, "16, with refraction, faces lit from behind, meshes, many lights, with "
-                          "surveys");
+    expect_contains(text, "16, with refraction, faces lit from behind, meshes, many lights, error "
+                          "bounds");
 }
 
 /* Neighbours in the list have other values. */

@@ -58,7 +58,7 @@ static const char *difference(const char *frame, void (*how)(const HdSceneTables
  */
 TEST(pixel_sample_and_depth_are_told) {
     assert_string_equal(difference("tetrahedron", with_nothing),
-                        "asked again it renders as plain C does");
+                        "a second rendering equals that of plain C");
     expect_contains(difference("tetrahedron", with_other_mirrors), "depth 1 of the ray: ");
     assert_string_equal(difference("tetrahedron", with_other_sky),
                         "pixel 0, 0, sample 0, 0 of 2 x 2, depth 0 of the ray: "

@@ -140,7 +140,7 @@ TEST(faults_are_told_or_healed) {
         {LOST_ADDITION, "the sum 3 that all threads add to atomically", "in 64 bits"},
         {ROUNDED_TO_INT,
          "(64-bit integer) of a, within 2^62, of a = 0x1.316p-137, b = -0x1.9cp-143, ",
-         "x = 0xf7ffff8800000001 in float is 1, expected 0 (denormal operands are taken for 0)"},
+         "x = 0xf7ffff8800000001 in float is 1, expected 0 (denormal operands count as 0)"},
     };
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
         const HdProbeReport report = probe(list[i].fault, HD_PRECISION_FLOAT);

@@ -63,13 +63,13 @@ TEST(what_may_help_a_driver_to_start_is_told) {
         const char *message;
     } cases[] = {
         {"999", "13010", HD_FAILED,
-         "CUDA_ERROR_UNKNOWN (999); after the machine slept, this helps: sudo rmmod nvidia_uvm && "
-         "sudo modprobe nvidia_uvm, or a restart"},
+         "CUDA_ERROR_UNKNOWN (999); after suspend, run: sudo rmmod nvidia_uvm && "
+         "sudo modprobe nvidia_uvm, or restart"},
         {"100", "13010", HD_UNAVAILABLE,
          "CUDA_ERROR_NO_DEVICE (100); it is of branch 590 or newer, which drives no card before "
          "sm_75: the branch 580 is the last for older ones, such as a GTX 1050"},
         {"100", "13009", HD_UNAVAILABLE,
-         "CUDA_ERROR_NO_DEVICE (100); no card is there that it drives, or CUDA_VISIBLE_DEVICES "
+         "CUDA_ERROR_NO_DEVICE (100); it finds no card that it supports, or CUDA_VISIBLE_DEVICES "
          "hides it"},
         {"2", "13010", HD_FAILED, "CUDA_ERROR_OUT_OF_MEMORY (2)"},
     };
