@@ -5,14 +5,13 @@
 
 /* ---- depth ---- */
 
-/* The separating axis theorem: two convex bodies lie apart exactly if their shadows do on the
-   normal of some face, or on the cross product of an edge of the one and an edge of the other. See
-   S. Gottschalk, M. C. Lin, D. Manocha, OBBTree: A Hierarchical Structure for Rapid Interference
-   Detection, SIGGRAPH 1996, section 5. The shortest of the overlaps of shadows is the shortest way
-   out. */
+/* The separating axis theorem: two convex bodies are separate exactly if their projections are, on
+   a face's normal or on the cross product of an edge of each. See S. Gottschalk, M. C. Lin, D.
+   Manocha, OBBTree: A Hierarchical Structure for Rapid Interference Detection, SIGGRAPH 1996,
+   section 5. The smallest overlap of projections is the penetration depth. */
 
-/* Sines of angles below this are those of parallel lines. An axis left out for it costs nothing:
-   its neighbours find the overlap to about that angle. */
+/* Sine of the angle below which lines count as parallel. An axis omitted for it costs nothing: its
+   neighbours find the overlap to about that angle. */
 static const double parallel = 1e-12;
 
 typedef struct Axes {
@@ -23,9 +22,9 @@ typedef struct Axes {
 /* A convex polyhedron, or a flat convex polygon. */
 typedef struct Body {
     HdVec3 centre;
-    double radius; /* of the sphere about the centre that holds all of it */
+    double radius; /* radius of the bounding sphere about the centre */
     int point_count;
-    HdVec3 point[HD_MAX_VERTICES]; /* from the centre */
+    HdVec3 point[HD_MAX_VERTICES]; /* relative to the centre */
     Axes normals, edges;
 } Body;
 
@@ -81,15 +80,15 @@ static Shadow shadow_of(const Body *body, HdVec3 axis) {
     return shadow;
 }
 
-/* Two bodies, and the shortest way out of each other found so far. */
+/* Two bodies and the smallest overlap found so far. */
 typedef struct Pair {
     const Body *a, *b;
-    HdVec3 offset; /* of b's centre from a's */
-    double touch;  /* what counts as touching */
+    HdVec3 offset; /* vector from a's centre to b's */
+    double touch;  /* depth that still counts as touching */
     double depth;
 } Pair;
 
-/* False where the axis shows that the bodies do not overlap. */
+/* Returns false if the axis separates the bodies. */
 static bool try_axis(Pair *pair, HdVec3 axis) {
     const double offset = hd_dot(pair->offset, axis);
     const Shadow a = shadow_of(pair->a, axis), b = shadow_of(pair->b, axis);
@@ -148,7 +147,7 @@ double hd_floor_depth(const HdSolid *solid, const HdFloor *floor, double least) 
     return depth_of(&body_a, &body_b, least);
 }
 
-/* What counts as touching still. */
+/* Returns the depth that still counts as touching. */
 static double touch_of(HdVec3 centre_a, double radius_a, HdVec3 centre_b, double radius_b) {
     static const double touch = 1e-9;
     static const double rounding = 1e-15;
@@ -172,17 +171,17 @@ double hd_floor_overlap(const HdSolid *solid, const HdFloor *floor) {
 
 /* ---- contact ---- */
 
-/* Of the radii and the distance of two solids: by how much they are drawn apart, and from which
-   distance on they count as apart already. Half a step is twice what the float kernels need to tell
-   faces apart. */
+/* Step by which solids are separated, and distance from which they count as separate, as parts of
+   their radii and distance. Half a step is twice what the float kernels need to tell faces apart.
+   */
 static const double step_share = 0x1p-20, near_share = 0x1p-21;
-static const double max_inset_share = 0x1p-10; /* of the inradius */
+static const double max_inset_share = 0x1p-10; /* part of the inradius */
 
 static double scale_of(const HdSolid *a, HdVec3 b_centre, double b_radius) {
     return fmax(hd_length(hd_sub(a->centre, b_centre)), fmax(a->circumradius, b_radius));
 }
 
-/* Of the circle about a face. */
+/* Returns the circumradius of a face. */
 static double face_radius(const HdSolid *solid, const HdPlatonic *shape) {
     return solid->circumradius * sqrt(1.0 - shape->inradius * shape->inradius);
 }
@@ -192,7 +191,7 @@ static HdVec3 middle_of_face(const HdSolid *solid, const HdPlatonic *shape, int 
                   hd_scale(shape->face_normal[face], shape->inradius * solid->circumradius));
 }
 
-/* Whether the face lies in the plane, which may be turned over. */
+/* Returns whether the face lies in the plane, of either orientation. */
 static bool is_in_plane(const HdSolid *solid, const HdPlatonic *shape, int face, HdVec3 point,
                         HdVec3 normal, double near) {
     const HdVec3 middle = middle_of_face(solid, shape, face);
@@ -201,8 +200,7 @@ static bool is_in_plane(const HdSolid *solid, const HdPlatonic *shape, int face,
            tilt * face_radius(solid, shape) <= near;
 }
 
-/* By the circles about the faces: some that only lie beside each other count too, which costs a
-   step and nothing else. */
+/* Compares the circles about the faces. Some adjacent faces count too, which costs only a step. */
 static bool faces_coincide(const HdSolid *a, const HdSolid *b, double near) {
     const HdPlatonic shape_a = hd_solid_shape(a), shape_b = hd_solid_shape(b);
     const double reach = face_radius(a, &shape_a) + face_radius(b, &shape_b);
@@ -226,7 +224,7 @@ HdContact hd_solids_contact(const HdSolid *a, const HdSolid *b) {
     return faces_coincide(a, b, near) ? HD_CONTACT_SHARES : HD_CONTACT_OVERLAPS;
 }
 
-/* A flat floor that a solid lies in shares no face with it. */
+/* A solid that overlaps a flat floor shares no face with it. */
 HdContact hd_floor_contact(const HdSolid *solid, const HdFloor *floor) {
     const double near = near_share * scale_of(solid, hd_floor_centre(floor), 0.0);
     const double depth = hd_floor_depth(solid, floor, -near);
@@ -258,13 +256,14 @@ bool hd_contact_coincides(HdContact contact) {
     return contact == HD_CONTACT_TOUCHES || contact == HD_CONTACT_SHARES;
 }
 
-/* ---- drawing apart ---- */
+/* ---- separation ---- */
 
 typedef struct Parting {
     const HdScene *scene;
-    int level[HD_MAX_SOLIDS];   /* steps that a solid shrinks by */
-    double step[HD_MAX_SOLIDS]; /* the greatest of all that touch each other, in turn */
-    int group[HD_MAX_SOLIDS];   /* those have one number */
+    int level[HD_MAX_SOLIDS];   /* shrink of each solid, in steps */
+    double step[HD_MAX_SOLIDS]; /* size of a step, the same for all solids of a group */
+    int group[HD_MAX_SOLIDS];   /* number of the group of solids that touch, directly or through
+                                   others */
 } Parting;
 
 static void join_groups(Parting *parting, int count, int from, int to) {
@@ -282,7 +281,7 @@ static void raise_step(Parting *parting, int solid, double scale) {
     parting->step[solid] = fmax(parting->step[solid], step_share * scale);
 }
 
-/* What does not move touches it: 0 is taken. */
+/* Returns whether the floor or a light touches the solid, so that level 0 is taken. */
 static bool touches_fixed(Parting *parting, int index) {
     const HdScene *scene = parting->scene;
     const HdFloor *floor = &scene->floor;
