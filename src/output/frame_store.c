@@ -14,29 +14,30 @@
 #include "system/machine.h"
 
 enum {
-    MAX_OPEN_PICTURES = 128, /* each takes a descriptor until it has its name, and as many wait for
-                                 theirs */
-    SPARE_DESCRIPTORS = 2,   /* for a folder, and statistics that are opened late */
-    /* More would only wait for the memory that they share. */
+    MAX_OPEN_PICTURES =
+        128, /* each takes a descriptor until it is renamed, and as many wait for that */
+    SPARE_DESCRIPTORS = 2, /* for a folder, and for statistics that are opened late */
+    /* More would only wait for shared memory bandwidth. */
     MAX_ENCODERS = 16,
-    /* Beside what is encoded: one is traced, one converted, one on its way to FFmpeg, one waits. */
+    /* Besides frames being encoded: one traced, one converted, one sent to FFmpeg, one waiting. */
     SPARE_FRAMES = 4,
-    /* For each tracer beside the first: frames that others finish before it has finished one. */
+    /* For each worker but the first: frames that others finish while it traces one. */
     FRAMES_OF_A_TRACER = 8
 };
-static const size_t MAX_BYTES = (size_t)1 << 30; /* of all frames under way, for each tracer */
+static const size_t MAX_BYTES = (size_t)1
+                                << 30; /* memory of all frames in flight, for each worker */
 
-/* A frame on its way into the outputs. One thread at a time works on it, but films take it side by
-   side. */
+/* A frame in progress. One thread at a time works on it, except films, which take it in parallel.
+ */
 typedef struct Place {
-    HdFrame frame;                      /* with `rgba` where films get it, or a device may encode */
-    HdAtomicFile files[HD_MAX_OUTPUTS]; /* closed; no lock: not written, or handed on */
+    HdFrame frame; /* frame with `rgba` if films need it or a device may encode */
+    HdAtomicFile files[HD_MAX_OUTPUTS]; /* closed; without a lock: not written, or handed on */
     int worker;
     HdFrameTimes times;
-    HdSpan films[HD_MAX_OUTPUTS]; /* by output */
+    HdSpan films[HD_MAX_OUTPUTS]; /* times by output */
 } Place;
 
-/* A frame that waits for its names, after its place was given to another one. */
+/* A frame that waits to be published; its slot is in use again. */
 typedef struct Waiting {
     HdStoredFrame stored;
     HdFrame frame;
@@ -46,19 +47,19 @@ typedef struct Waiting {
 
 typedef struct Film {
     HdFrameStore *store;
-    int index; /* of the output */
+    int index; /* index of the output */
     HdFilm *film;
 } Film;
 
 struct HdFrameStore {
     HdFrameStorePlan plan;
     HdStages *stages;
-    Place *places; /* a frame's is its place in the list modulo their number */
+    Place *places; /* slot of a frame: its index in the list modulo slot_count */
     int place_count;
-    Waiting *waiting; /* as many at most */
+    Waiting *waiting; /* frames to publish, at most slot_count */
     int waiting_count;
     int stored;
-    Film films[HD_MAX_OUTPUTS]; /* by output; without a video: pictures */
+    Film films[HD_MAX_OUTPUTS]; /* films by output; without a video: pictures */
     HdStage list[HD_MAX_STAGES];
     int stage_count;
 };
@@ -85,7 +86,7 @@ static void end(const HdFrameStore *store, HdSpan *span) {
     span->seconds = hd_monotonic_seconds() - store->plan.start - span->began;
 }
 
-/* ---- the stages' work ---- */
+/* ---- stages ---- */
 
 static HdStatus convert(void *context, int item, HdError *error) {
     HdFrameStore *store = context;
@@ -96,7 +97,7 @@ static HdStatus convert(void *context, int item, HdError *error) {
         is_lacking |= hd_resume_film_lacks(store->plan.resume, i, item);
     if (!is_lacking)
         return HD_OK;
-    if (was_finished(store, item)) /* which nobody traced */
+    if (was_finished(store, item)) /* so no worker traced it */
         return hd_resume_load(outputs, number_of(store, item), &place->frame, error);
     if (place->frame.is_encoded)
         return HD_OK;
@@ -120,7 +121,7 @@ static HdStatus add_to_film(void *context, int item, HdError *error) {
     return status;
 }
 
-/* Under a temporary name. */
+/* Writes the picture to a temporary file. */
 static HdStatus write_picture(const HdOutputPlan *outputs, int index, Place *place, int number,
                               HdError *error) {
     const HdPictureLabel label = {
@@ -168,12 +169,12 @@ static HdSpan span_of_films(const HdFrameStore *store, const Place *place) {
     return whole;
 }
 
-/* ---- the last stage: pictures get their names, and then the frame counts as stored. In the order
-   of the frames, so that a run that ends early leaves its first frames and no others; but several
-   together, because a disk is waited for as long for one file as for many ---- */
+/* ---- the last stage publishes pictures and counts frames as stored, in their order, so that an
+   interrupted run leaves its first frames only. It publishes several together, since syncing many
+   files takes about as long as one ---- */
 
-/* Does the step with the files of the first `count` frames, and returns for how many it was done.
-   Fills `error` for the one that failed, and leaves it alone where none does. */
+/* Applies the step to the files of the first `count` frames; returns the number of frames done. On
+   failure fills `error`, otherwise leaves it alone. */
 static int do_step(HdFrameStore *store, HdStatus (*step)(HdAtomicFile *, HdError *), int count,
                    HdError *error) {
     for (int i = 0; i < count; i++)
@@ -183,8 +184,8 @@ static int do_step(HdFrameStore *store, HdStatus (*step)(HdAtomicFile *, HdError
     return count;
 }
 
-/* Frames that follow each other lie mostly in one folder. Finished ones are looked after too, whose
-   names may not have come to the disk before an earlier run was killed. */
+/* Consecutive frames mostly share a folder. Includes finished frames, whose names may not have been
+   synced before an earlier run was killed. */
 static HdStatus sync_folders(const HdFrameStore *store, const HdOutput *output, int count,
                              HdError *error) {
     char path[HD_MAX_PATH], last[HD_MAX_PATH] = "";
@@ -222,10 +223,9 @@ static void drop_waiting(HdFrameStore *store) {
     store->waiting_count = 0;
 }
 
-/* All bytes are on the disk before a file gets its name, and all names before frames are told.
-   After a failure, which is that of the first frame that could not be stored, the frames before it
-   are stored and later ones gone, but where telling failed, those that waited with that frame have
-   their names. */
+/* Syncs all files before it renames them, and syncs all names before it reports frames. After a
+   failure at a frame, the frames before it are stored and later ones are gone. Only if reporting
+   fails do frames that waited with it keep their names. */
 static HdStatus settle(void *context, HdError *error) {
     HdFrameStore *store = context;
     HdError first = {.status = HD_OK}, own;
@@ -241,7 +241,7 @@ static HdStatus settle(void *context, HdError *error) {
     return first.status;
 }
 
-/* Takes over the files that were written for the frame. */
+/* Takes over the files written for the frame. */
 static void keep_waiting(Waiting *waiting, Place *place) {
     waiting->frame = place->frame;
     waiting->frame.rgb = NULL;
@@ -274,9 +274,9 @@ static HdStatus publish(void *context, int item, HdError *error) {
     return HD_OK;
 }
 
-/* ---- which stages, and how many frames at a time ---- */
+/* ---- stages and their capacity ---- */
 
-/* Returns the stage's bit. */
+/* Adds a stage and returns its bit. */
 static unsigned add_stage(HdFrameStore *store, HdStage stage) {
     store->list[store->stage_count] = stage;
     return 1u << store->stage_count++;
@@ -286,7 +286,7 @@ static int picture_count(const HdFrameStorePlan *plan) {
     return plan->outputs->count - plan->outputs->film_count;
 }
 
-/* Where tracing has all processors too, they share them; elsewhere none of them idles. */
+/* Uses all processors: they share them with tracing on the CPU, and would idle otherwise. */
 static int encoder_count(const HdFrameStorePlan *plan) {
     if (picture_count(plan) == 0)
         return 0;
@@ -296,7 +296,7 @@ static int encoder_count(const HdFrameStorePlan *plan) {
 static void list_stages(HdFrameStore *store) {
     const int encoders = encoder_count(&store->plan);
     unsigned converted = 0;
-    /* Reading frames back, from pictures, takes longer than converting them. */
+    /* Loading frames from pictures takes longer than converting them. */
     const int readers = store->plan.resume->finished_count > 0 ? encoders : 1;
     if (store->plan.outputs->film_count > 0)
         converted = add_stage(
@@ -326,7 +326,7 @@ static size_t bytes_of_place(const HdFrameStorePlan *plan) {
            (has_image(plan->outputs) ? 4 * pixels : 0);
 }
 
-/* While a picture is closed it has one descriptor more. */
+/* A picture has one more descriptor while it is closed. */
 static int count_places_by_descriptors(int pictures) {
     const int fitting = (hd_free_descriptors() - SPARE_DESCRIPTORS) / (2 * pictures + 1);
     return hd_max(hd_min(fitting, MAX_OPEN_PICTURES / pictures), 1);
@@ -341,9 +341,9 @@ static int choose_place_count(const HdFrameStorePlan *plan) {
     return hd_max((int)hd_min_size(fitting, (size_t)wanted), 1);
 }
 
-/* ---- the begin ---- */
+/* ---- start ---- */
 
-/* Whether the pictures of the first frame can be written; makes their folders. */
+/* Makes the folders and checks that the pictures of the first frame can be written. */
 static HdStatus probe_pictures(const HdFrameStorePlan *plan, HdError *error) {
     for (int i = 0; i < plan->outputs->count && plan->resume->missing.count > 0; i++) {
         const HdOutput *output = &plan->outputs->list[i];
@@ -389,7 +389,7 @@ static HdStatus create_places(HdFrameStore *store, HdError *error) {
     return HD_OK;
 }
 
-/* Drops pictures that were written but not published. */
+/* Discards pictures that are not published. */
 static void free_places(HdFrameStore *store) {
     drop_waiting(store);
     for (int i = 0; i < store->place_count; i++) {
@@ -410,7 +410,7 @@ static void drop_films(HdFrameStore *store) {
     }
 }
 
-/* Drops the films; pictures stay. */
+/* Discards the films; pictures stay. */
 static void destroy(HdFrameStore *store) {
     drop_films(store);
     free(store);
@@ -458,9 +458,9 @@ HdFrame *hd_frame_store_frame(HdFrameStore *store, int place, int worker, HdFram
     return &found->frame;
 }
 
-/* ---- the end ---- */
+/* ---- end ---- */
 
-/* A film that fails takes those after it with it; those before it stay. */
+/* If a film fails, later ones are discarded; earlier ones stay. */
 static HdStatus close_films(HdFrameStore *store, HdError *error) {
     for (int i = 0; i < HD_MAX_OUTPUTS; i++) {
         HdFilm *film = store->films[i].film;
@@ -474,7 +474,7 @@ static HdStatus close_films(HdFrameStore *store, HdError *error) {
 static void report_interrupted(const HdFrameStore *store, HdError *error) {
     const HdOutputPlan *outputs = store->plan.outputs;
     const bool can_resume = outputs->can_resume && outputs->has_fingerprint;
-    int kept = 0; /* of the frames that were stored those that another run would not render again */
+    int kept = 0; /* stored frames that another run would not render again */
     char more[80] = "";
     for (int i = 0; i < store->stored && can_resume; i++)
         kept += hd_resume_keeps(store->plan.resume, outputs, i);
@@ -484,7 +484,7 @@ static void report_interrupted(const HdFrameStore *store, HdError *error) {
             store->plan.resume->all->count, more);
 }
 
-/* What fails in the store comes before what its caller met: its frames are earlier ones. */
+/* A failure in the store precedes the caller's: its frames are earlier. */
 HdStatus hd_frame_store_end(HdFrameStore *store, HdStatus traced, HdError *error) {
     HdStatus status = hd_stages_end(store->stages, error);
     free_places(store);

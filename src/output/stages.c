@@ -17,29 +17,29 @@ typedef struct Worker {
     pthread_t thread;
 } Worker;
 
-/* What has become of an item. Those that are ready are given from the start. */
+/* State of an item; ready ones are submitted from the start. */
 typedef enum State { FREE, TAKEN, GIVEN } State;
 
-/* Of an item under way, a bit for each stage. */
+/* Bits for each stage of an item in flight. */
 typedef struct Slot {
     unsigned taken, done;
 } Slot;
 
 struct HdStages {
     pthread_mutex_t mutex;
-    pthread_cond_t room_made; /* or something else that takers wait for */
+    pthread_cond_t room_made; /* or another event that claimers wait for */
     pthread_cond_t work_made[HD_MAX_STAGES];
     HdStage list[HD_MAX_STAGES];
-    int next[HD_MAX_STAGES]; /* the first item that the stage has not taken */
+    int next[HD_MAX_STAGES]; /* first item that each stage has not claimed */
     int count;
     int capacity;
-    Slot *slots;           /* by item modulo room */
-    unsigned char *states; /* by item */
-    int item_count;        /* at the end only those before the first that was not given */
-    int first_free;        /* no item before it is free */
-    int given_until;       /* the items before it are given */
-    int gone;              /* items that went through all stages, and so did those before them */
-    int limit;             /* the first item that failed; INT_MAX: none */
+    Slot *slots;           /* slots by item modulo capacity */
+    unsigned char *states; /* states by item */
+    int item_count;  /* number of items; at the end those before the first that was not submitted */
+    int first_free;  /* no item before it is free */
+    int given_until; /* all items before it are submitted */
+    int gone;        /* number of first items that all stages have finished */
+    int limit;       /* first item that failed; INT_MAX: none */
     bool stopped;
     bool ended; /* no more items come */
     HdStatus status;
@@ -56,7 +56,7 @@ static bool is_given(const HdStages *stages, int item) {
     return item < stages->item_count && stages->states[item] == GIVEN;
 }
 
-/* The end of the items that are wanted. */
+/* Returns the end of the wanted items. */
 static int wanted_end(const HdStages *stages) {
     return hd_min(stages->item_count, stages->limit);
 }
@@ -67,8 +67,8 @@ static int first_not_given(HdStages *stages) {
     return stages->given_until;
 }
 
-/* What the stage can take: the next item, or with several threads, which keep no order, the first
-   of those that are there. Negative: none. */
+/* Returns the stage's next item, or, with several threads, which keep no order, the first available
+   one; -1 if none. */
 static int find_work(const HdStages *stages, int stage) {
     const HdStage *what = &stages->list[stage];
     const int first = stages->next[stage];
@@ -98,7 +98,7 @@ static void wake_all(HdStages *stages) {
     pthread_cond_broadcast(&stages->room_made);
 }
 
-/* Of several failures that of the earliest item counts, for an earlier one may still come. */
+/* Keeps the failure of the earliest item, for an earlier one may still come. */
 static void note_failure(HdStages *stages, int item, const HdError *error) {
     if (item >= stages->limit)
         return;
@@ -129,7 +129,8 @@ static void note_success(HdStages *stages, int stage, int item) {
     }
 }
 
-/* Works on the item, or settles after it. Called with the mutex, which is not held meanwhile. */
+/* Works on the item or settles after it. Called with the mutex locked, which is unlocked meanwhile.
+ */
 static bool work(HdStages *stages, int number, int item, bool settles) {
     const HdStage *stage = &stages->list[number];
     HdError error;
@@ -148,10 +149,10 @@ static void *worker_main(void *argument) {
     const Worker *worker = argument;
     HdStages *stages = worker->stages;
     const int stage = worker->stage;
-    int unsettled = -1; /* the last item that may have been put off; negative: none */
+    int unsettled = -1; /* last item that may be deferred; negative: none */
     pthread_mutex_lock(&stages->mutex);
     for (;;) {
-        /* nothing is left for the stage, now or later */
+        /* no work is left for the stage, now or later */
         const bool over =
             stages->next[stage] >= (stages->ended ? wanted_end(stages) : stages->limit);
         const int item = over ? -1 : find_work(stages, stage);
@@ -220,7 +221,7 @@ static void join_all(HdStages *stages) {
         pthread_join(stages->workers[i].thread, NULL);
 }
 
-/* The first item that is free; the end where none is. */
+/* Returns the first free item, or the end if none is. */
 static int find_free(HdStages *stages) {
     const int end = wanted_end(stages);
     while (stages->first_free < end && stages->states[stages->first_free] != FREE)
@@ -230,7 +231,7 @@ static int find_free(HdStages *stages) {
 
 static bool can_claim(const HdStages *stages, const HdClaimer *claimer, int item) {
     const int end = wanted_end(stages);
-    int left = 0; /* no more than there is room for need be counted */
+    int left = 0; /* counted up to the capacity only */
     if (item >= end || item >= stages->gone + stages->capacity + claimer->ahead)
         return false;
     for (int i = item; i < end && left < stages->capacity; i++)
@@ -309,7 +310,7 @@ HdStatus hd_stages_end(HdStages *stages, HdError *error) {
     return status;
 }
 
-/* Returns 0 or what went wrong, as errno would. */
+/* Returns 0, or an errno value. */
 static int start_worker(HdStages *stages, int stage) {
     Worker *worker = &stages->workers[stages->worker_count];
     *worker = (Worker){.stages = stages, .stage = stage};
@@ -318,7 +319,7 @@ static int start_worker(HdStages *stages, int stage) {
     return reason;
 }
 
-/* Every stage has one thread already, and could do with it. */
+/* Adds threads; each stage has one already and can work with it. */
 static void start_more(HdStages *stages) {
     int reason = 0, wanted = 0;
     for (int i = 0; i < stages->count; i++) {
@@ -349,6 +350,6 @@ HdStatus hd_stages_start(HdStages **out, const HdStage *list, int count, int ite
             "cannot start thread %d of at least %d for the outputs: %s; --threads leaves more of "
             "them to the outputs",
             stages->worker_count + 1, count, strerror(reason));
-    hd_stages_fail(stages, 0, error); /* not even what is ready is wanted */
+    hd_stages_fail(stages, 0, error); /* not even ready items are wanted */
     return hd_stages_end(stages, error);
 }

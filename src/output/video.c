@@ -14,17 +14,17 @@
 #include "system/interrupt.h"
 
 enum {
-    TIMEOUT_S = 600, /* HEDRON_FFMPEG_PATIENCE says otherwise */
+    TIMEOUT_S = 600, /* default of HEDRON_FFMPEG_PATIENCE */
     MAX_TIMEOUT_S = 86400,
-    LAST_WORDS_MS = 3000 /* which one has that stopped reading */
+    LAST_WORDS_MS = 3000 /* time to exit after it stopped reading */
 };
 
 struct HdVideo {
     HdChild ffmpeg;
-    int timeout_ms; /* with FFmpeg and ffprobe */
+    int timeout_ms; /* timeout of FFmpeg and ffprobe */
     HdVideoPlan plan;
     long frames;
-    HdAtomicFile file; /* which FFmpeg writes */
+    HdAtomicFile file; /* output of FFmpeg */
     char ffprobe[HD_MAX_PATH];
 };
 
@@ -84,7 +84,7 @@ static HdStatus read_timeout(int *milliseconds, HdError *error) {
     return HD_OK;
 }
 
-/* FFmpeg is given a name that exists: so it is taken against other processes. */
+/* The file exists before FFmpeg starts, which reserves its name against other processes. */
 static HdStatus open_film(HdVideo *video, const char *path, HdError *error) {
     char ffmpeg[HD_MAX_PATH];
     HD_TRY(read_timeout(&video->timeout_ms, error));
@@ -92,7 +92,7 @@ static HdStatus open_film(HdVideo *video, const char *path, HdError *error) {
     HD_TRY(hd_child_find("ffprobe", video->ffprobe, error));
     HD_TRY(hd_atomic_file_reserve(&video->file, path, error));
     HD_TRY(start_ffmpeg(video, ffmpeg, error));
-    /* Where FFmpeg does not take it, it does not take the first part either. */
+    /* If FFmpeg does not accept it, it will not accept the first part either. */
     if (video->plan.is_joined)
         hd_child_send(&video->ffmpeg, join_head, sizeof join_head - 1, video->timeout_ms);
     return HD_OK;
@@ -117,7 +117,7 @@ static HdStatus fail_interrupted(const HdVideo *video, const char *program, HdEr
                    video->file.path);
 }
 
-/* FFmpeg's words on a file that is gone mislead. */
+/* Replaces FFmpeg's message if the file is gone, for it misleads. */
 static void blame_folder(const HdVideo *video, HdError *error) {
     HdError gone;
     if (hd_atomic_file_check(&video->file, &gone) != HD_OK)
@@ -165,8 +165,8 @@ HdStatus hd_video_add(HdVideo *video, const HdFrame *frame, HdError *error) {
     return HD_OK;
 }
 
-/* In single quotes, which FFmpeg reads as a shell does. The times are told, since each film knows
-   its own only to a millisecond. */
+/* Quotes as FFmpeg does, like a shell. Gives the times, since each film has its own only to a
+   millisecond. */
 static void describe_part(const HdVideo *video, const char *path, int frames, FILE *out) {
     const int rate = video->plan.style.frames_per_second;
     const int64_t microseconds = ((int64_t)frames * 1000000 + rate / 2) / rate;
@@ -207,7 +207,7 @@ static HdStatus end_ffmpeg(HdVideo *video, HdError *error) {
                    how, hd_child_said(&video->ffmpeg));
 }
 
-/* FFmpeg ends with code 0 even where its input was cut short, so only the file itself tells. */
+/* FFmpeg exits with code 0 even if its input was cut short, so only the file itself can tell. */
 static HdStatus count_frames(HdVideo *video, HdError *error) {
     char target[HD_MAX_PATH + 8], how[64], excuse[MAX_EXCUSE] = "", *end;
     HdChild ffprobe;
@@ -223,7 +223,7 @@ static HdStatus count_frames(HdVideo *video, HdError *error) {
         return fail_interrupted(video, "ffprobe", error);
     if (ffprobe.is_stuck)
         return fail_stuck(video, "ffprobe", "while it counted the frames", &ffprobe, error);
-    /* What FFmpeg said although it ended with code 0: a full disk, say. */
+    /* FFmpeg's messages despite exit code 0: a full disk, say. */
     if (video->ffmpeg.said_length > 0)
         snprintf(excuse, MAX_EXCUSE, "; FFmpeg had said: %.500s", hd_child_said(&video->ffmpeg));
     const char *answer = hd_child_said(&ffprobe);
