@@ -12,12 +12,13 @@ static bool awaits_gpu(const HdFrameScheduler *scheduler) {
     return false;
 }
 
-/* When a tracer has finished so many frames more. */
+/* Returns when the worker has finished `more` further frames. */
 static double end_of(const HdScheduledWorker *worker, int more, double now) {
     return fmax(worker->busy_until, now) + more * worker->seconds;
 }
 
-/* Who finishes another frame first, if each has taken as many as `taken` says: -1: nobody. */
+/* Returns the worker that finishes another frame first, if each has also claimed `claimed` ones;
+   -1: none. */
 static int first_to_finish(const HdScheduledWorker *list, const int *taken, int count, double now) {
     int first = -1;
     double least = 0.0;

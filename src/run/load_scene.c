@@ -15,10 +15,10 @@
 #include "scene/triangulate.h"
 #include "system/interrupt.h"
 
-/* Far above any classic input, and small enough to read into memory without a thought. */
+/* Far above any classic input, yet small enough to read into memory. */
 enum { MAX_INPUT_BYTES = 1 << 20 };
 
-/* Of the discs of edge lights, where they become polygons. */
+/* Sides of the polygons that replace discs of edge lights. */
 enum { DISC_SIDES = 16 };
 
 static const char standard_input[] = "standard input";
@@ -27,7 +27,7 @@ const char *hd_scene_name(const char *path) {
     return path == NULL ? "the built-in scene" : strcmp(path, "-") == 0 ? standard_input : path;
 }
 
-/* Whatever there is, up to `most` bytes, and an interrupt; the text is the caller's to free. */
+/* Reads up to `most` bytes, or until an interrupt; the caller frees the text. */
 static HdStatus read_stream(FILE *stream, const char *name, size_t most, char **text, size_t *size,
                             HdError *error) {
     *text = malloc(most + 1);
