@@ -13,13 +13,13 @@
 
 /* ---- reasons ---- */
 
-/* Each reason once, though several devices may have it. */
+/* Adds each reason once, though several devices may have it. */
 static void add_reason(HdCandidates *candidates, const char *name, const char *reason) {
     if (strstr(candidates->reasons, reason) == NULL)
         hd_add_text(candidates->reasons, sizeof candidates->reasons, "; ", "%s: %s", name, reason);
 }
 
-/* A GPU that is there and not used is worth a word, unless the user's own wish rules out all. */
+/* Reports an available but unused GPU, unless the user's selection excludes all. */
 static void report_passed(HdCandidates *candidates, const char *what, const char *reason,
                           const char *help) {
     const HdDeviceSelection *selection = &candidates->selection;
@@ -34,7 +34,7 @@ static bool is_number(const char *text) {
     return *text != '\0' && text[strspn(text, "0123456789")] == '\0';
 }
 
-/* "c:0" names the backend as well. */
+/* "c:0" names the backend too. */
 static HdStatus split_name(HdDeviceSelection *selection, HdError *error) {
     for (int i = 0; i < HD_BACKEND_COUNT && selection->device != NULL; i++) {
         const char *name = hd_backends[i]->name;
@@ -93,7 +93,7 @@ static bool is_in_question(const HdDevice *device, const HdDeviceSelection *sele
             selection->device != NULL || selection->kind == HD_PREFER_GPU);
 }
 
-/* `other` was found earlier, in the same backend or in one that comes first. */
+/* Ranks devices; `other` was found earlier, in the same or an earlier backend. */
 static bool is_better(const HdDevice *device, const HdDevice *other) {
     if (device->is_cpu != other->is_cpu)
         return other->is_cpu;
@@ -164,7 +164,7 @@ static void search(HdCandidates *candidates, HdError *error) {
             search_backend(candidates, hd_backends[i], error);
 }
 
-/* How many of the candidates are worth a comparison: the GPUs, and plain C where any will do. */
+/* Counts the candidates to compare: the GPUs, and plain C if any device will do. */
 static int count_compared(const HdCandidates *candidates) {
     int count = 0;
     while (count < candidates->count &&
@@ -173,8 +173,8 @@ static int count_compared(const HdCandidates *candidates) {
     return count;
 }
 
-/* How long plain C takes for a frame. A texture takes longer to upload than a small picture to
-   render, and little of its time. */
+/* Estimates the seconds per frame of plain C, without the texture: uploading it takes longer than
+   rendering a small picture and affects that little. */
 static HdStatus estimate(HdCandidates *candidates, double enough, HdError *error) {
     const HdTrialRequest selection = hd_trial_request(enough);
     HdScene plain = *candidates->selection.job->scene;
@@ -197,7 +197,7 @@ static double job_seconds(const HdCandidates *candidates) {
     return candidates->frame_seconds * candidates->selection.job->frame_count;
 }
 
-/* Plain C is asked how long it takes before any driver is: drivers take their time to start. */
+/* Estimates plain C before any driver starts, which takes a while. */
 static HdStatus estimate_any(HdCandidates *candidates, HdError *error) {
     HD_TRY(estimate(candidates, HD_AUTO_SMALL_SECONDS, error));
     if (job_seconds(candidates) > HD_AUTO_SMALL_SECONDS)
@@ -242,7 +242,7 @@ static bool is_faster(const HdCandidates *candidates, int index) {
            (candidates->best < 0 || list[index].seconds < list[candidates->best].seconds);
 }
 
-/* False where none was measured earlier, or none works. */
+/* Returns false if nothing was measured earlier, or no device works. */
 static bool recall(HdCandidates *candidates) {
     const HdDeviceSelection *selection = &candidates->selection;
     if (!hd_measured_get(candidates->list, candidates->compared, selection->options,
@@ -265,8 +265,8 @@ static void explain_speed(HdCandidates *candidates, const char *when) {
                         1e3 * list[i].seconds, list[i].device.backend->name, list[i].device.index);
 }
 
-/* So small a picture that plain C renders it in a tenth of a second. The first of two frames warms
-   up. The fastest so far stays open. */
+/* Measures a picture so small that plain C renders it in a tenth of a second; the first of two
+   frames warms up. Keeps the fastest device so far open. */
 static HdStatus measure_one(HdCandidates *candidates, int index, HdError *error) {
     const double seconds = 0.1;
     const HdDeviceSelection *selection = &candidates->selection;
@@ -288,11 +288,11 @@ static HdStatus measure_one(HdCandidates *candidates, int index, HdError *error)
     return status;
 }
 
-/* What failed at work may do better another time, so that nothing is remembered then. */
+/* Remembers nothing if a device failed at work, for it may succeed another time. */
 static HdStatus measure_all(HdCandidates *candidates, HdError *error) {
     const HdDeviceSelection *selection = &candidates->selection;
     bool is_lasting = true;
-    HdError ignored; /* next time it is measured again */
+    HdError ignored; /* the next run measures again */
     for (int i = 0; i < candidates->compared; i++) {
         HdStatus status = measure_one(candidates, i, error);
         if (status == HD_INTERRUPTED || status == HD_BAD_INPUT)
@@ -334,8 +334,8 @@ static HdStatus choose(HdCandidates *candidates, HdError *error) {
     return HD_OK;
 }
 
-/* The best, else those that follow it, else those before it. Kernels that are compiled for the
-   scene must prove themselves first; those compiled ahead get it when it is rendered. */
+/* Tries the best, then those after it, then those before it. Kernels compiled for the scene must
+   first pass their self-test; others get the scene when it is rendered. */
 static HdStatus open_next(HdCandidates *candidates, HdError *error) {
     const HdDeviceSelection *selection = &candidates->selection;
     const int first = hd_max(candidates->best, 0);
@@ -473,7 +473,7 @@ static HdStatus open_list(HdDeviceTeam *team, const HdDeviceSelection *selection
 
 /* ---- a team of all ---- */
 
-/* OpenCL has the GPUs that CUDA has. */
+/* Returns whether the team has the device's GPU by CUDA. */
 static bool is_there_already(const HdDeviceTeam *team, const HdDevice *device) {
     for (int i = 0; i < team->count; i++)
         if (device->nvidia_arch > 0 && team->list[i].device.backend != device->backend &&
@@ -502,7 +502,7 @@ static HdRenderOptions options_of(const HdDeviceTeam *team, const HdDevice *devi
     return own;
 }
 
-/* Fails with HD_INTERRUPTED alone: what else cannot be opened is left out. */
+/* Fails only with HD_INTERRUPTED; omits a device that cannot be opened. */
 static HdStatus add_device(HdDeviceTeam *team, const HdDevice *device,
                            const HdDeviceSelection *selection, HdError *error) {
     const HdRenderOptions own = options_of(team, device, selection->options);
@@ -525,7 +525,7 @@ static HdStatus add_backend(HdDeviceTeam *team, const HdBackend *backend,
                             const HdDeviceSelection *selection, HdError *error) {
     HdDevice devices[HD_MAX_DEVICES];
     int count = 0;
-    /* Nobody need have every backend. */
+    /* Missing backends are normal. */
     if (hd_backend_enumerate(backend, devices, HD_MAX_DEVICES, &count, error) != HD_OK &&
         selection->backend != NULL)
         snprintf(team->note, sizeof team->note, "%s: %.*s", backend->name,
