@@ -20,12 +20,12 @@ static void add_reason(HdCandidates *candidates, const char *name, const char *r
 }
 
 /* Reports an available but unused GPU, unless the user's selection excludes all. */
-static void report_passed(HdCandidates *candidates, const char *what, const char *reason,
-                          const char *help) {
+static void report_unused_gpu(HdCandidates *candidates, const char *what, const char *reason,
+                              const char *help) {
     const HdDeviceSelection *selection = &candidates->selection;
     if (candidates->is_free && selection->kind != HD_ONLY_CPU && selection->options->lanes <= 1)
-        hd_add_text(candidates->passed, sizeof candidates->passed, "; ", "%s is passed over: %s%s",
-                    what, reason, help);
+        hd_add_text(candidates->unused_gpus, sizeof candidates->unused_gpus, "; ",
+                    "%s is not used: %s%s", what, reason, help);
 }
 
 /* ---- names ---- */
@@ -87,7 +87,7 @@ HdStatus hd_devices_named(const char *backend, const char *device, HdDevice *dev
 
 /* ---- finding ---- */
 
-static bool is_in_question(const HdDevice *device, const HdDeviceSelection *selection) {
+static bool is_eligible(const HdDevice *device, const HdDeviceSelection *selection) {
     return is_named(device, selection->device) &&
            (!device->is_cpu || device->backend->needs_no_driver || selection->backend != NULL ||
             selection->device != NULL || selection->kind == HD_PREFER_GPU);
@@ -126,9 +126,9 @@ static void consider(HdCandidates *candidates, const HdDevice *device) {
     }
     snprintf(what, sizeof what, "%s:%d (%s)", device->backend->name, device->index, device->name);
     if (!device->is_cpu)
-        report_passed(candidates, what, reason,
-                      reason == device->not_strict ? "; --math fast would take it, for other bytes"
-                                                   : "");
+        report_unused_gpu(
+            candidates, what, reason,
+            reason == device->not_strict ? "; --math fast would take it, for other bytes" : "");
     add_reason(candidates, device->name, reason);
 }
 
@@ -138,13 +138,13 @@ static void search_backend(HdCandidates *candidates, const HdBackend *backend, H
     bool any = false;
     HdStatus status = hd_backend_enumerate(backend, devices, HD_MAX_DEVICES, &count, error);
     if (status == HD_FAILED)
-        report_passed(candidates, backend->name, error->message, "");
+        report_unused_gpu(candidates, backend->name, error->message, "");
     if (status != HD_OK) {
         add_reason(candidates, backend->name, error->message);
         return;
     }
     for (int i = 0; i < count; i++) {
-        if (!is_in_question(&devices[i], &candidates->selection))
+        if (!is_eligible(&devices[i], &candidates->selection))
             continue;
         any = true;
         consider(candidates, &devices[i]);
@@ -243,7 +243,7 @@ static bool is_faster(const HdCandidates *candidates, int index) {
 }
 
 /* Returns false if nothing was measured earlier, or no device works. */
-static bool recall(HdCandidates *candidates) {
+static bool load_measured(HdCandidates *candidates) {
     const HdDeviceSelection *selection = &candidates->selection;
     if (!hd_measured_get(candidates->list, candidates->compared, selection->options,
                          selection->job->scene))
@@ -299,8 +299,8 @@ static HdStatus measure_all(HdCandidates *candidates, HdError *error) {
             return status;
         if (status != HD_OK)
             hd_add_text(candidates->note, sizeof candidates->note, "; ", "%.600s", error->message);
-        bool is_passing = status == HD_FAILED || (status != HD_OK && hd_is_loss(error));
-        is_lasting = is_lasting && !is_passing;
+        bool is_temporary = status == HD_FAILED || (status != HD_OK && hd_is_loss(error));
+        is_lasting = is_lasting && !is_temporary;
     }
     if (candidates->best < 0)
         return HD_OK;
@@ -318,7 +318,7 @@ static HdStatus choose(HdCandidates *candidates, HdError *error) {
     candidates->compared = hd_min(candidates->compared, MAX_COMPARED);
     if (candidates->compared < 2)
         return HD_OK;
-    if (recall(candidates)) {
+    if (load_measured(candidates)) {
         explain_speed(candidates, ", measured earlier");
         return HD_OK;
     }
@@ -391,8 +391,8 @@ static void explain(HdDeviceTeam *team, const HdCandidates *candidates) {
     const HdDevice *chosen = &team->list[team->count - 1].device;
     const char *note = candidates->note, *why = candidates->why;
     /* Another backend may have the same card. */
-    if (note[0] == '\0' && strstr(candidates->passed, chosen->name) == NULL)
-        note = candidates->passed;
+    if (note[0] == '\0' && strstr(candidates->unused_gpus, chosen->name) == NULL)
+        note = candidates->unused_gpus;
     const bool is_wrong = strstr(candidates->reasons, "computes wrongly") != NULL &&
                           strstr(note, "computes wrongly") == NULL;
     if (selection->kind == HD_PREFER_GPU && selection->backend == NULL && chosen->is_cpu)
@@ -405,7 +405,7 @@ static void explain(HdDeviceTeam *team, const HdCandidates *candidates) {
                  chosen->backend->name, chosen->name);
     snprintf(team->why, sizeof team->why, "%s%s%s",
              why[0] != '\0' ? why : choice_reason(selection, chosen),
-             candidates->reasons[0] != '\0' ? "; passed over: " : "", candidates->reasons);
+             candidates->reasons[0] != '\0' ? "; not used: " : "", candidates->reasons);
 }
 
 static HdStatus open_one(HdDeviceTeam *team, const HdDeviceSelection *selection, HdError *error) {
@@ -428,7 +428,7 @@ static HdStatus check_entry(const HdDeviceTeam *team, const HdDeviceSelection *s
                        "cuda:0,cuda:1,c:0",
                        selection->device);
     if (strcmp(entry, "all") == 0)
-        return hd_fail(error, HD_BAD_INPUT, "--device is '%s', but 'all' stands alone",
+        return hd_fail(error, HD_BAD_INPUT, "--device is '%s', expected 'all' without others",
                        selection->device);
     if (team->count == HD_MAX_WORKERS)
         return hd_fail(error, HD_BAD_INPUT, "--device names more than %d devices",

@@ -28,15 +28,15 @@ typedef struct HdCandidates {
     HdDeviceSelection selection;          /* selection of one device; BACKEND:NUMBER split */
     HdTeamDevice list[HD_MAX_CANDIDATES]; /* best first, as estimated without measuring */
     int count;
-    bool is_free;         /* none was named: another may replace one that fails */
-    int compared;         /* number of candidates to measure, from the first on; below 2: none */
-    double frame_seconds; /* estimate for plain C, if several are compared */
-    int best;             /* -1: none known */
-    char reasons[4096];   /* why backends and devices were rejected */
-    char why[1024];       /* why that one is best; "": it is the first */
-    char note[2048];      /* failures; "": none */
-    char passed[2048];    /* sentence on GPUs rejected for other reasons than the user's selection,
-                             with a remedy; "": none */
+    bool is_free;           /* none was named: another may replace one that fails */
+    int compared;           /* number of candidates to measure, from the first on; below 2: none */
+    double frame_seconds;   /* estimate for plain C, if several are compared */
+    int best;               /* -1: none known */
+    char reasons[4096];     /* why backends and devices were rejected */
+    char why[1024];         /* why that one is best; "": it is the first */
+    char note[2048];        /* failures; "": none */
+    char unused_gpus[2048]; /* sentence on GPUs rejected for other reasons than the user's
+                          selection, with a remedy; "": none */
 } HdCandidates;
 
 /* Job time of plain C, in s, below which no other device is started, */

@@ -93,7 +93,7 @@ HdStatus hd_trial(HdRenderer *renderer, const HdJob *job, const HdTrialRequest *
                                           : fmin(1.0, first_samples / count_samples(job->scene));
     for (;;) {
         HD_TRY(render_share(renderer, job, share, selection->times, trial, error));
-        if (selection->share > 0.0 || share >= 1.0 || trial->seconds > selection->believed ||
+        if (selection->share > 0.0 || share >= 1.0 || trial->seconds > selection->trusted ||
             trial->frame_seconds * job->frame_count <= selection->enough)
             return HD_OK;
         share = fmin(1.0, 4.0 * share);
@@ -101,7 +101,7 @@ HdStatus hd_trial(HdRenderer *renderer, const HdJob *job, const HdTrialRequest *
 }
 
 HdTrialRequest hd_trial_request(double enough) {
-    return (HdTrialRequest){.believed = 0.02, .enough = enough, .times = 1};
+    return (HdTrialRequest){.trusted = 0.02, .enough = enough, .times = 1};
 }
 
 /* ---- results ---- */
@@ -195,15 +195,15 @@ bool hd_measured_get(HdTeamDevice *devices, int count, const HdRenderOptions *op
 
 /* ---- devices ---- */
 
-static bool keeps(int given, int chosen) {
+static bool agrees(int given, int chosen) {
     return given == 0 || given == chosen;
 }
 
 static bool makes_sense(const HdRenderOptions *chosen, const HdRenderOptions *given,
                         const HdDevice *device) {
-    return keeps((int)given->pipeline, (int)chosen->pipeline) &&
-           keeps(given->lanes, chosen->lanes) && keeps(given->block, chosen->block) &&
-           keeps(given->grid, chosen->grid) && keeps(given->registers, chosen->registers) &&
+    return agrees((int)given->pipeline, (int)chosen->pipeline) &&
+           agrees(given->lanes, chosen->lanes) && agrees(given->block, chosen->block) &&
+           agrees(given->grid, chosen->grid) && agrees(given->registers, chosen->registers) &&
            hd_render_options_are_possible(chosen) &&
            hd_device_unsupported_reason(device, chosen) == NULL;
 }
@@ -243,12 +243,12 @@ typedef struct Tuner {
    take much longer. Renders everything twice, as some drivers still compile in the first run. */
 static HdStatus find_share(Tuner *tuner, HdRenderer *renderer, HdError *error) {
     const double picture_seconds = 0.2, all_seconds = 0.5;
-    const int least_times = 2, max_times = 40;
-    const HdTrialRequest selection = {.believed = picture_seconds / 4.0, .times = 2};
+    const int min_times = 2, max_times = 40;
+    const HdTrialRequest selection = {.trusted = picture_seconds / 4.0, .times = 2};
     HdTrial trial;
     HD_TRY(hd_trial(renderer, tuner->job, &selection, &trial, error));
     tuner->how.share = trial.share;
-    tuner->how.times = (int)fmax(least_times, fmin(max_times, all_seconds / trial.seconds));
+    tuner->how.times = (int)fmax(min_times, fmin(max_times, all_seconds / trial.seconds));
     return HD_OK;
 }
 

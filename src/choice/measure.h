@@ -32,9 +32,9 @@ void hd_launch_describe(const HdRenderOptions *options, char *text, int capacity
 typedef struct HdTrialRequest {
     double share; /* part of a frame's pixels, above 0, at most 1; 0: grow from 4096 samples, times
                      four, to a whole frame or to one of these */
-    double believed; /* picture time, in s, long enough to trust */
-    double enough;   /* estimated time of the whole job, in s, short enough to stop */
-    int times;       /* repetitions of each picture */
+    double trusted; /* picture time, in s, long enough to trust */
+    double enough;  /* estimated time of the whole job, in s, short enough to stop */
+    int times;      /* repetitions of each picture */
 } HdTrialRequest;
 
 /* Result of the last picture; each time is the least of its repetitions. */

@@ -139,7 +139,7 @@ static void read_path(Reader *reader, const char *what, char path[HD_MAX_PATH]) 
 
 /* Fails if a token is left. */
 static void read_end(Reader *reader) {
-    static const char *const what = "what follows the last value";
+    static const char *const what = "the text after the last value";
     char token[HD_MAX_PATH];
     if (reader->status != HD_OK)
         return;

@@ -70,7 +70,7 @@ static HdStatus fail_memory(const Loader *loader) {
 }
 
 /* Reports a file's problem along with the scene's other ones; any other failure ends loading. */
-static HdStatus told(Loader *loader, HdStatus status, int mesh) {
+static HdStatus report_mesh(Loader *loader, HdStatus status, int mesh) {
     if (status != HD_BAD_INPUT)
         return status;
     hd_problem(loader->problems, "meshes[%d].file: %s", loader->first_entry[mesh],
@@ -188,7 +188,7 @@ static HdStatus read_meshes(Loader *loader) {
         if (hd_interrupt_signal() != 0)
             return hd_fail(loader->error, HD_INTERRUPTED, "interrupted while reading meshes");
         if (entry->file != NULL)
-            HD_TRY(told(loader, read_mesh(loader, &scene->meshes[i], entry), i));
+            HD_TRY(report_mesh(loader, read_mesh(loader, &scene->meshes[i], entry), i));
     }
     return HD_OK;
 }
@@ -206,7 +206,7 @@ static HdStatus read_picture(Loader *loader, const char *path, int *number) {
     const HdStatus status = hd_texture_read(&picture->texture, path, HD_CURVE_SRGB, loader->error);
     *number = -1;
     if (status == HD_BAD_INPUT) {
-        hd_problem(loader->notes, "%s; materials with this texture keep their colour alone",
+        hd_problem(loader->notes, "%s; materials with this texture use their colour only",
                    loader->error->message);
         return HD_OK;
     }
@@ -216,10 +216,10 @@ static HdStatus read_picture(Loader *loader, const char *path, int *number) {
     *number = loader->scene->picture_count++;
     loader->capacity -= pixels * 3 * sizeof *picture->texture.texels;
     if (loader->capacity < 0.0)
-        hd_problem(loader->problems,
-                   "meshes: their files up to the texture %s take more memory than they may: one "
-                   "of %d parts of what this machine has",
-                   path, HD_MESH_MEMORY_PART);
+        hd_problem(
+            loader->problems,
+            "meshes: the files up to the texture %s need more memory than 1/%d of this machine's",
+            path, HD_MESH_MEMORY_PART);
     return HD_OK;
 }
 

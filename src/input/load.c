@@ -34,7 +34,7 @@ typedef struct Reader {
     bool knows_materials; /* validity of the list; if false, names are not checked */
 } Reader;
 
-static void leave_to(Reader *reader, size_t length) {
+static void truncate_path(Reader *reader, size_t length) {
     reader->report.path[length] = '\0';
 }
 
@@ -87,7 +87,7 @@ static bool read_vector(Reader *reader, const HdField *field, const json_t *valu
         parts[i] = json_number_value(part);
         if (!is_in_range(field, part))
             is_read = refuse(reader, field, part, 1);
-        leave_to(reader, length);
+        truncate_path(reader, length);
     }
     if (is_read)
         memcpy(out, parts, sizeof parts);
@@ -161,7 +161,7 @@ static void read_vectors(Reader *reader, const HdField *field, const json_t *val
                            vectors[0].z}; /* used if the value is rejected */
         read_vector(reader, field, json_array_get(value, i), parts);
         vectors[i] = hd_vec3(parts[0], parts[1], parts[2]);
-        leave_to(reader, length);
+        truncate_path(reader, length);
     }
     if (field->count_offset != 0)
         *(int *)(void *)((char *)owner + field->count_offset) = (int)count;
@@ -295,7 +295,7 @@ static void read_list(Reader *reader, const HdField *field, const json_t *value,
     for (size_t i = 0; i < count; i++) {
         const size_t length = hd_json_path_index(reader->report.path, i);
         read_object(reader, field->object, json_array_get(value, i), elements + i * size);
-        leave_to(reader, length);
+        truncate_path(reader, length);
     }
 }
 
@@ -345,7 +345,7 @@ static void read_materials(Reader *reader, const HdField *field, const json_t *v
         read_object(reader, field->object, json, &named->material);
         settle_inner_side(&named->material, json);
         check_shares(reader, &named->material);
-        leave_to(reader, length);
+        truncate_path(reader, length);
     }
     reader->numbers = json_object();
     for (int i = 0; i < reader->material_count; i++)
@@ -386,7 +386,7 @@ static const json_t *find_value(Reader *reader, const HdField *field, const json
     }
     if (value != NULL && field->instead_of != NULL &&
         json_object_get(json, field->instead_of) != NULL) {
-        hd_report(&reader->report, "is given beside \"%s\", expected only one of them",
+        hd_report(&reader->report, "is given together with \"%s\", expected only one of them",
                   field->instead_of);
         return NULL;
     }
@@ -407,7 +407,7 @@ static void read_object(Reader *reader, const HdObjectType *type, const json_t *
             *(bool *)(void *)((char *)owner + field->flag_offset) = true;
         if (value != NULL)
             read_field(reader, field, value, owner);
-        leave_to(reader, length);
+        truncate_path(reader, length);
     }
     hd_report_unknown_keys(&reader->report, type, json);
 }
@@ -528,7 +528,7 @@ static HdStatus check_text(const char *text, size_t size, const char *name, HdEr
                        (int)HD_MAX_SCENE_BYTES);
     if (is_mesh(name))
         return hd_fail(error, HD_BAD_INPUT,
-                       "%s is no scene by its name: a mesh, as Wavefront OBJ, is part of one; see "
+                       "%s is a mesh by its ending, expected a scene; see "
                        "\"meshes\" in 'hedron help scene'",
                        name);
     if (size == 0)
@@ -541,11 +541,11 @@ static HdStatus check_text(const char *text, size_t size, const char *name, HdEr
     if (hd_classic_may_be(text, size))
         return hd_fail(error, HD_BAD_INPUT,
                        "%s: this looks like a classic input, which 'hedron convert FILE -o "
-                       "scene.json' makes a scene of",
+                       "scene.json' converts to a scene",
                        name);
     if (!may_be_scene(text, size, name))
         return hd_fail(error, HD_BAD_INPUT,
-                       "%s is no scene: neither has it the ending .json nor does it begin with {",
+                       "%s is not a scene: expected the ending .json or text that begins with {",
                        name);
     return hd_json_check_count(text, size, name, error);
 }

@@ -221,8 +221,8 @@ static double light_factor(HdVec3 light) {
 /* Fields */
 
 /* Gets the numbers for hd_field_set, except paths. A hash uses light unchanged. */
-static void take_numbers(const Writer *writer, const HdField *field, const void *owner,
-                         double out[3]) {
+static void get_numbers(const Writer *writer, const HdField *field, const void *owner,
+                        double out[3]) {
     const void *place = place_of(field, owner);
     if (field->type == HD_FIELD_BOOLEAN) {
         out[0] = *(const bool *)place ? 1.0 : 0.0;
@@ -261,7 +261,7 @@ typedef void WriteField(Writer *writer, const HdField *field, const void *owner)
 
 static void write_numbers(Writer *writer, const HdField *field, const void *owner) {
     double numbers[3] = {0.0, 0.0, 0.0};
-    take_numbers(writer, field, owner, numbers);
+    get_numbers(writer, field, owner, numbers);
     if (is_hashed(writer) && field->type == HD_FIELD_CHOICE)
         put_number(&writer->printer, numbers[0]);
     else
@@ -338,7 +338,7 @@ static bool is_default(const Writer *writer, const HdField *field, const void *o
         return false;
     if (field->type == HD_FIELD_PATH || hd_field_parts(field) == 0)
         return false;
-    take_numbers(writer, field, owner, numbers);
+    get_numbers(writer, field, owner, numbers);
     return memcmp(numbers, field->standard, (size_t)hd_field_parts(field) * sizeof *numbers) == 0;
 }
 

@@ -22,20 +22,20 @@ enum {
     /* Besides frames being encoded: one traced, one converted, one sent to FFmpeg, one waiting. */
     SPARE_FRAMES = 4,
     /* For each worker but the first: frames that others finish while it traces one. */
-    FRAMES_OF_A_TRACER = 8
+    FRAMES_PER_WORKER = 8
 };
 static const size_t MAX_BYTES = (size_t)1
                                 << 30; /* memory of all frames in flight, for each worker */
 
 /* A frame in progress. One thread at a time works on it, except films, which take it in parallel.
  */
-typedef struct Place {
+typedef struct Slot {
     HdFrame frame; /* frame with `rgba` if films need it or a device may encode */
     HdAtomicFile files[HD_MAX_OUTPUTS]; /* closed; without a lock: not written, or handed on */
     int worker;
     HdFrameTimes times;
     HdSpan films[HD_MAX_OUTPUTS]; /* times by output */
-} Place;
+} Slot;
 
 /* A frame that waits to be published; its slot is in use again. */
 typedef struct Waiting {
@@ -54,8 +54,8 @@ typedef struct Film {
 struct HdFrameStore {
     HdFrameStorePlan plan;
     HdStages *stages;
-    Place *places; /* slot of a frame: its index in the list modulo slot_count */
-    int place_count;
+    Slot *slots; /* slot of a frame: its index in the list modulo slot_count */
+    int slot_count;
     Waiting *waiting; /* frames to publish, at most slot_count */
     int waiting_count;
     int stored;
@@ -66,8 +66,8 @@ struct HdFrameStore {
 
 _Static_assert(HD_MAX_STAGES >= HD_MAX_OUTPUTS + 3, "a stage for each film, and three more");
 
-static Place *place_of(HdFrameStore *store, int item) {
-    return &store->places[item % store->place_count];
+static Slot *slot_of(HdFrameStore *store, int item) {
+    return &store->slots[item % store->slot_count];
 }
 
 static int number_of(const HdFrameStore *store, int item) {
@@ -78,11 +78,11 @@ static bool was_finished(const HdFrameStore *store, int item) {
     return store->plan.resume->is_finished[item];
 }
 
-static HdSpan begin(const HdFrameStore *store) {
+static HdSpan begin_span(const HdFrameStore *store) {
     return (HdSpan){.began = hd_monotonic_seconds() - store->plan.start};
 }
 
-static void end(const HdFrameStore *store, HdSpan *span) {
+static void end_span(const HdFrameStore *store, HdSpan *span) {
     span->seconds = hd_monotonic_seconds() - store->plan.start - span->began;
 }
 
@@ -91,38 +91,38 @@ static void end(const HdFrameStore *store, HdSpan *span) {
 static HdStatus convert(void *context, int item, HdError *error) {
     HdFrameStore *store = context;
     const HdOutputPlan *outputs = store->plan.outputs;
-    Place *place = place_of(store, item);
+    Slot *slot = slot_of(store, item);
     bool is_lacking = !was_finished(store, item);
     for (int i = 0; i < HD_MAX_OUTPUTS; i++)
         is_lacking |= hd_resume_film_lacks(store->plan.resume, i, item);
     if (!is_lacking)
         return HD_OK;
     if (was_finished(store, item)) /* so no worker traced it */
-        return hd_resume_load(outputs, number_of(store, item), &place->frame, error);
-    if (place->frame.is_encoded)
+        return hd_resume_load(outputs, number_of(store, item), &slot->frame, error);
+    if (slot->frame.is_encoded)
         return HD_OK;
-    place->times.convert = begin(store);
-    hd_frame_encode(&place->frame, outputs->style.picture.curve);
-    end(store, &place->times.convert);
+    slot->times.convert = begin_span(store);
+    hd_frame_encode(&slot->frame, outputs->style.picture.curve);
+    end_span(store, &slot->times.convert);
     return HD_OK;
 }
 
 /* Blocks while FFmpeg is busy. */
 static HdStatus add_to_film(void *context, int item, HdError *error) {
     const Film *film = context;
-    Place *place = place_of(film->store, item);
-    HdSpan *span = &place->films[film->index];
+    Slot *slot = slot_of(film->store, item);
+    HdSpan *span = &slot->films[film->index];
     *span = (HdSpan){.began = -1.0};
     if (!hd_resume_film_lacks(film->store->plan.resume, film->index, item))
         return HD_OK;
-    *span = begin(film->store);
-    HdStatus status = hd_film_add(film->film, item, &place->frame, error);
-    end(film->store, span);
+    *span = begin_span(film->store);
+    HdStatus status = hd_film_add(film->film, item, &slot->frame, error);
+    end_span(film->store, span);
     return status;
 }
 
 /* Writes the picture to a temporary file. */
-static HdStatus write_picture(const HdOutputPlan *outputs, int index, Place *place, int number,
+static HdStatus write_picture(const HdOutputPlan *outputs, int index, Slot *slot, int number,
                               HdError *error) {
     const HdPictureLabel label = {
         .scene = outputs->scene,
@@ -131,10 +131,10 @@ static HdStatus write_picture(const HdOutputPlan *outputs, int index, Place *pla
         .has_fingerprint = outputs->has_fingerprint,
         .fingerprint = hd_frame_fingerprint(outputs->fingerprint, number),
     };
-    HdAtomicFile *file = &place->files[index];
+    HdAtomicFile *file = &slot->files[index];
     char path[HD_MAX_PATH];
     HD_TRY(hd_output_file(&outputs->list[index], number, path, error));
-    HD_TRY(hd_picture_prepare(file, &place->frame, outputs->list[index].format,
+    HD_TRY(hd_picture_prepare(file, &slot->frame, outputs->list[index].format,
                               &outputs->style.picture, &label, path, error));
     return hd_atomic_file_close(file, error);
 }
@@ -142,23 +142,23 @@ static HdStatus write_picture(const HdOutputPlan *outputs, int index, Place *pla
 static HdStatus write_pictures(void *context, int item, HdError *error) {
     HdFrameStore *store = context;
     const HdOutputPlan *outputs = store->plan.outputs;
-    Place *place = place_of(store, item);
+    Slot *slot = slot_of(store, item);
     HdStatus status = HD_OK;
     if (was_finished(store, item))
         return HD_OK;
-    place->times.store = begin(store);
+    slot->times.store = begin_span(store);
     for (int i = 0; i < outputs->count && status == HD_OK; i++)
         if (!outputs->list[i].is_film)
-            status = write_picture(outputs, i, place, number_of(store, item), error);
-    end(store, &place->times.store);
+            status = write_picture(outputs, i, slot, number_of(store, item), error);
+    end_span(store, &slot->times.store);
     return status;
 }
 
-static HdSpan span_of_films(const HdFrameStore *store, const Place *place) {
+static HdSpan span_of_films(const HdFrameStore *store, const Slot *slot) {
     HdSpan whole = {.began = -1.0};
     double ended = 0.0;
     for (int i = 0; i < HD_MAX_OUTPUTS; i++) {
-        const HdSpan *span = &place->films[i];
+        const HdSpan *span = &slot->films[i];
         if (store->films[i].film == NULL || span->began < 0.0)
             continue;
         whole.began = whole.began < 0.0 ? span->began : fmin(whole.began, span->began);
@@ -208,7 +208,7 @@ static HdStatus sync_names(const HdFrameStore *store, int count, HdError *error)
     return HD_OK;
 }
 
-static HdStatus tell(HdFrameStore *store, int count, HdError *error) {
+static HdStatus report_stored(HdFrameStore *store, int count, HdError *error) {
     for (int i = 0; i < count; i++) {
         store->stored = store->waiting[i].stored.done;
         HD_TRY(store->plan.stored(store->plan.context, &store->waiting[i].stored, error));
@@ -233,7 +233,7 @@ static HdStatus settle(void *context, HdError *error) {
     if (store->plan.outputs->durability == HD_DURABLE)
         count = do_step(store, hd_atomic_file_sync, count, &first);
     count = do_step(store, hd_atomic_file_publish, count, &first);
-    if (sync_names(store, count, &own) != HD_OK || tell(store, count, &own) != HD_OK)
+    if (sync_names(store, count, &own) != HD_OK || report_stored(store, count, &own) != HD_OK)
         first = own;
     drop_waiting(store);
     if (first.status != HD_OK)
@@ -242,35 +242,35 @@ static HdStatus settle(void *context, HdError *error) {
 }
 
 /* Takes over the files written for the frame. */
-static void keep_waiting(Waiting *waiting, Place *place) {
-    waiting->frame = place->frame;
+static void keep_waiting(Waiting *waiting, Slot *slot) {
+    waiting->frame = slot->frame;
     waiting->frame.rgb = NULL;
     waiting->frame.rgba = NULL;
     waiting->file_count = 0;
     for (int i = 0; i < HD_MAX_OUTPUTS; i++) {
-        if (place->files[i].lock < 0)
+        if (slot->files[i].lock < 0)
             continue;
-        waiting->files[waiting->file_count++] = place->files[i];
-        place->files[i].lock = -1;
+        waiting->files[waiting->file_count++] = slot->files[i];
+        slot->files[i].lock = -1;
     }
 }
 
 static HdStatus publish(void *context, int item, HdError *error) {
     HdFrameStore *store = context;
-    Place *place = place_of(store, item);
-    if (store->waiting_count == store->place_count)
+    Slot *slot = slot_of(store, item);
+    if (store->waiting_count == store->slot_count)
         HD_TRY(settle(store, error));
     Waiting *waiting = &store->waiting[store->waiting_count++];
-    keep_waiting(waiting, place);
+    keep_waiting(waiting, slot);
     waiting->stored = (HdStoredFrame){
         .number = number_of(store, item),
-        .worker = place->worker,
+        .worker = slot->worker,
         .done = item + 1,
         .frame = &waiting->frame,
         .was_finished = was_finished(store, item),
-        .times = place->times,
+        .times = slot->times,
     };
-    waiting->stored.times.film = span_of_films(store, place);
+    waiting->stored.times.film = span_of_films(store, slot);
     return HD_OK;
 }
 
@@ -319,25 +319,25 @@ static bool has_image(const HdOutputPlan *outputs) {
     return outputs->film_count > 0 || !outputs->request.radiance;
 }
 
-static size_t bytes_of_place(const HdFrameStorePlan *plan) {
+static size_t bytes_of_slot(const HdFrameStorePlan *plan) {
     const size_t pixels = (size_t)plan->width * (size_t)plan->height;
     const size_t layers = hd_layer_bytes(plan->outputs->request.layers);
-    return sizeof(Place) + pixels * (3 * sizeof(float) + layers) +
+    return sizeof(Slot) + pixels * (3 * sizeof(float) + layers) +
            (has_image(plan->outputs) ? 4 * pixels : 0);
 }
 
 /* A picture has one more descriptor while it is closed. */
-static int count_places_by_descriptors(int pictures) {
+static int count_slots_by_descriptors(int pictures) {
     const int fitting = (hd_free_descriptors() - SPARE_DESCRIPTORS) / (2 * pictures + 1);
     return hd_max(hd_min(fitting, MAX_OPEN_PICTURES / pictures), 1);
 }
 
 static int choose_place_count(const HdFrameStorePlan *plan) {
-    const int spare = SPARE_FRAMES + FRAMES_OF_A_TRACER * (plan->workers - 1);
+    const int spare = SPARE_FRAMES + FRAMES_PER_WORKER * (plan->workers - 1);
     int wanted = hd_min(encoder_count(plan) + spare, plan->resume->all->count);
     if (picture_count(plan) > 0)
-        wanted = hd_min(wanted, count_places_by_descriptors(picture_count(plan)));
-    const size_t fitting = MAX_BYTES * (size_t)plan->workers / bytes_of_place(plan);
+        wanted = hd_min(wanted, count_slots_by_descriptors(picture_count(plan)));
+    const size_t fitting = MAX_BYTES * (size_t)plan->workers / bytes_of_slot(plan);
     return hd_max((int)hd_min_size(fitting, (size_t)wanted), 1);
 }
 
@@ -369,36 +369,36 @@ static HdStatus open_films(HdFrameStore *store, HdError *error) {
     return HD_OK;
 }
 
-static HdStatus create_place(Place *place, const HdFrameStorePlan *plan, HdError *error) {
+static HdStatus create_slot(Slot *slot, const HdFrameStorePlan *plan, HdError *error) {
     for (int i = 0; i < HD_MAX_OUTPUTS; i++)
-        place->files[i].lock = -1;
-    HD_TRY(hd_frame_create(&place->frame, plan->width, plan->height, error));
+        slot->files[i].lock = -1;
+    HD_TRY(hd_frame_create(&slot->frame, plan->width, plan->height, error));
     if (has_image(plan->outputs))
-        HD_TRY(hd_frame_add_rgba(&place->frame, error));
-    return hd_frame_add_layers(&place->frame, plan->outputs->request.layers, error);
+        HD_TRY(hd_frame_add_rgba(&slot->frame, error));
+    return hd_frame_add_layers(&slot->frame, plan->outputs->request.layers, error);
 }
 
 static HdStatus create_places(HdFrameStore *store, HdError *error) {
     const int count = choose_place_count(&store->plan);
-    store->places = calloc((size_t)count, sizeof *store->places);
+    store->slots = calloc((size_t)count, sizeof *store->slots);
     store->waiting = calloc((size_t)count, sizeof *store->waiting);
-    if (store->places == NULL || store->waiting == NULL)
+    if (store->slots == NULL || store->waiting == NULL)
         return HD_NO_ROOM(error, "%d frames", count);
-    while (store->place_count < count)
-        HD_TRY(create_place(&store->places[store->place_count++], &store->plan, error));
+    while (store->slot_count < count)
+        HD_TRY(create_slot(&store->slots[store->slot_count++], &store->plan, error));
     return HD_OK;
 }
 
 /* Discards pictures that are not published. */
-static void free_places(HdFrameStore *store) {
+static void free_slots(HdFrameStore *store) {
     drop_waiting(store);
-    for (int i = 0; i < store->place_count; i++) {
-        Place *place = &store->places[i];
+    for (int i = 0; i < store->slot_count; i++) {
+        Slot *slot = &store->slots[i];
         for (int k = 0; k < HD_MAX_OUTPUTS; k++)
-            hd_atomic_file_discard(&place->files[k]);
-        hd_frame_free(&place->frame);
+            hd_atomic_file_discard(&slot->files[k]);
+        hd_frame_free(&slot->frame);
     }
-    free(store->places);
+    free(store->slots);
     free(store->waiting);
 }
 
@@ -423,7 +423,7 @@ static HdStatus start(HdFrameStore *store, HdError *error) {
     HD_TRY(create_places(store, error));
     list_stages(store);
     return hd_stages_start(&store->stages, store->list, store->stage_count, resume->all->count,
-                           resume->is_finished, store->place_count, error);
+                           resume->is_finished, store->slot_count, error);
 }
 
 HdStatus hd_frame_store_start(HdFrameStore **out, const HdFrameStorePlan *plan, HdError *error) {
@@ -437,7 +437,7 @@ HdStatus hd_frame_store_start(HdFrameStore **out, const HdFrameStorePlan *plan, 
     if (status == HD_OK) {
         *out = store;
     } else {
-        free_places(store);
+        free_slots(store);
         destroy(store);
     }
     return status;
@@ -449,9 +449,9 @@ HdStages *hd_frame_store_stages(HdFrameStore *store) {
     return store->stages;
 }
 
-HdFrame *hd_frame_store_frame(HdFrameStore *store, int place, int worker, HdFrameTimes **times) {
+HdFrame *hd_frame_store_frame(HdFrameStore *store, int item, int worker, HdFrameTimes **times) {
     static const HdSpan nothing = {.began = -1.0};
-    Place *found = place_of(store, place);
+    Slot *found = slot_of(store, item);
     found->worker = worker;
     found->times = (HdFrameTimes){nothing, nothing, nothing, nothing, nothing, nothing, -1.0};
     *times = &found->times;
@@ -479,7 +479,7 @@ static void report_interrupted(const HdFrameStore *store, HdError *error) {
     for (int i = 0; i < store->stored && can_resume; i++)
         kept += hd_resume_keeps(store->plan.resume, outputs, i);
     if (kept > 0)
-        snprintf(more, sizeof more, "; the same command goes on, with %d of them finished", kept);
+        snprintf(more, sizeof more, "; the same command resumes, with %d of them finished", kept);
     hd_fail(error, HD_INTERRUPTED, "interrupted after %d of %d frames%s", store->stored,
             store->plan.resume->all->count, more);
 }
@@ -487,7 +487,7 @@ static void report_interrupted(const HdFrameStore *store, HdError *error) {
 /* A failure in the store precedes the caller's: its frames are earlier. */
 HdStatus hd_frame_store_end(HdFrameStore *store, HdStatus traced, HdError *error) {
     HdStatus status = hd_stages_end(store->stages, error);
-    free_places(store);
+    free_slots(store);
     if (status == HD_OK)
         status = traced;
     if (status == HD_INTERRUPTED) {

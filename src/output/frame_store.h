@@ -63,7 +63,7 @@ HdStages *hd_frame_store_stages(HdFrameStore *store);
 
 /* Returns the buffer of a claimed frame with capacity. The worker fills it and the times up to
    `copy` before it submits the frame. */
-HdFrame *hd_frame_store_frame(HdFrameStore *store, int place, int worker, HdFrameTimes **times);
+HdFrame *hd_frame_store_frame(HdFrameStore *store, int item, int worker, HdFrameTimes **times);
 
 /* Waits until all submitted or finished frames before the first failed or missing one are stored;
    later ones leave no pictures. Completes the films if all went well, or else discards them; frees

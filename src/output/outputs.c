@@ -71,7 +71,7 @@ static HdStatus check_different(const HdOutput *output, const HdOutput *other, i
     if (!hd_path_is_same(file, other_file))
         return HD_OK;
     if (strcmp(output->name, other->name) == 0)
-        return hd_fail(error, HD_BAD_INPUT, "the output '%s' is there twice", output->name);
+        return hd_fail(error, HD_BAD_INPUT, "the output '%s' is given twice", output->name);
     return hd_fail(error, HD_BAD_INPUT, "the outputs '%.4000s' and '%.4000s' are the same file",
                    other->name, output->name);
 }
@@ -119,9 +119,9 @@ HdStatus hd_outputs_add_layers(HdOutputPlan *plan, unsigned layers, bool is_boun
         return hd_fail(error, HD_BAD_INPUT,
                        "--layers is for OpenEXR: expected an output that ends in .exr");
     if (!is_bounded && (layers & HD_LAYER_BIT(HD_LAYER_BOUND)) != 0)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "--layers has bound, which is known with --max-error, --aa adaptive or "
-                       "--reference alone");
+        return hd_fail(
+            error, HD_BAD_INPUT,
+            "--layers has bound, expected --max-error, --aa adaptive or --reference with it");
     plan->request.layers |= layers;
     return HD_OK;
 }

@@ -139,7 +139,7 @@ void hd_resume_free(HdResume *resume) {
 
 /* ---- files of killed runs ---- */
 
-enum { ORPHAN_GLANCES = 1000 /* 10 ms each */ };
+enum { ORPHAN_POLLS = 1000 /* 10 ms each */ };
 
 typedef struct Search {
     HdFrameNames names; /* names of the output's files, or of folders with one each */
@@ -195,7 +195,7 @@ static bool remove_stale(const HdOutputPlan *plan, const HdFrameList *frames) {
 
 void hd_stale_files_remove(const HdOutputPlan *plan, const HdFrameList *frames) {
     const struct timespec poll_interval = {.tv_nsec = 10000000};
-    for (int i = 0; i < ORPHAN_GLANCES && hd_interrupt_signal() == 0; i++) {
+    for (int i = 0; i < ORPHAN_POLLS && hd_interrupt_signal() == 0; i++) {
         if (remove_stale(plan, frames))
             return;
         nanosleep(&poll_interval, NULL);

@@ -18,16 +18,16 @@ typedef struct Worker {
 } Worker;
 
 /* State of an item; ready ones are submitted from the start. */
-typedef enum State { FREE, TAKEN, GIVEN } State;
+typedef enum State { FREE, CLAIMED, SUBMITTED } State;
 
 /* Bits for each stage of an item in flight. */
 typedef struct Slot {
-    unsigned taken, done;
+    unsigned claimed, done;
 } Slot;
 
 struct HdStages {
     pthread_mutex_t mutex;
-    pthread_cond_t room_made; /* or another event that claimers wait for */
+    pthread_cond_t claims_changed; /* or another event that claimers wait for */
     pthread_cond_t work_made[HD_MAX_STAGES];
     HdStage list[HD_MAX_STAGES];
     int next[HD_MAX_STAGES]; /* first item that each stage has not claimed */
@@ -35,11 +35,11 @@ struct HdStages {
     int capacity;
     Slot *slots;           /* slots by item modulo capacity */
     unsigned char *states; /* states by item */
-    int item_count;  /* number of items; at the end those before the first that was not submitted */
-    int first_free;  /* no item before it is free */
-    int given_until; /* all items before it are submitted */
-    int gone;        /* number of first items that all stages have finished */
-    int limit;       /* first item that failed; INT_MAX: none */
+    int item_count; /* number of items; at the end those before the first that was not submitted */
+    int first_free; /* no item before it is free */
+    int submitted_until; /* all items before it are submitted */
+    int finished_until;  /* all stages have finished the items before it */
+    int limit;           /* first item that failed; INT_MAX: none */
     bool stopped;
     bool ended; /* no more items come */
     HdStatus status;
@@ -52,8 +52,8 @@ static Slot *slot_of(const HdStages *stages, int item) {
     return &stages->slots[item % stages->capacity];
 }
 
-static bool is_given(const HdStages *stages, int item) {
-    return item < stages->item_count && stages->states[item] == GIVEN;
+static bool is_submitted(const HdStages *stages, int item) {
+    return item < stages->item_count && stages->states[item] == SUBMITTED;
 }
 
 /* Returns the end of the wanted items. */
@@ -61,10 +61,10 @@ static int wanted_end(const HdStages *stages) {
     return hd_min(stages->item_count, stages->limit);
 }
 
-static int first_not_given(HdStages *stages) {
-    while (is_given(stages, stages->given_until))
-        stages->given_until++;
-    return stages->given_until;
+static int first_not_submitted(HdStages *stages) {
+    while (is_submitted(stages, stages->submitted_until))
+        stages->submitted_until++;
+    return stages->submitted_until;
 }
 
 /* Returns the stage's next item, or, with several threads, which keep no order, the first available
@@ -72,30 +72,30 @@ static int first_not_given(HdStages *stages) {
 static int find_work(const HdStages *stages, int stage) {
     const HdStage *what = &stages->list[stage];
     const int first = stages->next[stage];
-    int end = hd_min(stages->gone + stages->capacity, wanted_end(stages));
+    int end = hd_min(stages->finished_until + stages->capacity, wanted_end(stages));
     if (what->threads == 1)
         end = hd_min(end, first + 1);
     for (int item = first; item < end; item++) {
         const Slot *slot = slot_of(stages, item);
-        if (is_given(stages, item) && (slot->taken >> stage & 1) == 0 &&
+        if (is_submitted(stages, item) && (slot->claimed >> stage & 1) == 0 &&
             (slot->done & what->after) == what->after)
             return item;
     }
     return -1;
 }
 
-static void take_work(HdStages *stages, int stage, int item) {
-    int end = stages->gone + stages->capacity;
-    slot_of(stages, item)->taken |= 1u << stage;
+static void claim_work(HdStages *stages, int stage, int item) {
+    int end = stages->finished_until + stages->capacity;
+    slot_of(stages, item)->claimed |= 1u << stage;
     while (stages->next[stage] < end &&
-           (slot_of(stages, stages->next[stage])->taken >> stage & 1) != 0)
+           (slot_of(stages, stages->next[stage])->claimed >> stage & 1) != 0)
         stages->next[stage]++;
 }
 
 static void wake_all(HdStages *stages) {
     for (int i = 0; i < stages->count; i++)
         pthread_cond_broadcast(&stages->work_made[i]);
-    pthread_cond_broadcast(&stages->room_made);
+    pthread_cond_broadcast(&stages->claims_changed);
 }
 
 /* Keeps the failure of the earliest item, for an earlier one may still come. */
@@ -120,11 +120,11 @@ static void note_success(HdStages *stages, int stage, int item) {
     for (int i = stage + 1; i < stages->count; i++)
         if ((stages->list[i].after >> stage & 1) != 0)
             pthread_cond_broadcast(&stages->work_made[i]);
-    while (slot_of(stages, stages->gone)->done == all) {
-        *slot_of(stages, stages->gone) = (Slot){0};
-        stages->gone++;
-        pthread_cond_broadcast(&stages->room_made);
-        if (is_given(stages, stages->gone + stages->capacity - 1))
+    while (slot_of(stages, stages->finished_until)->done == all) {
+        *slot_of(stages, stages->finished_until) = (Slot){0};
+        stages->finished_until++;
+        pthread_cond_broadcast(&stages->claims_changed);
+        if (is_submitted(stages, stages->finished_until + stages->capacity - 1))
             wake_first_stages(stages);
     }
 }
@@ -157,7 +157,7 @@ static void *worker_main(void *argument) {
             stages->next[stage] >= (stages->ended ? wanted_end(stages) : stages->limit);
         const int item = over ? -1 : find_work(stages, stage);
         if (item >= 0) {
-            take_work(stages, stage, item);
+            claim_work(stages, stage, item);
             unsettled = work(stages, stage, item, false) ? item : -1;
         } else if (unsettled >= 0 && stages->list[stage].settle != NULL) {
             work(stages, stage, unsettled, true);
@@ -175,7 +175,7 @@ static void *worker_main(void *argument) {
 static void destroy(HdStages *stages) {
     for (int i = 0; i < stages->count; i++)
         pthread_cond_destroy(&stages->work_made[i]);
-    pthread_cond_destroy(&stages->room_made);
+    pthread_cond_destroy(&stages->claims_changed);
     pthread_mutex_destroy(&stages->mutex);
     free(stages->workers);
     free(stages->slots);
@@ -197,12 +197,12 @@ static HdStages *create(const HdStage *list, int count, int item_count, const bo
     stages->count = count;
     stages->item_count = item_count;
     for (int i = 0; i < item_count && stages->states != NULL; i++)
-        stages->states[i] = is_ready[i] ? GIVEN : FREE;
+        stages->states[i] = is_ready[i] ? SUBMITTED : FREE;
     stages->capacity = capacity;
     stages->limit = INT_MAX;
     memcpy(stages->list, list, (size_t)count * sizeof *list);
     pthread_mutex_init(&stages->mutex, NULL);
-    pthread_cond_init(&stages->room_made, NULL);
+    pthread_cond_init(&stages->claims_changed, NULL);
     for (int i = 0; i < count; i++)
         pthread_cond_init(&stages->work_made[i], NULL);
     if (stages->slots != NULL && stages->states != NULL && stages->workers != NULL)
@@ -214,7 +214,7 @@ static HdStages *create(const HdStage *list, int count, int item_count, const bo
 static void join_all(HdStages *stages) {
     pthread_mutex_lock(&stages->mutex);
     stages->ended = true;
-    stages->item_count = first_not_given(stages);
+    stages->item_count = first_not_submitted(stages);
     wake_all(stages);
     pthread_mutex_unlock(&stages->mutex);
     for (int i = 0; i < stages->worker_count; i++)
@@ -232,7 +232,7 @@ static int find_free(HdStages *stages) {
 static bool can_claim(const HdStages *stages, const HdClaimer *claimer, int item) {
     const int end = wanted_end(stages);
     int left = 0; /* counted up to the capacity only */
-    if (item >= end || item >= stages->gone + stages->capacity + claimer->ahead)
+    if (item >= end || item >= stages->finished_until + stages->capacity + claimer->ahead)
         return false;
     for (int i = item; i < end && left < stages->capacity; i++)
         left += stages->states[i] == FREE;
@@ -240,27 +240,28 @@ static bool can_claim(const HdStages *stages, const HdClaimer *claimer, int item
 }
 
 int hd_stages_claim(HdStages *stages, const HdClaimer *claimer, bool waits) {
-    int taken = -1;
+    int claimed = -1;
     pthread_mutex_lock(&stages->mutex);
-    while (!stages->stopped && first_not_given(stages) < wanted_end(stages)) {
+    while (!stages->stopped && first_not_submitted(stages) < wanted_end(stages)) {
         int item = find_free(stages);
         if (can_claim(stages, claimer, item)) {
-            stages->states[item] = TAKEN;
-            taken = item;
+            stages->states[item] = CLAIMED;
+            claimed = item;
             break;
         }
         if (!waits)
             break;
-        pthread_cond_wait(&stages->room_made, &stages->mutex);
+        pthread_cond_wait(&stages->claims_changed, &stages->mutex);
     }
     pthread_mutex_unlock(&stages->mutex);
-    return taken;
+    return claimed;
 }
 
 bool hd_stages_wait(HdStages *stages, int item) {
     pthread_mutex_lock(&stages->mutex);
-    while (!stages->stopped && item < stages->limit && item >= stages->gone + stages->capacity)
-        pthread_cond_wait(&stages->room_made, &stages->mutex);
+    while (!stages->stopped && item < stages->limit &&
+           item >= stages->finished_until + stages->capacity)
+        pthread_cond_wait(&stages->claims_changed, &stages->mutex);
     bool is_wanted = !stages->stopped && item < stages->limit;
     pthread_mutex_unlock(&stages->mutex);
     return is_wanted;
@@ -268,9 +269,9 @@ bool hd_stages_wait(HdStages *stages, int item) {
 
 void hd_stages_submit(HdStages *stages, int item) {
     pthread_mutex_lock(&stages->mutex);
-    stages->states[item] = GIVEN;
+    stages->states[item] = SUBMITTED;
     wake_first_stages(stages);
-    pthread_cond_broadcast(&stages->room_made);
+    pthread_cond_broadcast(&stages->claims_changed);
     pthread_mutex_unlock(&stages->mutex);
 }
 
@@ -278,13 +279,13 @@ void hd_stages_release(HdStages *stages, int item) {
     pthread_mutex_lock(&stages->mutex);
     stages->states[item] = FREE;
     stages->first_free = hd_min(stages->first_free, item);
-    pthread_cond_broadcast(&stages->room_made);
+    pthread_cond_broadcast(&stages->claims_changed);
     pthread_mutex_unlock(&stages->mutex);
 }
 
 void hd_stages_wake(HdStages *stages) {
     pthread_mutex_lock(&stages->mutex);
-    pthread_cond_broadcast(&stages->room_made);
+    pthread_cond_broadcast(&stages->claims_changed);
     pthread_mutex_unlock(&stages->mutex);
 }
 
@@ -297,7 +298,7 @@ void hd_stages_fail(HdStages *stages, int item, const HdError *error) {
 void hd_stages_stop(HdStages *stages) {
     pthread_mutex_lock(&stages->mutex);
     stages->stopped = true;
-    pthread_cond_broadcast(&stages->room_made);
+    pthread_cond_broadcast(&stages->claims_changed);
     pthread_mutex_unlock(&stages->mutex);
 }
 

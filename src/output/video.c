@@ -16,7 +16,7 @@
 enum {
     TIMEOUT_S = 600, /* default of HEDRON_FFMPEG_PATIENCE */
     MAX_TIMEOUT_S = 86400,
-    LAST_WORDS_MS = 3000 /* time to exit after it stopped reading */
+    EXIT_TIMEOUT_MS = 3000 /* time to exit after it stopped reading */
 };
 
 struct HdVideo {
@@ -118,30 +118,28 @@ static HdStatus fail_interrupted(const HdVideo *video, const char *program, HdEr
 }
 
 /* Replaces FFmpeg's message if the file is gone, for it misleads. */
-static void blame_folder(const HdVideo *video, HdError *error) {
+static void report_missing_file(const HdVideo *video, HdError *error) {
     HdError gone;
     if (hd_atomic_file_check(&video->file, &gone) != HD_OK)
         *error = gone;
 }
 
-static HdStatus fail_stuck(const HdVideo *video, const char *program, const char *when,
-                           HdChild *child, HdError *error) {
-    return hd_fail(
-        error, HD_FAILED,
-        "%s stood still for %d s %s of %s and was ended (HEDRON_FFMPEG_PATIENCE sets the "
-        "seconds); it said: %s",
-        program, video->timeout_ms / 1000, when, video->file.path, hd_child_said(child));
+static HdStatus fail_idle(const HdVideo *video, const char *program, const char *when,
+                          HdChild *child, HdError *error) {
+    return hd_fail(error, HD_FAILED,
+                   "%s was idle for %d s %s of %s and was stopped (HEDRON_FFMPEG_PATIENCE sets the "
+                   "seconds); it said: %s",
+                   program, video->timeout_ms / 1000, when, video->file.path, hd_child_said(child));
 }
 
 static HdStatus fail_early(HdVideo *video, HdError *error) {
     char how[64];
-    hd_child_end(&video->ffmpeg, LAST_WORDS_MS, how);
+    hd_child_end(&video->ffmpeg, EXIT_TIMEOUT_MS, how);
     if (hd_interrupt_signal() != 0)
         return fail_interrupted(video, "FFmpeg", error);
-    hd_fail(error, HD_FAILED,
-            "FFmpeg ended early (%s) while it was given frame %ld of %s; it said: %s", how,
+    hd_fail(error, HD_FAILED, "FFmpeg ended early (%s) at frame %ld of %s; it said: %s", how,
             video->frames, video->file.path, hd_child_said(&video->ffmpeg));
-    blame_folder(video, error);
+    report_missing_file(video, error);
     return HD_FAILED;
 }
 
@@ -156,7 +154,7 @@ static HdStatus send(HdVideo *video, const void *bytes, size_t size, HdError *er
         return fail_early(video, error);
     hd_child_stop(&video->ffmpeg);
     snprintf(when, sizeof when, "at frame %ld", video->frames);
-    return fail_stuck(video, "FFmpeg", when, &video->ffmpeg, error);
+    return fail_idle(video, "FFmpeg", when, &video->ffmpeg, error);
 }
 
 HdStatus hd_video_add(HdVideo *video, const HdFrame *frame, HdError *error) {
@@ -202,7 +200,7 @@ static HdStatus end_ffmpeg(HdVideo *video, HdError *error) {
     if (hd_interrupt_signal() != 0)
         return fail_interrupted(video, "FFmpeg", error);
     if (video->ffmpeg.is_stuck)
-        return fail_stuck(video, "FFmpeg", "after the last frame", &video->ffmpeg, error);
+        return fail_idle(video, "FFmpeg", "after the last frame", &video->ffmpeg, error);
     return hd_fail(error, HD_FAILED, "FFmpeg could not make %s (%s); it said: %s", video->file.path,
                    how, hd_child_said(&video->ffmpeg));
 }
@@ -222,7 +220,7 @@ static HdStatus count_frames(HdVideo *video, HdError *error) {
     if (!done && hd_interrupt_signal() != 0)
         return fail_interrupted(video, "ffprobe", error);
     if (ffprobe.is_stuck)
-        return fail_stuck(video, "ffprobe", "while it counted the frames", &ffprobe, error);
+        return fail_idle(video, "ffprobe", "while it counted the frames", &ffprobe, error);
     /* FFmpeg's messages despite exit code 0: a full disk, say. */
     if (video->ffmpeg.said_length > 0)
         snprintf(excuse, MAX_EXCUSE, "; FFmpeg had said: %.500s", hd_child_said(&video->ffmpeg));
@@ -244,7 +242,7 @@ HdStatus hd_video_close(HdVideo *video, HdDurability durability, HdError *error)
     if (status == HD_OK)
         status = count_frames(video, error);
     if (status == HD_FAILED)
-        blame_folder(video, error);
+        report_missing_file(video, error);
     if (status == HD_OK)
         status = hd_atomic_file_commit(&video->file, durability, error);
     hd_video_abort(video);

@@ -14,7 +14,7 @@
 
 /* ---- samples ---- */
 
-enum { BITS = 24, TURN_OVER = (1 << (BITS - 1)) - 1 };
+enum { BITS = 24, FLIPPED_BITS = (1 << (BITS - 1)) - 1 };
 
 typedef struct Point {
     uint32_t x, y; /* coordinates in units of 2^-BITS */
@@ -32,8 +32,8 @@ static Point sequence_point(uint32_t i) {
         }
         second ^= second >> 1;
     }
-    point.x ^= TURN_OVER;
-    point.y ^= TURN_OVER;
+    point.x ^= FLIPPED_BITS;
+    point.y ^= FLIPPED_BITS;
     return point;
 }
 
@@ -51,8 +51,8 @@ static HdStatus create(HdSampleSet *set, int count, int grid_side, HdError *erro
 HdStatus hd_sample_set_grid(HdSampleSet *set, int side, HdError *error) {
     const int count = side * side;
     HD_TRY(create(set, count, side, error));
-    unsigned char *taken = calloc((size_t)count, 1);
-    if (taken == NULL) {
+    unsigned char *used = calloc((size_t)count, 1);
+    if (used == NULL) {
         hd_sample_set_free(set);
         return HD_NO_ROOM(error, "%d samples", count);
     }
@@ -60,12 +60,12 @@ HdStatus hd_sample_set_grid(HdSampleSet *set, int side, HdError *error) {
     for (uint32_t i = 0; found < count; i++) {
         Point point = sequence_point(i);
         int column = cell_of(point.x, side), row = cell_of(point.y, side);
-        if (taken[row * side + column])
+        if (used[row * side + column])
             continue;
-        taken[row * side + column] = 1;
+        used[row * side + column] = 1;
         set->places[found++] = column | row << 16;
     }
-    free(taken);
+    free(used);
     return HD_OK;
 }
 
@@ -225,7 +225,7 @@ static int request_number(const Part *part, int i) {
 /* Returns the list position of request i of `count`. Items render their 64 entries in Z order, so
    neighbours share packets only if they are listed so. The last requests, which fill no item, stay
    in order. */
-static int place_of(int i, int count) {
+static int list_position(int i, int count) {
     enum { ITEM = HD_LISTED_WIDTH * HD_LISTED_WIDTH };
     int z = i % ITEM, first = i - z;
     return first + ITEM <= count ? first + HD_Z_ROW(z) * HD_LISTED_WIDTH + HD_Z_COLUMN(z) : i;
@@ -235,7 +235,7 @@ static void list_entries(void *context, int first, int end) {
     const Part *part = context;
     for (int i = first; i < end; i++) {
         const HdBoundRequest *request = &part->pass->requests[request_number(part, i)];
-        size_t place = (size_t)place_of(i, part->count);
+        size_t place = (size_t)list_position(i, part->count);
         part->passes->entries[2 * place] = request->pixel;
         part->passes->entries[2 * place + 1] = request->first;
     }
@@ -250,7 +250,7 @@ static int store_means(void *context, int first, int end, int *still_open) {
         int number = request_number(part, i);
         HdBoundedMean *mean = &part->pass->means[number];
         float before = mean->bound;
-        size_t place = (size_t)place_of(i, part->count);
+        size_t place = (size_t)list_position(i, part->count);
         memcpy(mean, values + HD_BOUNDED_FLOATS * place, sizeof *mean);
         bool goes_on = part->is_first || mean->bound < PROGRESS * before;
         if (goes_on && !is_within(part->passes, mean))

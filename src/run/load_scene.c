@@ -93,7 +93,7 @@ static void set_numbers(HdScene *scene, const HdScenePlan *plan) {
 
 static HdStatus crop(HdScene *scene, const HdPlannedArea *part, HdError *error) {
     if (part->left + part->width > scene->width || part->top + part->height > scene->height)
-        return hd_fail(error, HD_BAD_INPUT, "the picture has %d x %d pixels, which end before that",
+        return hd_fail(error, HD_BAD_INPUT, "the area ends outside the picture of %d x %d pixels",
                        scene->width, scene->height);
     scene->crop = (HdCrop){scene->width, scene->height, part->left, part->top};
     scene->width = part->width;
@@ -124,7 +124,7 @@ static HdStatus apply_geometry(HdScene *scene, const HdScenePlan *plan, HdError 
     scene->accel = plan->accel;
     if (plan->geometry == HD_GEOMETRY_SOLIDS && plan->divisions > 0)
         return hd_fail(error, HD_BAD_INPUT, "--divisions needs --geometry triangles");
-    hd_scene_part_contacts(scene);
+    hd_scene_separate_contacts(scene);
     if (plan->geometry == HD_GEOMETRY_SOLIDS)
         return HD_OK;
     return hd_scene_triangulate(scene, DISC_SIDES, plan->divisions > 0 ? plan->divisions : 1,

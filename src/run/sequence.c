@@ -185,16 +185,16 @@ static HdStatus fill_oldest(Worker *worker, HdError *error) {
     return HD_OK;
 }
 
-static void give_oldest(Worker *worker) {
+static void submit_oldest(Worker *worker) {
     const InFlight *in_flight = in_flight_of(worker, worker->ended++);
     double now = seconds_since_start(worker);
-    double taken = now - fmax(in_flight->prepare.began, worker->finished);
+    double seconds = now - fmax(in_flight->prepare.began, worker->finished);
     worker->finished = now;
-    hd_scheduler_ended(&worker->run->scheduler, worker->number, taken, hd_monotonic_seconds());
+    hd_scheduler_ended(&worker->run->scheduler, worker->number, seconds, hd_monotonic_seconds());
     hd_stages_submit(worker->run->stages, in_flight->place);
 }
 
-static void give_all_back(Worker *worker) {
+static void release_all(Worker *worker) {
     hd_renderer_drop(worker->maker.renderer);
     for (; worker->ended < worker->begun; worker->ended++) {
         InFlight *in_flight = in_flight_of(worker, worker->ended);
@@ -205,7 +205,7 @@ static void give_all_back(Worker *worker) {
 }
 
 /* Reports the failure to the store and returns true, unless another device may do better. */
-static bool is_reported(Worker *worker, int place, HdStatus status, const HdError *error) {
+static bool report_failure(Worker *worker, int place, HdStatus status, const HdError *error) {
     if (status == HD_INTERRUPTED || hd_renderer_has_failed(worker->maker.renderer))
         return false;
     hd_stages_fail(worker->run->stages, place, error);
@@ -219,13 +219,13 @@ static HdStatus finish_oldest(Worker *worker, HdError *error) {
     if (hd_stages_wait(worker->run->stages, place)) {
         HdStatus status = fill_oldest(worker, error);
         if (status == HD_OK) {
-            give_oldest(worker);
+            submit_oldest(worker);
             return HD_OK;
         }
-        if (!is_reported(worker, place, status, error))
+        if (!report_failure(worker, place, status, error))
             return status;
     }
-    give_all_back(worker);
+    release_all(worker);
     return HD_OK;
 }
 
@@ -238,7 +238,7 @@ static bool wants(void *context, int left) {
 /* Claims a frame, or returns a negative number. A single worker claims ahead of the capacity. One
    of several may get an earlier frame than those it has begun, which others wait for, so it claims
    only frames that it can finish. */
-static int take_frame(Worker *worker) {
+static int claim_frame(Worker *worker) {
     const HdClaimer claimer = {
         .wants = wants,
         .context = worker,
@@ -250,7 +250,7 @@ static int take_frame(Worker *worker) {
 }
 
 /* On failure the frame is not begun; earlier ones stay in flight. */
-static HdStatus begin(Worker *worker, int place, HdError *error) {
+static HdStatus begin_frame(Worker *worker, int place, HdError *error) {
     const HdSequence *sequence = worker->run->sequence;
     InFlight *in_flight = in_flight_of(worker, worker->begun);
     double now = seconds_since_start(worker);
@@ -268,7 +268,7 @@ static HdStatus begin(Worker *worker, int place, HdError *error) {
         hd_scheduler_begun(&worker->run->scheduler, worker->number, hd_monotonic_seconds());
         return HD_OK;
     }
-    if (is_reported(worker, place, status, error))
+    if (report_failure(worker, place, status, error))
         return HD_OK;
     hd_stages_release(worker->run->stages, place);
     return status;
@@ -279,15 +279,15 @@ static HdStatus trace(Worker *worker, HdError *error) {
     HdStatus status = HD_OK, beginning = HD_OK;
     HdError of_beginning;
     while (status == HD_OK) {
-        int place = beginning == HD_OK ? take_frame(worker) : -1;
+        int place = beginning == HD_OK ? claim_frame(worker) : -1;
         if (place >= 0)
-            beginning = begin(worker, place, &of_beginning);
+            beginning = begin_frame(worker, place, &of_beginning);
         else if (count_in_flight(worker) > 0)
             status = finish_oldest(worker, error);
         else
             break;
     }
-    give_all_back(worker);
+    release_all(worker);
     if (status != HD_OK || beginning == HD_OK)
         return status;
     *error = of_beginning;
@@ -325,8 +325,8 @@ static void drop_device(Run *run, int number, HdStatus status, const HdError *er
 }
 
 /* With one device, its error message is used unchanged. */
-static void leave(const Member *member, HdStatus status, const HdError *error,
-                  bool is_fault_of_device) {
+static void finish_member(const Member *member, HdStatus status, const HdError *error,
+                          bool is_fault_of_device) {
     Run *run = member->run;
     pthread_mutex_lock(&run->mutex);
     if (status != HD_OK && is_fault_of_device && run->sequence->team->count > 1) {
@@ -345,7 +345,7 @@ static void leave(const Member *member, HdStatus status, const HdError *error,
 
 /* ---- threads ---- */
 
-static void *work(void *argument) {
+static void *run_member(void *argument) {
     const Member *member = argument;
     Run *run = member->run;
     HdError error;
@@ -353,19 +353,19 @@ static void *work(void *argument) {
     HdStatus status = prepare(run, member->number, &error);
     if (status == HD_OK)
         status = trace_frames(member, &is_fault_of_device, &error);
-    leave(member, status, &error, is_fault_of_device && status != HD_INTERRUPTED);
+    finish_member(member, status, &error, is_fault_of_device && status != HD_INTERRUPTED);
     return NULL;
 }
 
 static void start_member(Member *member) {
     HdError error;
-    int reason = hd_start_thread(&member->thread, work, member);
+    int reason = hd_start_thread(&member->thread, run_member, member);
     member->has_thread = reason == 0;
     if (reason == 0)
         return;
     HdStatus status =
         hd_fail(&error, HD_FAILED, "cannot start a thread for the device: %s", strerror(reason));
-    leave(member, status, &error, true);
+    finish_member(member, status, &error, true);
 }
 
 /* A single device needs no thread of its own. */
@@ -376,7 +376,7 @@ static HdStatus trace_all(Run *run, HdError *error) {
         if (count > 1)
             start_member(&run->members[i]);
         else
-            work(&run->members[i]);
+            run_member(&run->members[i]);
     }
     for (int i = 0; i < count; i++)
         if (run->members[i].has_thread)

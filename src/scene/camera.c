@@ -69,7 +69,7 @@ HdStatus hd_camera_at(HdCamera *camera, const HdScene *scene, int frame, HdError
     const HdVec3 view = hd_sub(target, eye);
     if (!is_finite(eye) || !is_finite(target) || !is_finite(view))
         return hd_fail(error, HD_BAD_INPUT,
-                       "frame %d: the eye or the target is too far away for a number", frame);
+                       "frame %d: the coordinates of the eye or the target are too large", frame);
     const double scale = fmax(hd_largest(eye), hd_largest(target));
     if (hd_largest(view) <= same_place * scale)
         return hd_fail(error, HD_BAD_INPUT,

@@ -66,18 +66,18 @@ static void body_of_floor(Body *body, const HdFloor *floor) {
         add_axis(&body->edges, hd_normalize(hd_sub(body->point[(i + 1) % 4], body->point[i])));
 }
 
-typedef struct Shadow {
+typedef struct Projection {
     double low, high;
-} Shadow;
+} Projection;
 
-static Shadow shadow_of(const Body *body, HdVec3 axis) {
-    Shadow shadow = {(double)INFINITY, -(double)INFINITY};
+static Projection project(const Body *body, HdVec3 axis) {
+    Projection projection = {(double)INFINITY, -(double)INFINITY};
     for (int i = 0; i < body->point_count; i++) {
         const double along = hd_dot(body->point[i], axis);
-        shadow.low = along < shadow.low ? along : shadow.low;
-        shadow.high = along > shadow.high ? along : shadow.high;
+        projection.low = along < projection.low ? along : projection.low;
+        projection.high = along > projection.high ? along : projection.high;
     }
-    return shadow;
+    return projection;
 }
 
 /* Two bodies and the smallest overlap found so far. */
@@ -91,7 +91,7 @@ typedef struct Pair {
 /* Returns false if the axis separates the bodies. */
 static bool try_axis(Pair *pair, HdVec3 axis) {
     const double offset = hd_dot(pair->offset, axis);
-    const Shadow a = shadow_of(pair->a, axis), b = shadow_of(pair->b, axis);
+    const Projection a = project(pair->a, axis), b = project(pair->b, axis);
     pair->depth = fmin(pair->depth, fmin(a.high - b.low - offset, b.high - a.low + offset));
     return pair->depth > pair->touch;
 }
@@ -258,71 +258,71 @@ bool hd_contact_coincides(HdContact contact) {
 
 /* ---- separation ---- */
 
-typedef struct Parting {
+typedef struct Separation {
     const HdScene *scene;
     int level[HD_MAX_SOLIDS];   /* shrink of each solid, in steps */
     double step[HD_MAX_SOLIDS]; /* size of a step, the same for all solids of a group */
     int group[HD_MAX_SOLIDS];   /* number of the group of solids that touch, directly or through
                                    others */
-} Parting;
+} Separation;
 
-static void join_groups(Parting *parting, int count, int from, int to) {
-    const double step = fmax(parting->step[from], parting->step[to]);
-    const int old = parting->group[from], joined = parting->group[to];
+static void join_groups(Separation *separation, int count, int from, int to) {
+    const double step = fmax(separation->step[from], separation->step[to]);
+    const int old = separation->group[from], joined = separation->group[to];
     for (int i = 0; i < count; i++) {
-        if (parting->group[i] == old)
-            parting->group[i] = joined;
-        if (parting->group[i] == joined)
-            parting->step[i] = fmax(parting->step[i], step);
+        if (separation->group[i] == old)
+            separation->group[i] = joined;
+        if (separation->group[i] == joined)
+            separation->step[i] = fmax(separation->step[i], step);
     }
 }
 
-static void raise_step(Parting *parting, int solid, double scale) {
-    parting->step[solid] = fmax(parting->step[solid], step_share * scale);
+static void raise_step(Separation *separation, int solid, double scale) {
+    separation->step[solid] = fmax(separation->step[solid], step_share * scale);
 }
 
 /* Returns whether the floor or a light touches the solid, so that level 0 is taken. */
-static bool touches_fixed(Parting *parting, int index) {
-    const HdScene *scene = parting->scene;
+static bool touches_fixed(Separation *separation, int index) {
+    const HdScene *scene = separation->scene;
     const HdFloor *floor = &scene->floor;
     const HdSolid *solid = &scene->solids[index];
     int first;
     const bool at_floor = floor->present && hd_contact_coincides(hd_floor_contact(solid, floor));
     const bool at_light = hd_touching_lights(solid, scene->lights, scene->light_count, &first) > 0;
     if (at_floor)
-        raise_step(parting, index, scale_of(solid, hd_floor_centre(floor), 0.0));
+        raise_step(separation, index, scale_of(solid, hd_floor_centre(floor), 0.0));
     if (at_light)
-        raise_step(parting, index, solid->circumradius);
+        raise_step(separation, index, solid->circumradius);
     return at_floor || at_light;
 }
 
-static void place_solid(Parting *parting, int index) {
-    const HdSolid *solids = parting->scene->solids;
+static void choose_level(Separation *separation, int index) {
+    const HdSolid *solids = separation->scene->solids;
     bool taken[HD_MAX_SOLIDS + 1] = {false};
-    parting->group[index] = index;
-    taken[0] = touches_fixed(parting, index);
+    separation->group[index] = index;
+    taken[0] = touches_fixed(separation, index);
     for (int i = 0; i < index; i++) {
         if (!hd_contact_coincides(hd_solids_contact(&solids[i], &solids[index])))
             continue;
-        taken[parting->level[i]] = true;
-        raise_step(parting, index,
+        taken[separation->level[i]] = true;
+        raise_step(separation, index,
                    scale_of(&solids[index], solids[i].centre, solids[i].circumradius));
-        join_groups(parting, index + 1, i, index);
+        join_groups(separation, index + 1, i, index);
     }
-    while (taken[parting->level[index]])
-        parting->level[index]++;
+    while (taken[separation->level[index]])
+        separation->level[index]++;
 }
 
-void hd_scene_part_contacts(HdScene *scene) {
-    Parting parting = {.scene = scene};
+void hd_scene_separate_contacts(HdScene *scene) {
+    Separation separation = {.scene = scene};
     for (int i = 0; i < scene->solid_count; i++)
-        place_solid(&parting, i);
+        choose_level(&separation, i);
     for (int i = 0; i < scene->solid_count; i++) {
         HdSolid *solid = &scene->solids[i];
         HdPlatonic shape;
         hd_platonic(solid->kind, &shape);
         const double share =
-            parting.level[i] * parting.step[i] / (shape.inradius * solid->circumradius);
+            separation.level[i] * separation.step[i] / (shape.inradius * solid->circumradius);
         if (share <= max_inset_share)
             solid->circumradius *= 1.0 - share;
     }

@@ -42,6 +42,6 @@ bool hd_contact_coincides(HdContact contact);
    solid, in the scene's order, shrinks by the fewest steps of 2^-20 that separate it from the
    floor, from lights on its faces and from earlier solids. The floor does not move. A solid that
    would shrink by more than a 1024th stays as it is. */
-void hd_scene_part_contacts(HdScene *scene);
+void hd_scene_separate_contacts(HdScene *scene);
 
 #endif

@@ -232,7 +232,7 @@ static HdVec3 either_side(const Shown *shown) {
 }
 
 /* Returns the bound inside a solid: of its inner side and of objects that reach into it. */
-static HdVec3 seen_within(const Views *views, int solid) {
+static HdVec3 seen_inside(const Views *views, int solid) {
     HdVec3 most = views->shown[solid].inner;
     for (int i = 0; i < views->scene->solid_count + 2; i++)
         if (i != solid && views->near[solid][i])
@@ -242,7 +242,7 @@ static HdVec3 seen_within(const Views *views, int solid) {
 
 /* Returns the bound outside `object`, which is not met again. Solids add their inner side only if
    they may have points in common with it. */
-static HdVec3 seen_around(const Views *views, int object) {
+static HdVec3 seen_outside(const Views *views, int object) {
     const int solids = views->scene->solid_count;
     HdVec3 most = views->scene->background;
     for (int i = 0; i < solids; i++) {
@@ -256,7 +256,7 @@ static HdVec3 seen_around(const Views *views, int object) {
     return hd_maximum(most, either_side(&views->shown[solids + 1]));
 }
 
-static bool take_view(HdVec3 *seen, HdVec3 most) {
+static bool tighten(HdVec3 *seen, HdVec3 most) {
     HdVec3 before = *seen;
     *seen = hd_minimum(before, most);
     return seen->x < SETTLED * before.x || seen->y < SETTLED * before.y ||
@@ -264,15 +264,15 @@ static bool take_view(HdVec3 *seen, HdVec3 most) {
 }
 
 /* Runs one round; returns false if hardly any bound shrank. */
-static bool look_around(Views *views) {
+static bool update_bounds(Views *views) {
     const int solids = views->scene->solid_count;
     bool changed = false;
     show_surfaces(views);
     for (int i = 0; i < solids + 2; i++) {
-        HdVec3 around = seen_around(views, i);
-        HdVec3 within = i < solids ? seen_within(views, i) : around;
-        bool less_outside = take_view(&views->seen[i].outside, around);
-        bool less_inside = take_view(&views->seen[i].inside, within);
+        HdVec3 around = seen_outside(views, i);
+        HdVec3 within = i < solids ? seen_inside(views, i) : around;
+        bool less_outside = tighten(&views->seen[i].outside, around);
+        bool less_inside = tighten(&views->seen[i].inside, within);
         changed = changed || less_outside || less_inside;
     }
     return changed;
@@ -284,7 +284,7 @@ void hd_seen_bounds(const HdScene *scene, HdSeen *seen) {
     find_neighbours(&views);
     for (int i = 0; i < scene->solid_count + 2; i++)
         seen[i] = (HdSeen){most, most};
-    for (int round = 0; round < MAX_ROUNDS && look_around(&views); round++)
+    for (int round = 0; round < MAX_ROUNDS && update_bounds(&views); round++)
         ;
     for (int i = 0; i < scene->solid_count + 2; i++) {
         seen[i].outside = hd_minimum(most, hd_scale(seen[i].outside, MARGIN));

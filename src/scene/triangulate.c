@@ -82,7 +82,7 @@ static int end_of(const Work *work, int side) {
     return work->sides[work->sides[side].twin].from;
 }
 
-static void measure(Work *work, int number) {
+static void update_reach(Work *work, int number) {
     Facet *facet = &work->facets[number];
     int side = facet->side;
     facet->corner = work->points[work->sides[side].from];
@@ -95,7 +95,7 @@ static void measure(Work *work, int number) {
 }
 
 /* Makes a facet of each face. Sides 2e and 2e + 1 belong to edge e. */
-static bool start(Work *work, int material) {
+static bool start_facets(Work *work, int material) {
     const HdPlatonic *shape = &work->shape;
     int face_of[2 * HD_MAX_EDGES] = {0};
     bool is_done = true;
@@ -118,7 +118,7 @@ static bool start(Work *work, int material) {
                 work->sides[s].next = t;
     }
     for (int f = 0; f < shape->face_count && is_done; f++)
-        measure(work, f);
+        update_reach(work, f);
     return is_done;
 }
 
@@ -210,8 +210,8 @@ static bool cut(Work *work, int facet, const HalfSpace *border) {
     work->sides[before_out].next = inner;
     work->facets[facet].side = inner;
     work->facets[work->facet_count - 1].side = outer;
-    measure(work, facet);
-    measure(work, work->facet_count - 1);
+    update_reach(work, facet);
+    update_reach(work, work->facet_count - 1);
     return true;
 }
 
@@ -290,8 +290,8 @@ static HdVec3 direction_of(const Work *work, int edge) {
 
 /* Light k of an edge is at k + 1/2, and is the nearest from k to k + 1. */
 static HdVec3 point_of_edge(const Work *work, int edge, double k) {
-    const double place = work->shape.edge_length * (k / work->solid->lights.per_edge - 0.5);
-    return hd_add(middle_of_edge(work, edge), hd_scale(direction_of(work, edge), place));
+    const double along = work->shape.edge_length * (k / work->solid->lights.per_edge - 0.5);
+    return hd_add(middle_of_edge(work, edge), hd_scale(direction_of(work, edge), along));
 }
 
 /* Returns the unit vector in the face nearest to a direction. */
@@ -327,14 +327,14 @@ static void add_disc_sides(Work *work, HdVec3 centre, HdVec3 along, HdVec3 acros
    points to be near a side; all are, for a face's own sides are the nearest edges. */
 static bool carve_disc(Work *work, int face, int first, int edge, int light) {
     const HdVec3 normal = work->shape.face_normal[face], direction = direction_of(work, edge);
-    const HdVec3 place = point_of_edge(work, edge, light + 0.5);
+    const HdVec3 point = point_of_edge(work, edge, light + 0.5);
     double height = 0.0;
     if (!face_has_edge(work, face, edge))
-        height = hd_dot(hd_sub(place, middle_of_face(work, face)), normal);
+        height = hd_dot(hd_sub(point, middle_of_face(work, face)), normal);
     const double squared = work->disc_radius * work->disc_radius - height * height;
     if (!(squared > 0.0))
         return true;
-    const HdVec3 centre = hd_sub(place, hd_scale(normal, height));
+    const HdVec3 centre = hd_sub(point, hd_scale(normal, height));
     const HdVec3 along = along_face(work, face, direction);
     const double radius = work->widening * sqrt(squared);
     work->border_count = 0;
@@ -497,7 +497,7 @@ static HdStatus add_materials(HdMesh *mesh, const HdSolid *solid, bool has_discs
 static HdStatus make_solid(Work *work, HdMesh *mesh, int divisions, HdError *error) {
     HD_TRY(add_materials(mesh, work->solid, work->disc_radius > 0.0, error));
     bool is_done =
-        start(work, work->rim_width > 0.0 ? HD_SOLID_MATERIAL_RIM : HD_SOLID_MATERIAL_FACE);
+        start_facets(work, work->rim_width > 0.0 ? HD_SOLID_MATERIAL_RIM : HD_SOLID_MATERIAL_FACE);
     for (int f = 0; f < work->shape.face_count && is_done; f++)
         is_done = carve_face(work, f);
     if (!is_done || !fill_mesh(work, mesh))
@@ -595,7 +595,7 @@ HdStatus hd_triangulate_floor(HdMesh *mesh, const HdFloor *floor, int divisions,
    its pictures; its arrays have space for both. */
 
 /* Places the newest mesh. */
-static void place(HdScene *made, HdVec3 position) {
+static void add_instance(HdScene *made, HdVec3 position) {
     made->instances[made->instance_count++] = (HdInstance){
         .mesh = made->mesh_count++, .position = position, .scale = hd_vec3(1.0, 1.0, 1.0)};
 }
@@ -615,7 +615,7 @@ static HdStatus make_floor(HdScene *made, const HdScene *scene, int divisions, H
     const HdFloor *floor = &scene->floor;
     HdMesh *mesh = &made->meshes[made->mesh_count];
     HD_TRY(hd_triangulate_floor(mesh, floor, divisions, error));
-    place(made, hd_floor_centre(floor));
+    add_instance(made, hd_floor_centre(floor));
     mesh->materials[0].is_opaque_to_shadows = true;
     if (floor->texture.width == 0)
         return HD_OK;
@@ -624,8 +624,8 @@ static HdStatus make_floor(HdScene *made, const HdScene *scene, int divisions, H
     return copy_texture(&made->pictures[scene->picture_count], &floor->texture, error);
 }
 
-static HdStatus make(HdScene *made, const HdScene *scene, int disc_sides, int divisions,
-                     HdError *error) {
+static HdStatus build_meshes(HdScene *made, const HdScene *scene, int disc_sides, int divisions,
+                             HdError *error) {
     size_t own = (size_t)scene->solid_count + 1;
     made->meshes = calloc(own + (size_t)scene->mesh_count, sizeof *made->meshes);
     made->instances = calloc(own + (size_t)scene->instance_count, sizeof *made->instances);
@@ -635,14 +635,14 @@ static HdStatus make(HdScene *made, const HdScene *scene, int disc_sides, int di
     for (int s = 0; s < scene->solid_count; s++) {
         const HdSolid *solid = &scene->solids[s];
         HD_TRY(hd_triangulate_solid(&made->meshes[s], solid, disc_sides, divisions, error));
-        place(made, solid->centre);
+        add_instance(made, solid->centre);
     }
     if (scene->floor.present)
         HD_TRY(make_floor(made, scene, divisions, error));
     return hd_scene_build_meshes(made, error);
 }
 
-static void take(HdScene *scene, const HdScene *made) {
+static void install(HdScene *scene, const HdScene *made) {
     const int count = made->mesh_count;
     for (int i = 0; i < scene->mesh_count; i++)
         made->meshes[count + i] = scene->meshes[i];
@@ -666,9 +666,9 @@ static void take(HdScene *scene, const HdScene *made) {
 
 HdStatus hd_scene_triangulate(HdScene *scene, int disc_sides, int divisions, HdError *error) {
     HdScene made = {0};
-    HdStatus status = make(&made, scene, disc_sides, divisions, error);
+    HdStatus status = build_meshes(&made, scene, disc_sides, divisions, error);
     if (status == HD_OK)
-        take(scene, &made);
+        install(scene, &made);
     else
         hd_scene_drop_meshes(&made);
     return status;
