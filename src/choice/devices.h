@@ -35,8 +35,8 @@ typedef struct HdCandidates {
     char reasons[4096];     /* why backends and devices were rejected */
     char why[1024];         /* why that one is best; "": it is the first */
     char note[2048];        /* failures; "": none */
-    char unused_gpus[2048]; /* sentence on GPUs rejected for other reasons than the user's
-                          selection, with a remedy; "": none */
+    char unused_gpus[2048]; /* sentence on GPUs unused for other reasons than the selection; "":
+                               none */
 } HdCandidates;
 
 /* Job time of plain C, in s, below which no other device is started, */
@@ -77,13 +77,12 @@ typedef struct HdDeviceTeam {
    the fastest (hd_candidates_open) among GPUs if preferred, else among GPUs and plain C. If a GPU
    is preferred, no backend is named and there is no GPU, a note says so.
 
-   Or opens several: a list
-   as in "cuda:0,cuda:1,c:0", each entry as for one device, or "all": all of the named or of every
-   backend that support the options. "all" omits devices that cannot be opened, with a note if they
-   failed, and GPUs by OpenCL that the team has by CUDA. It also omits CPUs of backends other than
-   plain C unless their backend is named. Plain C leaves a core to each GPU. Fails if a device of a
-   list cannot be opened, and with HD_BAD_INPUT if one is named twice or several are not allowed. On
-   failure nothing is open. */
+   Or opens several: a list as in "cuda:0,cuda:1,c:0", each entry as for one device, or "all": all
+   of the named or of every backend that support the options. "all" omits devices that cannot be
+   opened, with a note if they failed, and GPUs by OpenCL that the team has by CUDA. It also omits
+   CPUs of backends other than plain C unless their backend is named. Plain C leaves a core to each
+   GPU. Fails if a device of a list cannot be opened, and with HD_BAD_INPUT if one is named twice or
+   several are not allowed. On failure nothing is open. */
 HdStatus hd_open_devices(HdDeviceTeam *team, const HdDeviceSelection *selection, HdError *error);
 
 void hd_close_devices(HdDeviceTeam *team);

@@ -40,8 +40,7 @@ typedef struct HdStoredFrame {
 
 typedef struct HdFrameStorePlan {
     const HdOutputPlan *outputs; /* settled */
-    HdResume
-        *resume; /* finished frames, which need no worker; the store reads them back for films */
+    HdResume *resume; /* finished frames need no worker; the store reads them for films */
     int width, height;
     int workers;  /* number of workers, 1 or more */
     double start; /* start of the run, by hd_monotonic_seconds */

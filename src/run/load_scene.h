@@ -12,8 +12,8 @@ const char *hd_scene_name(const char *path);
    mode. */
 HdStatus hd_read_classic(HdSceneFile *file, const char *path, int variant, HdError *error);
 
-/* Reads the scene file `path`, or standard input, "-", or the built-in scene, NULL. Sets the name,
-   and the folder unless `source` has the folder "". */
+/* Reads the scene file `path`, or standard input, "-", or the built-in scene, NULL. Supplies the
+   name and, for a file, the folder; `source` must have the folder "". */
 HdStatus hd_read_scene(HdSceneFile *file, const char *path, const HdSceneSource *source,
                        HdError *error);
 

@@ -39,8 +39,7 @@ typedef struct HdScenePlan {
 typedef struct HdDevicePlan {
     const char *backend, *device; /* names as in HdDeviceSelection */
     HdDeviceKind kind;
-    HdRenderOptions
-        render; /* options; by default the device's lanes, a thread for each core, float, strict */
+    HdRenderOptions render; /* default: the device's lanes, a thread for each core, float, strict */
 } HdDevicePlan;
 
 /* Outputs of frames, and statistics. */
