@@ -474,12 +474,12 @@ static HdStatus close_films(HdFrameStore *store, HdError *error) {
 static void report_interrupted(const HdFrameStore *store, HdError *error) {
     const HdOutputPlan *outputs = store->plan.outputs;
     const bool can_resume = outputs->can_resume && outputs->has_fingerprint;
-    int kept = 0; /* stored frames that another run would not render again */
+    int kept = 0; /* of the frames that were stored those that another run would not render again */
     char more[80] = "";
     for (int i = 0; i < store->stored && can_resume; i++)
         kept += hd_resume_keeps(store->plan.resume, outputs, i);
     if (kept > 0)
-        snprintf(more, sizeof more, "; the same command resumes, with %d of them finished", kept);
+        snprintf(more, sizeof more, "; the same command goes on, with %d of them finished", kept);
     hd_fail(error, HD_INTERRUPTED, "interrupted after %d of %d frames%s", store->stored,
             store->plan.resume->all->count, more);
 }

@@ -152,7 +152,7 @@ if has_ffmpeg; then
         # Ended within the third segment, it goes on there.
         stop_at_third TERM
         expect_exit 143 "${with_tools[@]}" "${film[@]}" -o "film.$ending"
-        expect_stderr_contains 'of 70 frames; the same command resumes, with 60 of them finished'
+        expect_stderr_contains 'of 70 frames; the same command goes on, with 60 of them finished'
         expect_segments "film.$ending" 2
         expect_exit 0 "${film[@]}" -o "film.$ending"
         expect_stderr_contains 'hedron: 60 of 70 frames were finished already'

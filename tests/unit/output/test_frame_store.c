@@ -114,8 +114,8 @@ TEST(an_interruption_tells_how_far_it_came) {
     for (int i = 0; i < 2; i++)
         give(take());
     assert_int_equal(hd_frame_store_end(store, HD_INTERRUPTED, &error), HD_INTERRUPTED);
-    assert_string_equal(error.message, "interrupted after 2 of 30 frames; the same command "
-                                       "resumes, with 2 of them finished");
+    assert_string_equal(error.message, "interrupted after 2 of 30 frames; the same command goes "
+                                       "on, with 2 of them finished");
     expect_files(2);
 }
 
