@@ -13,19 +13,19 @@
 
 /* ---- reasons ---- */
 
-/* Each reason once, though several devices may have it. */
+/* Adds each reason once, though several devices may have it. */
 static void add_reason(HdCandidates *candidates, const char *name, const char *reason) {
     if (strstr(candidates->reasons, reason) == NULL)
         hd_add_text(candidates->reasons, sizeof candidates->reasons, "; ", "%s: %s", name, reason);
 }
 
-/* A GPU that is there and not used is worth a word, unless the user's own wish rules out all. */
-static void report_passed(HdCandidates *candidates, const char *what, const char *reason,
-                          const char *help) {
+/* Reports an available but unused GPU, unless the user's selection excludes all. */
+static void report_unused_gpu(HdCandidates *candidates, const char *what, const char *reason,
+                              const char *help) {
     const HdDeviceSelection *selection = &candidates->selection;
     if (candidates->is_free && selection->kind != HD_ONLY_CPU && selection->options->lanes <= 1)
-        hd_add_text(candidates->passed, sizeof candidates->passed, "; ", "%s is passed over: %s%s",
-                    what, reason, help);
+        hd_add_text(candidates->unused_gpus, sizeof candidates->unused_gpus, "; ",
+                    "%s is not used: %s%s", what, reason, help);
 }
 
 /* ---- names ---- */
@@ -34,7 +34,7 @@ static bool is_number(const char *text) {
     return *text != '\0' && text[strspn(text, "0123456789")] == '\0';
 }
 
-/* "c:0" names the backend as well. */
+/* "c:0" names the backend too. */
 static HdStatus split_name(HdDeviceSelection *selection, HdError *error) {
     for (int i = 0; i < HD_BACKEND_COUNT && selection->device != NULL; i++) {
         const char *name = hd_backends[i]->name;
@@ -87,13 +87,13 @@ HdStatus hd_devices_named(const char *backend, const char *device, HdDevice *dev
 
 /* ---- finding ---- */
 
-static bool is_in_question(const HdDevice *device, const HdDeviceSelection *selection) {
+static bool is_eligible(const HdDevice *device, const HdDeviceSelection *selection) {
     return is_named(device, selection->device) &&
            (!device->is_cpu || device->backend->needs_no_driver || selection->backend != NULL ||
             selection->device != NULL || selection->kind == HD_PREFER_GPU);
 }
 
-/* `other` was found earlier, in the same backend or in one that comes first. */
+/* Ranks devices; `other` was found earlier, in the same or an earlier backend. */
 static bool is_better(const HdDevice *device, const HdDevice *other) {
     if (device->is_cpu != other->is_cpu)
         return other->is_cpu;
@@ -126,9 +126,9 @@ static void consider(HdCandidates *candidates, const HdDevice *device) {
     }
     snprintf(what, sizeof what, "%s:%d (%s)", device->backend->name, device->index, device->name);
     if (!device->is_cpu)
-        report_passed(candidates, what, reason,
-                      reason == device->not_strict ? "; --math fast would take it, for other bytes"
-                                                   : "");
+        report_unused_gpu(
+            candidates, what, reason,
+            reason == device->not_strict ? "; --math fast would take it, for other bytes" : "");
     add_reason(candidates, device->name, reason);
 }
 
@@ -138,13 +138,13 @@ static void search_backend(HdCandidates *candidates, const HdBackend *backend, H
     bool any = false;
     HdStatus status = hd_backend_enumerate(backend, devices, HD_MAX_DEVICES, &count, error);
     if (status == HD_FAILED)
-        report_passed(candidates, backend->name, error->message, "");
+        report_unused_gpu(candidates, backend->name, error->message, "");
     if (status != HD_OK) {
         add_reason(candidates, backend->name, error->message);
         return;
     }
     for (int i = 0; i < count; i++) {
-        if (!is_in_question(&devices[i], &candidates->selection))
+        if (!is_eligible(&devices[i], &candidates->selection))
             continue;
         any = true;
         consider(candidates, &devices[i]);
@@ -164,7 +164,7 @@ static void search(HdCandidates *candidates, HdError *error) {
             search_backend(candidates, hd_backends[i], error);
 }
 
-/* How many of the candidates are worth a comparison: the GPUs, and plain C where any will do. */
+/* Counts the candidates to compare: the GPUs, and plain C if any device will do. */
 static int count_compared(const HdCandidates *candidates) {
     int count = 0;
     while (count < candidates->count &&
@@ -173,8 +173,8 @@ static int count_compared(const HdCandidates *candidates) {
     return count;
 }
 
-/* How long plain C takes for a frame. A texture takes longer to upload than a small picture to
-   render, and little of its time. */
+/* Estimates the seconds per frame of plain C, without the texture: uploading it takes longer than
+   rendering a small picture and affects that little. */
 static HdStatus estimate(HdCandidates *candidates, double enough, HdError *error) {
     const HdTrialRequest selection = hd_trial_request(enough);
     HdScene plain = *candidates->selection.job->scene;
@@ -197,7 +197,7 @@ static double job_seconds(const HdCandidates *candidates) {
     return candidates->frame_seconds * candidates->selection.job->frame_count;
 }
 
-/* Plain C is asked how long it takes before any driver is: drivers take their time to start. */
+/* Estimates plain C before any driver starts, which takes a while. */
 static HdStatus estimate_any(HdCandidates *candidates, HdError *error) {
     HD_TRY(estimate(candidates, HD_AUTO_SMALL_SECONDS, error));
     if (job_seconds(candidates) > HD_AUTO_SMALL_SECONDS)
@@ -242,8 +242,8 @@ static bool is_faster(const HdCandidates *candidates, int index) {
            (candidates->best < 0 || list[index].seconds < list[candidates->best].seconds);
 }
 
-/* False where none was measured earlier, or none works. */
-static bool recall(HdCandidates *candidates) {
+/* Returns false if nothing was measured earlier, or no device works. */
+static bool load_measured(HdCandidates *candidates) {
     const HdDeviceSelection *selection = &candidates->selection;
     if (!hd_measured_get(candidates->list, candidates->compared, selection->options,
                          selection->job->scene))
@@ -265,8 +265,8 @@ static void explain_speed(HdCandidates *candidates, const char *when) {
                         1e3 * list[i].seconds, list[i].device.backend->name, list[i].device.index);
 }
 
-/* So small a picture that plain C renders it in a tenth of a second. The first of two frames warms
-   up. The fastest so far stays open. */
+/* Measures a picture so small that plain C renders it in a tenth of a second; the first of two
+   frames warms up. Keeps the fastest device so far open. */
 static HdStatus measure_one(HdCandidates *candidates, int index, HdError *error) {
     const double seconds = 0.1;
     const HdDeviceSelection *selection = &candidates->selection;
@@ -288,19 +288,19 @@ static HdStatus measure_one(HdCandidates *candidates, int index, HdError *error)
     return status;
 }
 
-/* What failed at work may do better another time, so that nothing is remembered then. */
+/* Remembers nothing if a device failed at work, for it may succeed another time. */
 static HdStatus measure_all(HdCandidates *candidates, HdError *error) {
     const HdDeviceSelection *selection = &candidates->selection;
     bool is_lasting = true;
-    HdError ignored; /* next time it is measured again */
+    HdError ignored; /* the next run measures again */
     for (int i = 0; i < candidates->compared; i++) {
         HdStatus status = measure_one(candidates, i, error);
         if (status == HD_INTERRUPTED || status == HD_BAD_INPUT)
             return status;
         if (status != HD_OK)
             hd_add_text(candidates->note, sizeof candidates->note, "; ", "%.600s", error->message);
-        bool is_passing = status == HD_FAILED || (status != HD_OK && hd_is_loss(error));
-        is_lasting = is_lasting && !is_passing;
+        bool is_temporary = status == HD_FAILED || (status != HD_OK && hd_is_loss(error));
+        is_lasting = is_lasting && !is_temporary;
     }
     if (candidates->best < 0)
         return HD_OK;
@@ -318,7 +318,7 @@ static HdStatus choose(HdCandidates *candidates, HdError *error) {
     candidates->compared = hd_min(candidates->compared, MAX_COMPARED);
     if (candidates->compared < 2)
         return HD_OK;
-    if (recall(candidates)) {
+    if (load_measured(candidates)) {
         explain_speed(candidates, ", measured earlier");
         return HD_OK;
     }
@@ -334,8 +334,8 @@ static HdStatus choose(HdCandidates *candidates, HdError *error) {
     return HD_OK;
 }
 
-/* The best, else those that follow it, else those before it. Kernels that are compiled for the
-   scene must prove themselves first; those compiled ahead get it when it is rendered. */
+/* Tries the best, then those after it, then those before it. Kernels compiled for the scene must
+   first pass their self-test; others get the scene when it is rendered. */
 static HdStatus open_next(HdCandidates *candidates, HdError *error) {
     const HdDeviceSelection *selection = &candidates->selection;
     const int first = hd_max(candidates->best, 0);
@@ -391,8 +391,8 @@ static void explain(HdDeviceTeam *team, const HdCandidates *candidates) {
     const HdDevice *chosen = &team->list[team->count - 1].device;
     const char *note = candidates->note, *why = candidates->why;
     /* Another backend may have the same card. */
-    if (note[0] == '\0' && strstr(candidates->passed, chosen->name) == NULL)
-        note = candidates->passed;
+    if (note[0] == '\0' && strstr(candidates->unused_gpus, chosen->name) == NULL)
+        note = candidates->unused_gpus;
     const bool is_wrong = strstr(candidates->reasons, "computes wrongly") != NULL &&
                           strstr(note, "computes wrongly") == NULL;
     if (selection->kind == HD_PREFER_GPU && selection->backend == NULL && chosen->is_cpu)
@@ -405,7 +405,7 @@ static void explain(HdDeviceTeam *team, const HdCandidates *candidates) {
                  chosen->backend->name, chosen->name);
     snprintf(team->why, sizeof team->why, "%s%s%s",
              why[0] != '\0' ? why : choice_reason(selection, chosen),
-             candidates->reasons[0] != '\0' ? "; passed over: " : "", candidates->reasons);
+             candidates->reasons[0] != '\0' ? "; not used: " : "", candidates->reasons);
 }
 
 static HdStatus open_one(HdDeviceTeam *team, const HdDeviceSelection *selection, HdError *error) {
@@ -428,7 +428,7 @@ static HdStatus check_entry(const HdDeviceTeam *team, const HdDeviceSelection *s
                        "cuda:0,cuda:1,c:0",
                        selection->device);
     if (strcmp(entry, "all") == 0)
-        return hd_fail(error, HD_BAD_INPUT, "--device is '%s', but 'all' stands alone",
+        return hd_fail(error, HD_BAD_INPUT, "--device is '%s', expected 'all' without others",
                        selection->device);
     if (team->count == HD_MAX_WORKERS)
         return hd_fail(error, HD_BAD_INPUT, "--device names more than %d devices",
@@ -473,7 +473,7 @@ static HdStatus open_list(HdDeviceTeam *team, const HdDeviceSelection *selection
 
 /* ---- a team of all ---- */
 
-/* OpenCL has the GPUs that CUDA has. */
+/* Returns whether the team has the device's GPU by CUDA. */
 static bool is_there_already(const HdDeviceTeam *team, const HdDevice *device) {
     for (int i = 0; i < team->count; i++)
         if (device->nvidia_arch > 0 && team->list[i].device.backend != device->backend &&
@@ -502,7 +502,7 @@ static HdRenderOptions options_of(const HdDeviceTeam *team, const HdDevice *devi
     return own;
 }
 
-/* Fails with HD_INTERRUPTED alone: what else cannot be opened is left out. */
+/* Fails only with HD_INTERRUPTED; omits a device that cannot be opened. */
 static HdStatus add_device(HdDeviceTeam *team, const HdDevice *device,
                            const HdDeviceSelection *selection, HdError *error) {
     const HdRenderOptions own = options_of(team, device, selection->options);
@@ -525,7 +525,7 @@ static HdStatus add_backend(HdDeviceTeam *team, const HdBackend *backend,
                             const HdDeviceSelection *selection, HdError *error) {
     HdDevice devices[HD_MAX_DEVICES];
     int count = 0;
-    /* Nobody need have every backend. */
+    /* Missing backends are normal. */
     if (hd_backend_enumerate(backend, devices, HD_MAX_DEVICES, &count, error) != HD_OK &&
         selection->backend != NULL)
         snprintf(team->note, sizeof team->note, "%s: %.*s", backend->name,

@@ -69,7 +69,7 @@ static HdStatus render(HdRenderer *renderer, const HdScene *scene, const HdCamer
 
 static HdStatus render_share(HdRenderer *renderer, const HdJob *job, double share, int times,
                              HdTrial *trial, HdError *error) {
-    HdScene small = *job->scene; /* what it owns stays with the other */
+    HdScene small = *job->scene; /* still owned by the original */
     HdCamera camera;
     small.width = scaled(job->scene->width, sqrt(share));
     small.height = scaled(job->scene->height, sqrt(share));
@@ -85,7 +85,7 @@ static double count_samples(const HdScene *scene) {
     return (double)scene->samples_per_side * scene->samples_per_side * scene->width * scene->height;
 }
 
-/* Few samples come first, for thousands of lights make each one slow. */
+/* Starts with few samples, for thousands of lights make each one slow. */
 HdStatus hd_trial(HdRenderer *renderer, const HdJob *job, const HdTrialRequest *selection,
                   HdTrial *trial, HdError *error) {
     const double first_samples = 4096.0;
@@ -93,7 +93,7 @@ HdStatus hd_trial(HdRenderer *renderer, const HdJob *job, const HdTrialRequest *
                                           : fmin(1.0, first_samples / count_samples(job->scene));
     for (;;) {
         HD_TRY(render_share(renderer, job, share, selection->times, trial, error));
-        if (selection->share > 0.0 || share >= 1.0 || trial->seconds > selection->believed ||
+        if (selection->share > 0.0 || share >= 1.0 || trial->seconds > selection->trusted ||
             trial->frame_seconds * job->frame_count <= selection->enough)
             return HD_OK;
         share = fmin(1.0, 4.0 * share);
@@ -101,7 +101,7 @@ HdStatus hd_trial(HdRenderer *renderer, const HdJob *job, const HdTrialRequest *
 }
 
 HdTrialRequest hd_trial_request(double enough) {
-    return (HdTrialRequest){.believed = 0.02, .enough = enough, .times = 1};
+    return (HdTrialRequest){.trusted = 0.02, .enough = enough, .times = 1};
 }
 
 /* ---- results ---- */
@@ -122,7 +122,7 @@ static int count_planes(const HdScene *scene) {
     return planes;
 }
 
-/* Devices of one name and driver are alike, whatever their numbers. */
+/* Devices of one name and driver are equal, whatever their numbers. */
 static void write_key(const HdTeamDevice *devices, int count, const HdRenderOptions *options,
                       const HdScene *scene, char key[KEY_LENGTH]) {
     snprintf(key, KEY_LENGTH,
@@ -145,7 +145,7 @@ static void write_key(const HdTeamDevice *devices, int count, const HdRenderOpti
     }
 }
 
-/* A line for each device. */
+/* Writes a line for each device. */
 static void write_results(const HdTeamDevice *devices, int count, char text[RESULTS_LENGTH]) {
     text[0] = '\0';
     for (int i = 0; i < count; i++) {
@@ -195,15 +195,15 @@ bool hd_measured_get(HdTeamDevice *devices, int count, const HdRenderOptions *op
 
 /* ---- devices ---- */
 
-static bool keeps(int given, int chosen) {
+static bool agrees(int given, int chosen) {
     return given == 0 || given == chosen;
 }
 
 static bool makes_sense(const HdRenderOptions *chosen, const HdRenderOptions *given,
                         const HdDevice *device) {
-    return keeps((int)given->pipeline, (int)chosen->pipeline) &&
-           keeps(given->lanes, chosen->lanes) && keeps(given->block, chosen->block) &&
-           keeps(given->grid, chosen->grid) && keeps(given->registers, chosen->registers) &&
+    return agrees((int)given->pipeline, (int)chosen->pipeline) &&
+           agrees(given->lanes, chosen->lanes) && agrees(given->block, chosen->block) &&
+           agrees(given->grid, chosen->grid) && agrees(given->registers, chosen->registers) &&
            hd_render_options_are_possible(chosen) &&
            hd_device_unsupported_reason(device, chosen) == NULL;
 }
@@ -226,7 +226,7 @@ void hd_team_device_close(HdTeamDevice *member) {
     member->renderer = NULL;
 }
 
-/* A candidate must be that much faster than the best so far, so that noise decides nothing. */
+/* Ratio by which a candidate must beat the best time so far, so that noise does not decide. */
 #define CLEARLY_FASTER 0.98
 
 typedef struct Tuner {
@@ -234,22 +234,21 @@ typedef struct Tuner {
     const HdDevice *device;
     const HdRenderOptions *options;
     const HdJob *job;
-    HdTrialRequest how; /* for all candidates; a share of 0: not known yet */
+    HdTrialRequest how; /* request for all candidates; share 0: not known yet */
 } Tuner;
 
 /* ---- tuning: one candidate ---- */
 
-/* As much of the frame as takes a fifth of a second: four times as many pixels must not take much
-   longer than that. Everything is rendered twice: the first time some drivers are still compiling.
- */
+/* Finds the share of the frame that takes a fifth of a second: four times as many pixels must not
+   take much longer. Renders everything twice, as some drivers still compile in the first run. */
 static HdStatus find_share(Tuner *tuner, HdRenderer *renderer, HdError *error) {
     const double picture_seconds = 0.2, all_seconds = 0.5;
-    const int least_times = 2, max_times = 40;
-    const HdTrialRequest selection = {.believed = picture_seconds / 4.0, .times = 2};
+    const int min_times = 2, max_times = 40;
+    const HdTrialRequest selection = {.trusted = picture_seconds / 4.0, .times = 2};
     HdTrial trial;
     HD_TRY(hd_trial(renderer, tuner->job, &selection, &trial, error));
     tuner->how.share = trial.share;
-    tuner->how.times = (int)fmax(least_times, fmin(max_times, all_seconds / trial.seconds));
+    tuner->how.times = (int)fmax(min_times, fmin(max_times, all_seconds / trial.seconds));
     return HD_OK;
 }
 
@@ -297,7 +296,7 @@ static void find_best(HdTuning *tuning) {
     }
 }
 
-/* Where others use the machine too, they do so for a while: what was slow may have been unlucky. */
+/* Repeats the fastest ones, for other load on the machine may have slowed them down for a while. */
 static HdStatus measure_again(Tuner *tuner, HdError *error) {
     const double near = 1.5;
     HdTuning *tuning = tuner->tuning;
@@ -329,7 +328,7 @@ static HdRenderOptions best_so_far(const Tuner *tuner) {
     return tuner->tuning->candidates[tuner->tuning->best].options;
 }
 
-/* The launch with each of the values for one of its members. */
+/* Tries the launch with each value of a member. */
 static HdStatus try_each(Tuner *tuner, HdRenderOptions *options, int *member, const int *values,
                          int count, HdError *error) {
     for (int i = 0; i < count; i++) {
@@ -364,7 +363,7 @@ static HdStatus try_pipelines(Tuner *tuner, HdError *error) {
 
 #define LISTED(number) number,
 
-/* All packets that the device takes but single rays. */
+/* Tries all packets that the device supports except single rays. */
 static HdStatus try_lanes(Tuner *tuner, HdError *error) {
     static const int lanes[] = {HD_LANE_COUNTS(LISTED)};
     int count = (int)(sizeof lanes / sizeof *lanes);
@@ -384,7 +383,7 @@ static HdStatus try_blocks(Tuner *tuner, HdError *error) {
                                       : HD_OK;
 }
 
-/* A few groups for each compute unit, which then take one item after the other. */
+/* Tries a few groups for each compute unit, which then process several items each. */
 static HdStatus try_grids(Tuner *tuner, HdError *error) {
     static const int groups_per_unit[] = {8, 32};
     HdRenderOptions options = best_so_far(tuner);

@@ -11,16 +11,16 @@
 #include "input/check.h"
 
 /* ---- tokens separated by white space. Messages name the line, the value and what was expected.
-   After the first failure nothing is read any more, so a list of reads needs no checks in between.
-   `what` names the value; it is left alone where there is none or a wrong one ---- */
+   After the first failure all reads do nothing, so a list of reads needs no checks in between.
+   `what` names the value; on failure the output is unchanged ---- */
 
 typedef struct Reader {
-    const char *text; /* need not end in a zero byte */
+    const char *text; /* needs no terminating zero */
     size_t size, position;
-    int line;          /* of the token read last; starts at 1 */
-    const char *name;  /* of the text, for messages */
-    bool hides_tokens; /* from messages: the text is somebody else's */
-    char where[32];    /* put before the names of values: "solid 2: ", or nothing */
+    int line;          /* line of the last token, from 1 */
+    const char *name;  /* name of the text in messages */
+    bool hides_tokens; /* messages quote no tokens, since the text may be private */
+    char where[32];    /* prefix of values' names: "solid 2: ", or empty */
     HdError *error;
     HdStatus status;
 } Reader;
@@ -29,7 +29,7 @@ static bool is_space(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-/* The start of a token, fit for a message. */
+/* Shortens and escapes a token for a message. */
 static const char *shown(const char *token, char out[44]) {
     const size_t taken = hd_escape(token, out, 41), length = strlen(out);
     snprintf(out + length, 4, "%s", token[taken] != '\0' ? "..." : "");
@@ -55,7 +55,8 @@ static void skip_space(Reader *reader) {
     }
 }
 
-/* False where there is none, which is an error, or where an error came before. */
+/* Reads a token. Returns false at the end of the text, which is an error, or after an earlier
+   error. */
 static bool read_token(Reader *reader, const char *what, const char *expected,
                        char token[HD_MAX_PATH]) {
     if (reader->status != HD_OK)
@@ -79,14 +80,14 @@ static bool read_token(Reader *reader, const char *what, const char *expected,
     return true;
 }
 
-/* Decimal notation only: strtod alone would take hexadecimal numbers, "nan" and "inf" too. */
+/* Parses decimal notation only: strtod alone would accept hexadecimal numbers, "nan" and "inf". */
 static bool is_decimal(const char *s, double *number) {
     char *end;
     *number = strtod(s, &end);
     return *end == '\0' && s[strspn(s, "0123456789+-.eE")] == '\0';
 }
 
-/* False where there is none, which is an error. */
+/* Returns false if there is no number, which is an error. */
 static bool next_number(Reader *reader, const char *what, double *number) {
     static const char *const expected = "a number";
     char token[HD_MAX_PATH];
@@ -99,14 +100,14 @@ static bool next_number(Reader *reader, const char *what, double *number) {
     return reader->status == HD_OK;
 }
 
-/* A finite number in decimal notation. */
+/* Reads a finite number in decimal notation. */
 static void read_number(Reader *reader, const char *what, double *value) {
     double number;
     if (next_number(reader, what, &number))
         *value = number;
 }
 
-/* A number from 0 to 1. */
+/* Reads a number from 0 to 1. */
 static void read_share(Reader *reader, const char *what, double *value) {
     double number;
     if (!next_number(reader, what, &number))
@@ -117,28 +118,28 @@ static void read_share(Reader *reader, const char *what, double *value) {
         refuse(reader, what, "is %.15g, expected a number from 0 to 1", number);
 }
 
-/* A whole number from `low` to `high`. */
+/* Reads an integer from `low` to `high`. */
 static void read_int(Reader *reader, const char *what, int low, int high, int *value) {
     char expected[64], *end;
     char token[HD_MAX_PATH];
     snprintf(expected, sizeof expected, "a whole number from %d to %d", low, high);
     if (!read_token(reader, what, expected, token))
         return;
-    const long number = strtol(token, &end, 10); /* one too long is the largest or least */
+    const long number = strtol(token, &end, 10); /* saturates if too long */
     if (*end != '\0' || number < low || number > high)
         fail_token(reader, what, token, expected);
     else
         *value = (int)number;
 }
 
-/* Any token, which names a file. */
+/* Reads any token as a file name. */
 static void read_path(Reader *reader, const char *what, char path[HD_MAX_PATH]) {
     read_token(reader, what, "a path", path);
 }
 
-/* Fails where a token is left. */
+/* Fails if a token is left. */
 static void read_end(Reader *reader) {
-    static const char *const what = "what follows the last value";
+    static const char *const what = "the text after the last value";
     char token[HD_MAX_PATH];
     if (reader->status != HD_OK)
         return;
@@ -149,7 +150,7 @@ static void read_end(Reader *reader) {
 
 /* ---- the scene ---- */
 
-/* What the input leaves open. Lengths are in circumradii of the solid. */
+/* Values that the input leaves open. Lengths are in circumradii of the solid. */
 static const double classic_diffuse = 0.5;
 static const double classic_floor_specular = 0.5;
 static const int classic_shininess = 64;
@@ -158,7 +159,7 @@ static const double classic_rim_colour = 0.03;
 static const double classic_rim_specular = 0.2;
 static const double classic_disc_radius = 0.02;
 static const double classic_disc_radiance = 4.0;
-static const double classic_edge_power = 0.7; /* of all edge lights of one solid together */
+static const double classic_edge_power = 0.7; /* total of a solid's edge lights */
 
 typedef void ReadComponent(Reader *reader, const char *what, double *value);
 
@@ -235,7 +236,7 @@ static void fill_solid(HdSolid *solid) {
 }
 
 static void read_solid(Reader *reader, HdSolidKind kind, int number, HdSolid *solid) {
-    /* So many on an edge reach the limit even on the solid with the fewest edges. */
+    /* Lights per edge that reach the limit even on the solid with the fewest edges. */
     static const int max_per_edge = HD_MAX_LIGHTS / 6;
     solid->kind = kind;
     solid->face = classic_material();
@@ -346,7 +347,7 @@ static const HdSolidKind variants[HD_CLASSIC_VARIANTS][HD_CLASSIC_SOLIDS] = {
     {HD_OCTAHEDRON, HD_DODECAHEDRON, HD_ICOSAHEDRON},
 };
 
-/* What begins a text behind characters of `before`; '\0': nothing. */
+/* Returns the first character that is not in `before`, or '\0'. */
 static char first_beyond(const char *before, const char *text, size_t size) {
     size_t start = 0;
     while (start < size && text[start] != '\0' && strchr(before, text[start]) != NULL)
@@ -367,7 +368,7 @@ HdStatus hd_classic_parse(HdSceneFile *input, const char *text, size_t size, con
     if (variant < 1 || variant > HD_CLASSIC_VARIANTS)
         return hd_fail(error, HD_BAD_INPUT, "the variant is %d, expected 1 to %d", variant,
                        HD_CLASSIC_VARIANTS);
-    if (text == NULL) /* an empty input may come without memory */
+    if (text == NULL) /* an empty input may have no memory */
         text = "";
     if (first_beyond(" \t\r\n\xef\xbb\xbf", text, size) == '{')
         return hd_fail(error, HD_BAD_INPUT,
@@ -381,7 +382,7 @@ HdStatus hd_classic_parse(HdSceneFile *input, const char *text, size_t size, con
     return reader.status;
 }
 
-/* The other way */
+/* Writing */
 
 static void print_number(FILE *out, double value) {
     char text[HD_NUMBER_SIZE];

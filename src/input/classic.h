@@ -9,7 +9,7 @@
      floor: four corners(12) texture-path tint(3) reflection
      number of lights (0 to 4), then each: position(3) colour(3)
      depth, square root of the number of rays per pixel
-   Which solids the three are is not part of the text: the variant, 1 to 10, tells. */
+   The variant, 1 to 10, which is not in the text, decides the kinds of the solids. */
 #ifndef HD_INPUT_CLASSIC_H
 #define HD_INPUT_CLASSIC_H
 
@@ -27,19 +27,18 @@ enum {
     HD_CLASSIC_DEFAULT_VARIANT = 4
 };
 
-/* Whether the text begins with a number, as every classic input does and no scene. */
+/* Returns whether the text begins with a number, as every classic input does and no scene. */
 bool hd_classic_may_be(const char *text, size_t size);
 
-/* Reads `size` bytes of text, which need not end in a zero byte, and fills in what the classic
-   input does not say (materials, rims, the light of the edges, linear curves). Messages call the
-   text `name`. Paths are as in the text, and the texture is not read. On failure `input` is left
-   empty. */
+/* Parses `size` bytes of text, which need no terminating zero. Fills in what the classic input
+   leaves open: materials, rims, edge lights, linear curves. `name` is the text's name in messages.
+   Keeps paths as written and does not read the texture. On failure `input` is empty. */
 HdStatus hd_classic_parse(HdSceneFile *input, const char *text, size_t size, const char *name,
                           int variant, HdError *error);
 
-/* Writes the same format; reading it back gives the same numbers. Fails with HD_BAD_INPUT where the
-   format cannot hold the scene: not three solids, no floor, more than four lights, or a path with
-   white space. Of materials and lights it keeps what the format has. */
+/* Writes the same format; it reads back as the same numbers. Fails with HD_BAD_INPUT if the format
+   cannot hold the scene: not three solids, no floor, more than four lights, or a path with white
+   space. Other properties of materials and lights are lost. */
 HdStatus hd_classic_print(FILE *out, const HdSceneFile *input, HdError *error);
 
 #endif

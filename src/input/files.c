@@ -13,9 +13,9 @@
 #include "system/interrupt.h"
 #include "system/machine.h"
 
-/* Built in, and the texture */
+/* Built-in scenes and textures */
 
-/* Made by the build from default.json, starter.json, classic.in and floor.png of scenes/. */
+/* Generated from default.json, starter.json, classic.in and floor.png of scenes/. */
 extern const unsigned char hd_default_scene[], hd_starter_scene[], hd_default_classic[],
     hd_default_texture[];
 extern const size_t hd_default_scene_size, hd_starter_scene_size, hd_default_classic_size,
@@ -61,16 +61,16 @@ typedef struct Loader {
     HdScene *scene;
     HdProblems *problems, *notes;
     HdError *error;
-    double capacity;  /* bytes that files may still take */
-    int *first_entry; /* for each mesh the number of the first entry that names it */
+    double capacity;  /* bytes left for files */
+    int *first_entry; /* number of the first entry of each mesh */
 } Loader;
 
 static HdStatus fail_memory(const Loader *loader) {
     return HD_NO_ROOM(loader->error, "the scene's meshes");
 }
 
-/* What is wrong with a file is told along with the rest of the scene; anything else ends it. */
-static HdStatus told(Loader *loader, HdStatus status, int mesh) {
+/* Reports a file's problem along with the scene's other ones; any other failure ends loading. */
+static HdStatus report_mesh(Loader *loader, HdStatus status, int mesh) {
     if (status != HD_BAD_INPUT)
         return status;
     hd_problem(loader->problems, "meshes[%d].file: %s", loader->first_entry[mesh],
@@ -78,13 +78,13 @@ static HdStatus told(Loader *loader, HdStatus status, int mesh) {
     return HD_OK;
 }
 
-/* Which entries share a mesh */
+/* Assignment of entries to meshes */
 
 static int compare_numbers(double a, double b) {
     return (a > b) - (a < b);
 }
 
-/* An entry whose file was refused has none. */
+/* A rejected entry has no file. */
 static const char *file_of(const HdMeshEntry *entry) {
     return entry->file != NULL ? entry->file : "";
 }
@@ -97,7 +97,7 @@ static int compare_meshes(const HdMeshEntry *a, const HdMeshEntry *b) {
                                            : 0;
 }
 
-/* Entries of one mesh in their order. */
+/* Orders entries of one mesh as in the scene. */
 static int compare_entries(const void *a, const void *b) {
     const HdMeshEntry *first = *(const HdMeshEntry *const *)a;
     const HdMeshEntry *second = *(const HdMeshEntry *const *)b;
@@ -105,7 +105,7 @@ static int compare_entries(const void *a, const void *b) {
     return meshes != 0 ? meshes : (first > second) - (first < second);
 }
 
-/* Numbers meshes in the order in which entries name them. `sorted` has room for all entries. */
+/* Numbers meshes in the order of their first entries. `sorted` has space for all entries. */
 static void number_meshes(Loader *loader, const HdMeshEntry **sorted) {
     const HdMeshEntry *entries = loader->file->mesh_entries;
     HdInstance *instances = loader->scene->instances;
@@ -188,7 +188,7 @@ static HdStatus read_meshes(Loader *loader) {
         if (hd_interrupt_signal() != 0)
             return hd_fail(loader->error, HD_INTERRUPTED, "interrupted while reading meshes");
         if (entry->file != NULL)
-            HD_TRY(told(loader, read_mesh(loader, &scene->meshes[i], entry), i));
+            HD_TRY(report_mesh(loader, read_mesh(loader, &scene->meshes[i], entry), i));
     }
     return HD_OK;
 }
@@ -206,7 +206,7 @@ static HdStatus read_picture(Loader *loader, const char *path, int *number) {
     const HdStatus status = hd_texture_read(&picture->texture, path, HD_CURVE_SRGB, loader->error);
     *number = -1;
     if (status == HD_BAD_INPUT) {
-        hd_problem(loader->notes, "%s; materials with this texture keep their colour alone",
+        hd_problem(loader->notes, "%s; materials with this texture use their colour only",
                    loader->error->message);
         return HD_OK;
     }
@@ -216,10 +216,10 @@ static HdStatus read_picture(Loader *loader, const char *path, int *number) {
     *number = loader->scene->picture_count++;
     loader->capacity -= pixels * 3 * sizeof *picture->texture.texels;
     if (loader->capacity < 0.0)
-        hd_problem(loader->problems,
-                   "meshes: their files up to the texture %s take more memory than they may: one "
-                   "of %d parts of what this machine has",
-                   path, HD_MESH_MEMORY_PART);
+        hd_problem(
+            loader->problems,
+            "meshes: the files up to the texture %s need more memory than 1/%d of this machine's",
+            path, HD_MESH_MEMORY_PART);
     return HD_OK;
 }
 
@@ -252,7 +252,7 @@ static HdStatus load_pictures(Loader *loader) {
     return status;
 }
 
-/* The whole */
+/* Loading */
 
 static HdStatus load(Loader *loader) {
     HdSceneChecker checker = {.problems = loader->problems, .naming = HD_NAMING_JSON};

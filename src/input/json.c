@@ -43,7 +43,7 @@ static bool has_comma_before(const char *text, size_t end) {
     return end > 0 && text[end - 1] == ',';
 }
 
-/* The word, or what begins like a number, that ends there. */
+/* Returns a hint for the word or number that ends at `end`. */
 static const char *hint_of_word(const char *text, size_t end) {
     static const char *const words[] = {"true", "false", "null", "none", "nil"};
     static const char *const numbers[] = {"nan", "inf", "infinity"};
@@ -169,10 +169,10 @@ bool hd_json_memory_failed(void) {
     return atomic_load(&failed);
 }
 
-/* ---- what commands print ---- */
+/* ---- output of commands ---- */
 
 json_t *hd_json_device_text(const char *bytes) {
-    json_t *text = json_string(bytes); /* refuses what is no UTF-8 */
+    json_t *text = json_string(bytes); /* rejects invalid UTF-8 */
     if (text != NULL)
         return text;
     size_t length = strlen(bytes);

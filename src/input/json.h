@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What the parser of JSON does not do: a limit of values (a small text may ask for much memory),
-   hints for what people take for JSON, telling lack of memory from wrong text, and the words for
-   values and their places in messages. */
+/* Complements the JSON parser: a limit of values, since a small text may need much memory; hints
+   for common mistakes; detection of lack of memory; wording of values and places. */
 #ifndef HD_INPUT_JSON_H
 #define HD_INPUT_JSON_H
 
@@ -17,19 +16,19 @@ enum {
     HD_JSON_PATH_SIZE = 512
 };
 
-/* Fails with HD_BAD_INPUT, the line and column of a place in the text, and what is wrong there. */
+/* Fails with HD_BAD_INPUT and a message with the position's line and column. */
 HdStatus hd_json_fail_at(const char *text, size_t position, const char *name, const char *what,
                          HdError *error);
 
-/* Refuses, with line and column, text in which more values could be: what opens an array or object
-   has a first one at most, and each comma stands before another one. */
+/* Fails, with line and column, if the text may have too many values: one per opening bracket and
+   one per comma. */
 HdStatus hd_json_check_count(const char *text, size_t size, const char *name, HdError *error);
 
-/* A short remedy for the mistake that ends at `position`, where a parser gave up; NULL where none
-   is known. */
+/* Returns a short remedy for the mistake before `position`, where a parser stopped; NULL if none is
+   known. */
 const char *hd_json_hint(const char *text, size_t position);
 
-/* `text` in double quotes, escaped, and cut where it is long. */
+/* Writes `text` in double quotes, escaped, and shortened if long. */
 void hd_quoted(const char *text, char out[HD_WORDS_SIZE]);
 
 /* Writes the keys of an object as messages list them: "\"glass\", \"frame\" and 3 more"; "" if it
@@ -37,35 +36,36 @@ void hd_quoted(const char *text, char out[HD_WORDS_SIZE]);
 enum { HD_KEYS_SIZE = 512 };
 void hd_json_list_keys(const json_t *object, char out[HD_KEYS_SIZE]);
 
-/* What follows "is": "-1", "a string, \"blue\"", "an array of 2 elements". */
+/* Describes a value, to follow "is": "-1", "a string, \"blue\"", "an array of 2 elements". */
 void hd_json_words(const json_t *value, char out[HD_WORDS_SIZE]);
 
-/* Places are spelled solids[1].rim, materials["blue glass"].colour. These go on to a key, or to an
-   element of an array; what does not fit is cut. They return the length to go back to. */
+/* Extend a path by a key or an index, as in solids[1].rim and materials["blue glass"].colour; what
+   does not fit is cut. Return the length to go back to. */
 size_t hd_json_path_key(char path[HD_JSON_PATH_SIZE], const char *key);
 size_t hd_json_path_index(char path[HD_JSON_PATH_SIZE], size_t index);
 
-/* Begins to watch the allocations of jansson on all threads; again: forgets what failed before. */
+/* Starts watching jansson's allocations on all threads, or clears an earlier failure. */
 void hd_json_memory_watch(void);
 
-/* True where one failed since. */
+/* Returns whether an allocation has failed since. */
 bool hd_json_memory_failed(void);
 
-/* A new JSON string. Where the bytes are no UTF-8, each that is not ASCII becomes a question mark.
-   NULL where there is no memory. */
+/* Returns a new JSON string. If the bytes are not UTF-8, each non-ASCII byte becomes a question
+   mark. NULL if memory is short. */
 json_t *hd_json_device_text(const char *bytes);
 
-/* The same; JSON's null for NULL and "". */
+/* Does the same; JSON's null for NULL and "". */
 json_t *hd_json_text_or_null(const char *bytes);
 
-/* JSON's null unless it is positive. */
+/* Returns JSON's null unless the count is positive. */
 json_t *hd_json_count_or_null(int count);
 
-/* Appends, takes both and returns the list: NULL where either is, or there is no memory. */
+/* Appends; consumes both references and returns the list. NULL if either is NULL or memory is
+   short. */
 json_t *hd_json_append(json_t *list, json_t *item);
 
-/* Prints `root`, which it takes, on standard output. NULL stands for what could not be put together
-   for want of memory: no room for `what`. */
+/* Prints `root`, which it consumes, on standard output. NULL means that memory was short: the error
+   names `what`. */
 HdStatus hd_json_print(json_t *root, const char *what, HdError *error);
 
 #endif

@@ -19,7 +19,7 @@
 #include "system/path.h"
 
 typedef struct NamedMaterial {
-    const char *name; /* of the tree */
+    const char *name; /* name in the tree */
     HdMaterial material;
     bool is_used;
 } NamedMaterial;
@@ -29,12 +29,12 @@ typedef struct Reader {
     HdError *error;
     HdStatus status;
     NamedMaterial *materials;
-    json_t *numbers; /* of the materials, by their names, once all are read */
+    json_t *numbers; /* number of each material by name, once all are read */
     int material_count;
-    bool knows_materials; /* otherwise no name of one can be checked */
+    bool knows_materials; /* validity of the list; if false, names are not checked */
 } Reader;
 
-static void leave_to(Reader *reader, size_t length) {
+static void truncate_path(Reader *reader, size_t length) {
     reader->report.path[length] = '\0';
 }
 
@@ -46,8 +46,8 @@ static void read_object(Reader *reader, const HdObjectType *type, const json_t *
 
 /* Numbers */
 
-/* Each reads what the value says to `out`. False, and `out` as it was, where it is not what the
-   field expects, which it then tells. */
+/* Reads the value's numbers into `out`. If the value is not what the field expects, reports it,
+   leaves `out` unchanged and returns false. */
 typedef bool ReadNumbers(Reader *reader, const HdField *field, const json_t *value, double *out);
 
 static bool refuse(Reader *reader, const HdField *field, const json_t *value, int parts) {
@@ -87,14 +87,14 @@ static bool read_vector(Reader *reader, const HdField *field, const json_t *valu
         parts[i] = json_number_value(part);
         if (!is_in_range(field, part))
             is_read = refuse(reader, field, part, 1);
-        leave_to(reader, length);
+        truncate_path(reader, length);
     }
     if (is_read)
         memcpy(out, parts, sizeof parts);
     return is_read;
 }
 
-/* One number is the same for every axis. */
+/* Reads a vector or one number for every axis. */
 static bool read_scale(Reader *reader, const HdField *field, const json_t *value, double *out) {
     if (json_array_size(value) == 3)
         return read_vector(reader, field, value, out);
@@ -104,7 +104,7 @@ static bool read_scale(Reader *reader, const HdField *field, const json_t *value
     return true;
 }
 
-/* Numbers by their value: 16.0 is 16. */
+/* Compares numbers by value: 16.0 is 16. */
 static bool is_choice(const char *choice, const json_t *value) {
     const char *word = json_string_value(value);
     if (hd_choice_is_number(choice))
@@ -137,7 +137,7 @@ static void read_numbers(Reader *reader, const HdField *field, const json_t *val
 
 /* Lists */
 
-/* Whether the value is an array with as many elements as the field may have. */
+/* Returns whether the value is an array with a valid element count. */
 static bool check_count(Reader *reader, const HdField *field, const json_t *value) {
     char expected[HD_EXPECTED_SIZE];
     const size_t count = json_array_size(value);
@@ -157,10 +157,11 @@ static void read_vectors(Reader *reader, const HdField *field, const json_t *val
         return;
     for (size_t i = 0; i < count; i++) {
         const size_t length = hd_json_path_index(reader->report.path, i);
-        double parts[3] = {vectors[0].x, vectors[0].y, vectors[0].z}; /* should it be refused */
+        double parts[3] = {vectors[0].x, vectors[0].y,
+                           vectors[0].z}; /* used if the value is rejected */
         read_vector(reader, field, json_array_get(value, i), parts);
         vectors[i] = hd_vec3(parts[0], parts[1], parts[2]);
-        leave_to(reader, length);
+        truncate_path(reader, length);
     }
     if (field->count_offset != 0)
         *(int *)(void *)((char *)owner + field->count_offset) = (int)count;
@@ -168,8 +169,7 @@ static void read_vectors(Reader *reader, const HdField *field, const json_t *val
 
 /* Words */
 
-/* Fewer than HD_MAX_PATH bytes, and no control characters, which no name of a file has by intent.
- */
+/* Accepts fewer than HD_MAX_PATH bytes without control characters. */
 static bool check_file_name(HdSceneReport *report, const json_t *value) {
     const size_t length = json_string_length(value);
     if (length >= HD_MAX_PATH) {
@@ -196,7 +196,7 @@ static void read_text(Reader *reader, const HdField *field, const json_t *value,
     copy_text(reader, field, value, place_of(field, owner));
 }
 
-/* A relative path counts from the folder of the scene. False where there is no room for it. */
+/* Makes a relative path start at the scene's folder. Returns false if it gets too long. */
 static bool place_file(Reader *reader, char path[HD_MAX_PATH]) {
     const char *folder = reader->report.source->folder;
     if (folder[0] == '\0' || !hd_texture_path_is_relative(path))
@@ -235,13 +235,13 @@ static void read_file(Reader *reader, const HdField *field, const json_t *value,
         fail_memory(reader);
 }
 
-/* Its number; -1: there is none. */
+/* Returns the material's number, or -1. */
 static int find_material(const Reader *reader, const char *name) {
     const json_t *number = json_object_get(reader->numbers, name);
     return number != NULL ? (int)json_integer_value(number) : -1;
 }
 
-/* Looking for what may be meant takes long among many names, and is for readers. */
+/* Skips the costly search for similar names if no reader needs it. */
 static void report_unknown_material(Reader *reader, const HdField *field, const json_t *value) {
     HdNearest nearest = {.word = json_string_value(value)};
     for (int i = 0; i < reader->material_count; i++)
@@ -301,11 +301,11 @@ static void read_list(Reader *reader, const HdField *field, const json_t *value,
     for (size_t i = 0; i < count; i++) {
         const size_t length = hd_json_path_index(reader->report.path, i);
         read_object(reader, field->object, json_array_get(value, i), elements + i * size);
-        leave_to(reader, length);
+        truncate_path(reader, length);
     }
 }
 
-/* With one of the two given there is an inner side; the other is as outside. */
+/* If one of the two is given, there is an inner side; the other one is as outside. */
 static void settle_inner_side(HdMaterial *material, const json_t *json) {
     const bool reflects = json_object_get(json, "inner_reflection") != NULL;
     const bool transmits = json_object_get(json, "inner_transmission") != NULL;
@@ -315,8 +315,8 @@ static void settle_inner_side(HdMaterial *material, const json_t *json) {
         material->inner_transmission = material->transmission;
 }
 
-/* Here, so that the message names the material and comes once; what is wrong is set aside, lest the
-   check of the scene tells it again for each solid. */
+/* Checks shares here, so that one message names the material. Clears wrong values, or the scene's
+   check would report them again for each solid. */
 static void check_shares(Reader *reader, HdMaterial *material) {
     HdSceneChecker checker = {.problems = reader->report.problems};
     const int before = checker.problems->count;
@@ -351,7 +351,7 @@ static void read_materials(Reader *reader, const HdField *field, const json_t *v
         read_object(reader, field->object, json, &named->material);
         settle_inner_side(&named->material, json);
         check_shares(reader, &named->material);
-        leave_to(reader, length);
+        truncate_path(reader, length);
     }
     reader->numbers = json_object();
     for (int i = 0; i < reader->material_count; i++)
@@ -382,7 +382,7 @@ static void reset_object(const HdObjectType *type, void *owner) {
     }
 }
 
-/* The value of the field, if it is there and may be. */
+/* Returns the field's value if it is present and allowed. */
 static const json_t *find_value(Reader *reader, const HdField *field, const json_t *json) {
     char expected[HD_EXPECTED_SIZE];
     const json_t *value = json_object_get(json, field->key);
@@ -392,7 +392,7 @@ static const json_t *find_value(Reader *reader, const HdField *field, const json
     }
     if (value != NULL && field->instead_of != NULL &&
         json_object_get(json, field->instead_of) != NULL) {
-        hd_report(&reader->report, "is given beside \"%s\", expected only one of them",
+        hd_report(&reader->report, "is given together with \"%s\", expected only one of them",
                   field->instead_of);
         return NULL;
     }
@@ -413,15 +413,14 @@ static void read_object(Reader *reader, const HdObjectType *type, const json_t *
             *(bool *)(void *)((char *)owner + field->flag_offset) = true;
         if (value != NULL)
             read_field(reader, field, value, owner);
-        leave_to(reader, length);
+        truncate_path(reader, length);
     }
     hd_report_unknown_keys(&reader->report, type, json);
 }
 
 /* The scene */
 
-/* The path of an output, which may be empty, has an ending that says what to write, and a number
-   only where it may. */
+/* Checks that an output path is empty, or has a known ending and a number only if allowed. */
 static void check_output_path(HdSceneReport *report, const char *path) {
     char quoted[HD_WORDS_SIZE];
     HdError error;
@@ -444,7 +443,7 @@ static void check_output_path(HdSceneReport *report, const char *path) {
         hd_report(report, "cannot be used: %s", error.message);
 }
 
-/* The path of a texture, which may be empty, names no part that the program lacks. */
+/* Checks that a texture path, if any, uses only formats of this build. */
 static bool check_texture_path(HdSceneReport *report, const char *path) {
     static const char built_in[] = "builtin:";
     char quoted[HD_WORDS_SIZE];
@@ -481,9 +480,9 @@ static void read_scene(Reader *reader, HdSceneFile *file, const json_t *root) {
     free(reader->materials);
 }
 
-/* Fills `file`, which must be empty, and adds everything that is wrong to `problems`: what the
-   table of fields refuses, which is left at its default, and then what is wrong in the rest as a
-   whole. Fails only for lack of memory. */
+/* Fills `file`, which must be empty, and adds all problems to `problems`: first values that the
+   table of fields rejects, which keep their defaults, then conflicts between the others. Fails only
+   if memory is short. */
 static HdStatus read_and_check(HdSceneFile *file, const json_t *root, const HdSceneSource *source,
                                HdProblems *problems, HdError *error) {
     HdSceneChecker checker = {.problems = problems, .naming = HD_NAMING_JSON};
@@ -520,7 +519,8 @@ static bool is_mesh(const char *name) {
     return false;
 }
 
-/* Messages quote what they are about, which of a file that is no scene is nobody's business. */
+/* Returns whether the text looks like a scene. Messages quote it, and a file that is no scene may
+   be private. */
 static bool may_be_scene(const char *text, size_t size, const char *name) {
     size_t start = 0;
     while (start < size && strchr(" \t\r\n", text[start]) != NULL)
@@ -534,7 +534,7 @@ static HdStatus check_text(const char *text, size_t size, const char *name, HdEr
                        (int)HD_MAX_SCENE_BYTES);
     if (is_mesh(name))
         return hd_fail(error, HD_BAD_INPUT,
-                       "%s is no scene by its name: a mesh, as Wavefront OBJ, is part of one; see "
+                       "%s is a mesh by its ending, expected a scene; see "
                        "\"meshes\" in 'hedron help scene'",
                        name);
     if (size == 0)
@@ -547,11 +547,11 @@ static HdStatus check_text(const char *text, size_t size, const char *name, HdEr
     if (hd_classic_may_be(text, size))
         return hd_fail(error, HD_BAD_INPUT,
                        "%s: this looks like a classic input, which 'hedron convert FILE -o "
-                       "scene.json' makes a scene of",
+                       "scene.json' converts to a scene",
                        name);
     if (!may_be_scene(text, size, name))
         return hd_fail(error, HD_BAD_INPUT,
-                       "%s is no scene: neither has it the ending .json nor does it begin with {",
+                       "%s is not a scene: expected the ending .json or text that begins with {",
                        name);
     return hd_json_check_count(text, size, name, error);
 }
@@ -569,7 +569,7 @@ static HdStatus parse_json(json_t **root, const char *text, size_t size, const c
     return *root != NULL ? HD_OK : fail_syntax(&found, text, size, name, error);
 }
 
-/* Only memory and a signal are failures of their own here. */
+/* Loads the files; only lack of memory and a signal are failures of its own. */
 static HdStatus load_files(HdSceneFile *file, const HdSceneSource *source, HdProblems *problems,
                            HdError *error) {
     HdStatus status = hd_scene_file_load_texture(file, error);
@@ -580,8 +580,7 @@ static HdStatus load_files(HdSceneFile *file, const HdSceneSource *source, HdPro
     return hd_scene_file_load_meshes(file, problems, source->file_notes, error);
 }
 
-/* What the whole sequence asks of the output: a rendering may choose one frame, or another output.
- */
+/* Checks the whole sequence against the output; a rendering may override either. */
 static void check_output(const HdSceneFile *file, HdProblems *problems) {
     const char *path = file->output.path;
     HdError error;

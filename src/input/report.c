@@ -12,7 +12,7 @@
 
 /* Changes */
 
-/* One step of a path: a key, or, where that is empty, an index. */
+/* A step of a path: a key, or, if that is empty, an index. */
 typedef struct Step {
     char key[HD_MAX_PATH];
     size_t index;
@@ -20,12 +20,12 @@ typedef struct Step {
 
 typedef struct Walk {
     HdSceneChange change;
-    const char *at;       /* what is left of the path */
-    const char *end;      /* the sign = */
-    HdProblems *problems; /* NULL where nothing is told */
+    const char *at;       /* rest of the path */
+    const char *end;      /* its sign = */
+    HdProblems *problems; /* NULL: silent */
 } Walk;
 
-/* How messages begin that are about a change: "--set image.width=0: ". */
+/* Writes the prefix of messages about a change: "--set image.width=0: ". */
 static void name_change(HdSceneChange change, char out[256]) {
     char quoted[HD_WORDS_SIZE];
     hd_quoted(change, quoted);
@@ -59,7 +59,7 @@ static bool read_index(Walk *walk, Step *step) {
     return true;
 }
 
-/* A key in quotes may have any character but a quote. */
+/* Reads a key; one in quotes may have any character but a quote. */
 static bool read_key(Walk *walk, Step *step) {
     const bool is_quoted = *walk->at == '"';
     const char *key = walk->at + is_quoted;
@@ -72,7 +72,7 @@ static bool read_key(Walk *walk, Step *step) {
     return true;
 }
 
-/* The sign = that ends the path, not one in a quoted key; NULL where there is none. */
+/* Returns the = that ends the path, which is not in a quoted key, or NULL. */
 static const char *find_end(HdSceneChange change) {
     const char *c = change;
     while (*c != '\0' && *c != '=') {
@@ -83,7 +83,7 @@ static const char *find_end(HdSceneChange change) {
     return *c == '=' ? c : NULL;
 }
 
-/* The next step, which begins the path or follows a dot, or is an index; false where there is none.
+/* Reads the next step: the first key, one after a dot, or an index. Returns false if there is none.
  */
 static bool read_step(Walk *walk, Step *step) {
     const bool is_first = walk->at == walk->change;
@@ -102,8 +102,8 @@ static bool may_be_made(const Step *step, bool is_first) {
     return field != NULL && field->type == HD_FIELD_OBJECT && !hd_field_may_be_absent(field);
 }
 
-/* Complains unless `parent`, which the first `length` bytes name, can hold the step: an object for
-   a key, an array for an index of it. */
+/* Checks that `parent`, named by the first `length` bytes, is an object for a key or an array with
+   that index. */
 static bool check_parent(const Walk *walk, const json_t *parent, const Step *step, int length) {
     static const char root[] = "the scene";
     char words[HD_WORDS_SIZE], expected[64] = "an object";
@@ -163,7 +163,8 @@ static json_t *find_child(const Walk *walk, json_t *parent, const Step *step, in
     return child;
 }
 
-/* The value, a string where it is no JSON; NULL, and complains, where it is neither. */
+/* Parses the value as JSON, or else takes it as a string; reports it and returns NULL if it is
+   neither. */
 static json_t *read_value(const Walk *walk) {
     const char *text = walk->end + 1;
     json_error_t found;
@@ -215,7 +216,7 @@ void hd_scene_change_apply(json_t *root, HdSceneChange change, HdProblems *probl
     }
 }
 
-/* Spells the path of a change as messages do; false where it is not understood. */
+/* Writes the path of a change as messages spell it; returns false if it is malformed. */
 static bool spell_path(HdSceneChange change, char path[HD_JSON_PATH_SIZE]) {
     Walk walk = {.change = change, .at = change, .end = find_end(change)};
     Step step;
@@ -231,7 +232,7 @@ static bool spell_path(HdSceneChange change, char path[HD_JSON_PATH_SIZE]) {
     return path[0] != '\0';
 }
 
-/* Whether the value at `path`, spelled as in json/text.h, comes from the change. */
+/* Returns whether the change set the value at `path`, spelled as in json/text.h. */
 static bool change_made(HdSceneChange change, const char *path) {
     char changed[HD_JSON_PATH_SIZE];
     if (!spell_path(change, changed) || strncmp(changed, path, strlen(changed)) != 0)
@@ -307,8 +308,8 @@ void hd_report_mistaken(HdSceneReport *report, const json_t *value, const char *
     hd_report(report, "is %s; did you mean %s?", words, quoted);
 }
 
-/* What other programs call the things of a scene. A word may mean something else in each place;
- * only one of its names is there. */
+/* Names of scene objects in other programs. A word may have several meanings; each place has at
+   most one of them. */
 static const struct Synonym {
     const char *word, *name;
 } synonyms[] = {
@@ -360,8 +361,7 @@ static bool means(const char *word, const char *name) {
     return strcasecmp(word, name) == 0;
 }
 
-/* hd_nearest_offer, but a name that means the word, or is the word but for upper and lower case, is
-   nearer than any other. */
+/* Wraps hd_nearest_offer, but prefers a synonym, or the word in another case, to any other name. */
 static void offer_meant(HdNearest *nearest, const char *name) {
     if (!means(nearest->word, name)) {
         hd_nearest_offer(nearest, name);
@@ -387,7 +387,7 @@ static void offer_keys(HdNearest *nearest, const HdObjectType *type) {
         offer_meant(nearest, type->fields[i].key);
 }
 
-/* At the top people also write what belongs into one of the objects there. */
+/* Finds a key that belongs in one of the top-level objects. */
 static bool find_in_part(const HdObjectType *type, const char *key, char path[64]) {
     for (int i = 0; i < type->field_count; i++) {
         const HdField *part = &type->fields[i];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What is wrong with the JSON of a scene, told with its place, and the changes that a command line
-   makes to it: "solids[1].circumradius=2". */
+/* Reports problems in a scene's JSON with their place, and applies a command line's changes:
+   "solids[1].circumradius=2". */
 #ifndef HD_INPUT_REPORT_H
 #define HD_INPUT_REPORT_H
 
@@ -12,41 +12,41 @@
 #include "input/fields.h"
 #include "input/json.h"
 
-/* How JSON is read here: an integer is a number like others, however long it is. */
+/* Flags for reading scenes: an integer is a number like others, however long it is. */
 #define HD_JSON_FLAGS (JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL)
 
-/* Puts the value in its place in the tree. The object or array that holds it must be there, but for
-   the objects at the top that may be left out ("image"); an element of an array must be there
-   itself. Whether the scene knows such a key is checked later, with the rest of the file. */
+/* Sets the value in the tree. Its parent object or array must exist, except optional top-level
+   objects ("image"); an array element must exist itself. The reader checks later whether the scene
+   knows the key. */
 void hd_scene_change_apply(json_t *root, HdSceneChange change, HdProblems *problems);
 
 typedef struct HdSceneReport {
     const HdSceneSource *source;
     HdProblems *problems;
-    char path[HD_JSON_PATH_SIZE]; /* of the value that is read */
-    HdSceneChecker *checker;      /* of the whole scene, to which no part is known that is wrong */
+    char path[HD_JSON_PATH_SIZE]; /* path of the value being read */
+    HdSceneChecker *checker;      /* checker of the whole scene; learns which parts are wrong */
 } HdSceneReport;
 
-/* The problem of the value at the path, as "is -1, expected ..."; what comes from a change says so.
- */
+/* Reports a problem of the value at the path, as "is -1, expected ..."; names the change that set
+   it. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
 void hd_report(HdSceneReport *report, const char *format, ...);
 
-/* The value at the path is not what was expected. */
+/* Reports that the value at the path is not `expected`. */
 void hd_report_value(HdSceneReport *report, const json_t *value, const char *expected);
 
-/* The same with what the field expects; `parts` as in hd_field_expected. */
+/* Reports that the value is not what the field expects; `parts` as in hd_field_expected. */
 void hd_report_field(HdSceneReport *report, const HdField *field, const json_t *value, int parts);
 
-/* The value at the path is a word that seems to mean another one. */
+/* Reports that the value at the path is a word that seems to mean another one. */
 void hd_report_mistaken(HdSceneReport *report, const json_t *value, const char *meant);
 
-/* The value is none of the field's choices; tells the one that may be meant, or all of them. */
+/* Reports that the value is none of the field's choices; suggests one or lists all. */
 void hd_report_choice(HdSceneReport *report, const HdField *field, const json_t *value);
 
-/* Tells every key of the object at the path that its type does not know. */
+/* Reports each key of the object at the path that its type does not know. */
 void hd_report_unknown_keys(HdSceneReport *report, const HdObjectType *type, const json_t *json);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a scene file (docs/reference/scene.md) tells, and how it is read. */
+/* Contents of a scene file (docs/reference/scene.md), and its reader. */
 #ifndef HD_INPUT_SCENE_FILE_H
 #define HD_INPUT_SCENE_FILE_H
 
@@ -15,55 +15,51 @@
 
 enum { HD_DEFAULT_FRAMES_PER_SECOND = 30, HD_MAX_FRAMES_PER_SECOND = 240 };
 
-/* What becomes of the frames. */
+/* Output of the frames. */
 typedef struct HdOutputSettings {
-    char path[HD_MAX_PATH]; /* empty: not said */
+    char path[HD_MAX_PATH]; /* empty: not given */
     HdOutputStyle style;
 } HdOutputSettings;
 
-/* Which normals a mesh has. */
+/* Normals of a mesh. */
 typedef enum HdMeshNormals {
-    HD_NORMALS_FILE, /* those of its file, else it is flat */
+    HD_NORMALS_FILE, /* those of its file, else flat */
     HD_NORMALS_FLAT,
-    HD_NORMALS_SMOOTH /* hd_mesh_smooth makes them */
+    HD_NORMALS_SMOOTH /* made by hd_mesh_smooth */
 } HdMeshNormals;
 
-/* A mesh in its place, as the scene file tells it. Entries that agree in file, normals and crease
-   share a mesh. */
+/* A placed mesh of a scene file. Entries that agree in file, normals and crease share a mesh. */
 typedef struct HdMeshEntry {
-    char *file; /* owned; ready to open, "~" aside */
+    char *file; /* owned; path to open, "~" not expanded */
     HdMeshNormals normals;
-    double crease_degrees; /* of smooth normals */
-    HdInstance instance;   /* but for the number of its mesh */
+    double crease_degrees; /* crease angle of smooth normals */
+    HdInstance instance;   /* instance without the index of its mesh */
 } HdMeshEntry;
 
 typedef struct HdSceneFile {
-    int version;              /* of the format, of which there is one */
-    char schema[HD_MAX_PATH]; /* where the JSON Schema is, for editors; empty: not said */
-    HdScene scene;            /* hd_scene_file_load_texture loads the floor's texture, and
-                                 hd_scene_file_load_meshes the meshes, their instances and pictures */
+    int version;              /* format version; there is one */
+    char schema[HD_MAX_PATH]; /* location of the JSON Schema, for editors; empty: not given */
+    HdScene scene;            /* hd_scene_file_load_texture loads the floor's texture,
+                                 hd_scene_file_load_meshes the meshes, instances and pictures */
     int mesh_entry_count;
     HdMeshEntry *mesh_entries; /* owned */
     HdOutputSettings output;
-    char texture_path[HD_MAX_PATH]; /* empty: none; ready to open, "~" aside */
+    char texture_path[HD_MAX_PATH]; /* path to open, "~" not expanded; empty: none */
     HdCurve texture_curve;
 } HdSceneFile;
 
-/* One "--set" of the command line, "camera.field_of_view=40": the value is JSON, or, where it is
-   not, a string. What holds the value must be there, but for "image", "camera" and "output". */
+/* A "--set" of the command line, "camera.field_of_view=40"; the value is JSON, or else a string.
+   The parent object must exist, except "image", "camera" and "output". */
 typedef const char *HdSceneChange;
 
 typedef struct HdSceneSource {
-    const char *name;   /* for messages */
-    const char *folder; /* where relative paths of files count from; "": the current one */
-    const HdSceneChange *changes; /* applied before anything is checked; messages name them */
+    const char *name;             /* name in messages */
+    const char *folder;           /* base of relative paths; "": the current folder */
+    const HdSceneChange *changes; /* applied before any check; messages name them */
     int change_count;
-    bool loads_files; /* the texture and the meshes; tells what is wrong with them along with the
-                         rest */
-    HdProblems *file_notes; /* gets what of the files of meshes is not used, where they are loaded;
-                               NULL: nothing does */
-    HdProblems *notes;      /* gets what is seldom meant (notes.h), and the whole sequence is
-                               checked; NULL: neither */
+    bool loads_files;       /* load the texture and the meshes, and report problems with them */
+    HdProblems *file_notes; /* notes on unused contents of loaded mesh files; NULL: none */
+    HdProblems *notes; /* notes of notes.h and of a check of the whole sequence; NULL: neither */
 } HdSceneSource;
 
 static inline void hd_scene_file_free(HdSceneFile *file) {
@@ -76,14 +72,14 @@ static inline void hd_scene_file_free(HdSceneFile *file) {
 
 enum { HD_MAX_SCENE_BYTES = 32 << 20 };
 
-/* Reads a scene from `size` bytes of JSON, fills in every default, and checks all of it. Messages
-   begin with the name and tell every problem: with line and column where the text is not JSON or
-   repeats a key, otherwise with the JSON path, as "solids[1].circumradius is -1, expected ...",
-   behind "--set CHANGE: " where a change brought the value. On failure `file` is left empty. */
+/* Reads a scene from `size` bytes of JSON, fills in defaults, and checks it. The error begins with
+   the name and lists all problems. Invalid JSON and repeated keys have line and column. Other
+   problems have a JSON path, as in "solids[1].circumradius is -1, expected ...", after "--set
+   CHANGE: " if a change set the value. On failure `file` is empty. */
 HdStatus hd_scene_file_parse(HdSceneFile *file, const char *text, size_t size,
                              const HdSceneSource *source, HdError *error);
 
-/* The same from a file of at most HD_MAX_SCENE_BYTES, which gives the name and the folder. */
+/* Reads a file of at most HD_MAX_SCENE_BYTES, which supplies name and folder. */
 HdStatus hd_scene_file_read(HdSceneFile *file, const char *path, const HdSceneSource *source,
                             HdError *error);
 

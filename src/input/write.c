@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Field by field of the table; defaults are left out but where an object is complete. */
+/* Writes field by field of the table; omits defaults unless an object is complete. */
 #include "input/write.h"
 
 #include <errno.h>
@@ -12,17 +12,16 @@
 #include "base/hash.h"
 #include "base/text.h"
 
-/* JSON for people: an indent of 2, and three numbers that belong together on one line. jansson,
-   which prints what programs read (statistics, devices), would give every number of a vector a line
-   of its own. */
+/* JSON for people: an indent of 2, and the three numbers of a vector on one line. jansson, which
+   prints JSON for programs (statistics, devices), would put each number on a line of its own. */
 
-/* Start with the stream alone, or with the hash alone, which then goes on with the text. */
+/* A printer with either a stream or a hash, which it continues over the text. */
 typedef struct Printer {
-    FILE *out; /* NULL: nothing is printed */
+    FILE *out; /* NULL: print nothing */
     uint64_t hash;
     int depth;
-    bool has_elements; /* the innermost object or array has */
-    bool has_key;      /* the next value's key is written */
+    bool has_elements; /* elements in the innermost object or array */
+    bool has_key;      /* next value's key is written */
 } Printer;
 
 static void put_text(Printer *printer, const char *text) {
@@ -38,7 +37,7 @@ static void start_line(Printer *printer) {
         put_text(printer, "  ");
 }
 
-/* What stands between the value before and the key or value that comes now. */
+/* Writes the separator before the next key or value. */
 static void separate(Printer *printer) {
     if (printer->has_key) {
         printer->has_key = false;
@@ -67,7 +66,7 @@ static void put_quoted(Printer *printer, const char *text) {
     put_text(printer, "\"");
 }
 
-/* The key of the value that comes next. */
+/* Writes the key of the next value. */
 static void put_key(Printer *printer, const char *key) {
     separate(printer);
     put_quoted(printer, key);
@@ -75,7 +74,7 @@ static void put_key(Printer *printer, const char *key) {
     printer->has_key = true;
 }
 
-/* '{' or '[', and '}' or ']'. */
+/* Writes a bracket of an object or array. */
 static void put_open(Printer *printer, char bracket) {
     const char text[2] = {bracket, '\0'};
     separate(printer);
@@ -98,13 +97,13 @@ static void put_close(Printer *printer, char bracket) {
     printer->has_elements = true;
 }
 
-/* JSON as it is. */
+/* Writes JSON unchanged. */
 static void put_raw(Printer *printer, const char *json) {
     separate(printer);
     put_text(printer, json);
 }
 
-/* A string; `text` is UTF-8. */
+/* Writes a string; `text` is UTF-8. */
 static void put_string(Printer *printer, const char *text) {
     separate(printer);
     put_quoted(printer, text);
@@ -132,19 +131,20 @@ static void put_vector(Printer *printer, HdVec3 value) {
 
 typedef struct NamedMaterial {
     const HdMaterial *material;
-    uint64_t hash; /* by which it is known */
+    uint64_t hash; /* known by it */
     char name[32];
 } NamedMaterial;
 
 typedef struct Writer {
     Printer printer;
     int material_count;
-    NamedMaterial *materials; /* each differs from all others */
+    NamedMaterial *materials; /* all different */
 } Writer;
 
 static void write_object(Writer *writer, const HdObjectType *type, const void *owner);
 
-/* A hash takes everything by its value: it is of scenes too that no file can tell. */
+/* Returns whether this is for a hash, which includes everything by value, even if no file can hold
+   it. */
 static bool is_hashed(const Writer *writer) {
     return writer->printer.out == NULL;
 }
@@ -201,9 +201,9 @@ static void write_materials(Writer *writer, const HdField *field, const void *un
 
 /* Light */
 
-/* A light's intensity, three numbers, as a colour of 0..1 and a factor whose product is the same to
-   the bit. A power of two always does; beyond the largest that may stand there, and for a channel
-   that is 1e300 times darker than another, the product is rounded. */
+/* Returns the factor that makes a light's intensity a colour of 0..1, so that their product is
+   exact. A power of two always does. Beyond the largest allowed factor, or if channels differ by
+   more than 1e300, the product is rounded. */
 static double light_factor(HdVec3 light) {
     const double largest = fmax(light.x, fmax(light.y, light.z));
     if (largest <= 1.0)
@@ -220,9 +220,9 @@ static double light_factor(HdVec3 light) {
 
 /* Fields */
 
-/* What hd_field_set takes, but for paths. A hash takes light as it is. */
-static void take_numbers(const Writer *writer, const HdField *field, const void *owner,
-                         double out[3]) {
+/* Gets the numbers for hd_field_set, except paths. A hash uses light unchanged. */
+static void get_numbers(const Writer *writer, const HdField *field, const void *owner,
+                        double out[3]) {
     const void *place = place_of(field, owner);
     if (field->type == HD_FIELD_BOOLEAN) {
         out[0] = *(const bool *)place ? 1.0 : 0.0;
@@ -252,7 +252,7 @@ static void print_numbers(Printer *printer, const HdField *field, const double n
     else if (field->type == HD_FIELD_CHOICE)
         print_choice(printer, hd_field_choice(field, (int)numbers[0]));
     else if (hd_field_parts(field) == 1 || (field->type == HD_FIELD_SCALE && is_even))
-        put_number(printer, numbers[0]); /* of every axis */
+        put_number(printer, numbers[0]); /* same on every axis */
     else
         put_vector(printer, vector);
 }
@@ -261,7 +261,7 @@ typedef void WriteField(Writer *writer, const HdField *field, const void *owner)
 
 static void write_numbers(Writer *writer, const HdField *field, const void *owner) {
     double numbers[3] = {0.0, 0.0, 0.0};
-    take_numbers(writer, field, owner, numbers);
+    get_numbers(writer, field, owner, numbers);
     if (is_hashed(writer) && field->type == HD_FIELD_CHOICE)
         put_number(&writer->printer, numbers[0]);
     else
@@ -327,8 +327,7 @@ static void write_field(Writer *writer, const HdField *field, const void *owner)
     (write != NULL ? write : write_numbers)(writer, field, owner);
 }
 
-/* Whether reading nothing gives the same. Numbers are compared by their bits, lest 0 and -0 become
-   one. */
+/* Returns whether reading nothing gives the same. Compares bits, so that 0 and -0 differ. */
 static bool is_default(const Writer *writer, const HdField *field, const void *owner) {
     double numbers[3];
     if (hd_field_may_be_absent(field))
@@ -339,7 +338,7 @@ static bool is_default(const Writer *writer, const HdField *field, const void *o
         return false;
     if (field->type == HD_FIELD_PATH || hd_field_parts(field) == 0)
         return false;
-    take_numbers(writer, field, owner, numbers);
+    get_numbers(writer, field, owner, numbers);
     return memcmp(numbers, field->standard, (size_t)hd_field_parts(field) * sizeof *numbers) == 0;
 }
 
@@ -446,7 +445,7 @@ static void print_part(Printer *printer, const HdField *field) {
     print_object(printer, field->object);
 }
 
-/* A vector, or else an object or a number. */
+/* Prints the schema of a vector or else an object or a number. */
 static void print_either(Printer *printer, const HdField *field) {
     const bool is_path = field->type == HD_FIELD_PATH;
     put_open_at(printer, "oneOf", '[');
@@ -500,7 +499,7 @@ static void print_type(Printer *printer, const HdField *field) {
     of_type[field->type](printer, field);
 }
 
-/* Of what may be left out; what then is not there at all has none. */
+/* Prints the default of an optional field that has one. */
 static void print_default(Printer *printer, const HdField *field) {
     const bool is_object = field->object != NULL && field->type != HD_FIELD_PATH;
     if (field->required || hd_field_may_be_absent(field) || is_object)
@@ -537,7 +536,7 @@ static void print_required(Printer *printer, const HdObjectType *type) {
         put_close(printer, ']');
 }
 
-/* Keys that exclude each other; no object has more than one such pair. */
+/* Prints the exclusion of two keys; no object has more than one such pair. */
 static void print_exclusion(Printer *printer, const HdObjectType *type) {
     for (int i = 0; i < type->field_count; i++) {
         const HdField *field = &type->fields[i];
@@ -552,7 +551,7 @@ static void print_exclusion(Printer *printer, const HdObjectType *type) {
     }
 }
 
-/* What is between the braces of an object's schema. */
+/* Prints the inside of an object's schema. */
 static void print_object(Printer *printer, const HdObjectType *type) {
     print_pair(printer, "type", "object");
     put_key(printer, "additionalProperties");

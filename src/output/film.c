@@ -46,7 +46,7 @@ HdStatus hd_segments_find(HdSegments *segments, const HdOutputPlan *plan, const 
     if (!output->is_film)
         return HD_OK;
     HD_TRY(hd_output_file(output, 0, segments->film, error));
-    /* Whole seconds, so that the times of the frames are those of a film made in one go. */
+    /* Whole seconds, so that frame times equal those of a film made in one go. */
     const int rate = plan->style.frames_per_second;
     const int length = (HD_MIN_SEGMENT + rate - 1) / rate * rate;
     if (!plan->has_fingerprint || frames->count <= length)
@@ -107,12 +107,12 @@ void hd_segments_free(HdSegments *segments) {
 
 /* ---- the film ---- */
 
-/* A segment that got its last frame: FFmpeg ends, its frames are counted, it is synced and named.
- */
+/* A complete segment in its last steps: FFmpeg ends, its frames are counted, and it is synced and
+   named. */
 typedef struct Ending {
     pthread_t thread;
     bool has_thread;
-    HdVideo *video; /* NULL: nothing is ending */
+    HdVideo *video; /* NULL: none */
     int index;
     HdStatus status;
     HdError error;
@@ -122,11 +122,11 @@ struct HdFilm {
     HdSegments *segments;
     HdVideoPlan plan;
     HdDurability durability;
-    HdVideo *video; /* NULL: none is being made */
+    HdVideo *video; /* NULL: none in progress */
     Ending ending;
 };
 
-/* Starts the segment, or the film where it has none. */
+/* Starts the segment, or the film if it has none. */
 static HdStatus open_video(HdFilm *film, int index, HdError *error) {
     HdVideoPlan plan = film->plan;
     char path[HD_MAX_PATH];
@@ -137,7 +137,7 @@ static HdStatus open_video(HdFilm *film, int index, HdError *error) {
     return hd_video_open(&film->video, path, &plan, error);
 }
 
-/* The first segment from `index` on that is not whole; negative: there is none. */
+/* Returns the first missing segment from `index` on, or -1. */
 static int next_missing(const HdSegments *segments, int index) {
     while (index < segments->count && hd_segments_have(segments, index * segments->length))
         index++;
@@ -170,7 +170,7 @@ static void *end_video(void *data) {
     return NULL;
 }
 
-/* Waits for the segment that is ending, if one is. */
+/* Waits for the segment that is ending, if any. */
 static HdStatus wait_for_segment(HdFilm *film, HdError *error) {
     Ending *ending = &film->ending;
     if (ending->video == NULL)
@@ -185,8 +185,8 @@ static HdStatus wait_for_segment(HdFilm *film, HdError *error) {
     return ending->status;
 }
 
-/* The next one begins meanwhile, for this takes longer than many a frame. Where the system refuses
-   a thread it waits. */
+/* Ends the segment on a thread while the next one begins, for this may take longer than many
+   frames. If the system refuses a thread, blocks. */
 static HdStatus end_segment(HdFilm *film, int index, HdError *error) {
     Ending *ending = &film->ending;
     HD_TRY(wait_for_segment(film, error));

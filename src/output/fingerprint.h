@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The identity of a run and of its frames: what decides their pixels, as one number. When it is the
-   same, so are they. Finished pictures bear their frame's (image/format.h), segments of films are
-   named by the run's. */
+/* Fingerprints of a run and of its frames: numbers that identify everything that decides their
+   pixels. Finished pictures contain their frame's (image/format.h); names of film segments contain
+   the run's. */
 #ifndef HD_OUTPUT_FINGERPRINT_H
 #define HD_OUTPUT_FINGERPRINT_H
 
@@ -11,19 +11,19 @@
 #include "input/scene_file.h"
 #include "tables/table.h"
 
-/* Of frames of a scene whose files are loaded, as strict arithmetic renders them and PNG pictures
-   of that style hold them: every field of the scene file (fields.h) but names of files and
-   what becomes of the frames, what the files hold, what the command line changed, precision, curve
-   and bits, and the text of this program. Which device renders it, and how, changes no strict
-   pixel. */
+/* Returns the fingerprint of a scene whose files are loaded, rendered with strict arithmetic to PNG
+   pictures of that style. It covers every field of the scene file (fields.h) except file names and
+   output settings. It also covers the files' contents, changes by the command line, precision,
+   curve, bits and the program's source text. The device and its settings do not matter, for they
+   change no strict pixel. */
 uint64_t hd_run_fingerprint(const HdSceneFile *file, HdPrecision precision,
                             const HdPictureStyle *style);
 
-/* Of frame `number` of a run whose fingerprint is `run`. */
+/* Returns the fingerprint of frame `number` of the run. */
 uint64_t hd_frame_fingerprint(uint64_t run, int number);
 
-/* SHA-256 of the text of the kernels and of what runs them on CPUs, as 64 digits: what differs in
-   it may compute at another speed. */
+/* SHA-256, in 64 digits, of the source text of the kernels and of their CPU execution. Measured
+   speeds are comparable only if it is equal. */
 extern const char hd_kernels_hash[];
 
 #endif

@@ -14,29 +14,30 @@
 #include "system/machine.h"
 
 enum {
-    MAX_OPEN_PICTURES = 128, /* each takes a descriptor until it has its name, and as many wait for
-                                 theirs */
-    SPARE_DESCRIPTORS = 2,   /* for a folder, and statistics that are opened late */
-    /* More would only wait for the memory that they share. */
+    MAX_OPEN_PICTURES =
+        128, /* each takes a descriptor until it is renamed, and as many wait for that */
+    SPARE_DESCRIPTORS = 2, /* for a folder, and for statistics that are opened late */
+    /* More would only wait for shared memory bandwidth. */
     MAX_ENCODERS = 16,
-    /* Beside what is encoded: one is traced, one converted, one on its way to FFmpeg, one waits. */
+    /* Besides frames being encoded: one traced, one converted, one sent to FFmpeg, one waiting. */
     SPARE_FRAMES = 4,
-    /* For each tracer beside the first: frames that others finish before it has finished one. */
-    FRAMES_OF_A_TRACER = 8
+    /* For each worker but the first: frames that others finish while it traces one. */
+    FRAMES_PER_WORKER = 8
 };
-static const size_t MAX_BYTES = (size_t)1 << 30; /* of all frames under way, for each tracer */
+static const size_t MAX_BYTES = (size_t)1
+                                << 30; /* memory of all frames in flight, for each worker */
 
-/* A frame on its way into the outputs. One thread at a time works on it, but films take it side by
-   side. */
-typedef struct Place {
-    HdFrame frame;                      /* with `rgba` where films get it, or a device may encode */
-    HdAtomicFile files[HD_MAX_OUTPUTS]; /* closed; no lock: not written, or handed on */
+/* A frame in progress. One thread at a time works on it, except films, which take it in parallel.
+ */
+typedef struct Slot {
+    HdFrame frame; /* frame with `rgba` if films need it or a device may encode */
+    HdAtomicFile files[HD_MAX_OUTPUTS]; /* closed; without a lock: not written, or handed on */
     int worker;
     HdFrameTimes times;
-    HdSpan films[HD_MAX_OUTPUTS]; /* by output */
-} Place;
+    HdSpan films[HD_MAX_OUTPUTS]; /* times by output */
+} Slot;
 
-/* A frame that waits for its names, after its place was given to another one. */
+/* A frame that waits to be published; its slot is in use again. */
 typedef struct Waiting {
     HdStoredFrame stored;
     HdFrame frame;
@@ -46,27 +47,27 @@ typedef struct Waiting {
 
 typedef struct Film {
     HdFrameStore *store;
-    int index; /* of the output */
+    int index; /* index of the output */
     HdFilm *film;
 } Film;
 
 struct HdFrameStore {
     HdFrameStorePlan plan;
     HdStages *stages;
-    Place *places; /* a frame's is its place in the list modulo their number */
-    int place_count;
-    Waiting *waiting; /* as many at most */
+    Slot *slots; /* slot of a frame: its index in the list modulo slot_count */
+    int slot_count;
+    Waiting *waiting; /* frames to publish, at most slot_count */
     int waiting_count;
     int stored;
-    Film films[HD_MAX_OUTPUTS]; /* by output; without a video: pictures */
+    Film films[HD_MAX_OUTPUTS]; /* films by output; without a video: pictures */
     HdStage list[HD_MAX_STAGES];
     int stage_count;
 };
 
 _Static_assert(HD_MAX_STAGES >= HD_MAX_OUTPUTS + 3, "a stage for each film, and three more");
 
-static Place *place_of(HdFrameStore *store, int item) {
-    return &store->places[item % store->place_count];
+static Slot *slot_of(HdFrameStore *store, int item) {
+    return &store->slots[item % store->slot_count];
 }
 
 static int number_of(const HdFrameStore *store, int item) {
@@ -77,51 +78,51 @@ static bool was_finished(const HdFrameStore *store, int item) {
     return store->plan.resume->is_finished[item];
 }
 
-static HdSpan begin(const HdFrameStore *store) {
+static HdSpan begin_span(const HdFrameStore *store) {
     return (HdSpan){.began = hd_monotonic_seconds() - store->plan.start};
 }
 
-static void end(const HdFrameStore *store, HdSpan *span) {
+static void end_span(const HdFrameStore *store, HdSpan *span) {
     span->seconds = hd_monotonic_seconds() - store->plan.start - span->began;
 }
 
-/* ---- the stages' work ---- */
+/* ---- stages ---- */
 
 static HdStatus convert(void *context, int item, HdError *error) {
     HdFrameStore *store = context;
     const HdOutputPlan *outputs = store->plan.outputs;
-    Place *place = place_of(store, item);
+    Slot *slot = slot_of(store, item);
     bool is_lacking = !was_finished(store, item);
     for (int i = 0; i < HD_MAX_OUTPUTS; i++)
         is_lacking |= hd_resume_film_lacks(store->plan.resume, i, item);
     if (!is_lacking)
         return HD_OK;
-    if (was_finished(store, item)) /* which nobody traced */
-        return hd_resume_load(outputs, number_of(store, item), &place->frame, error);
-    if (place->frame.is_encoded)
+    if (was_finished(store, item)) /* so no worker traced it */
+        return hd_resume_load(outputs, number_of(store, item), &slot->frame, error);
+    if (slot->frame.is_encoded)
         return HD_OK;
-    place->times.convert = begin(store);
-    hd_frame_encode(&place->frame, outputs->style.picture.curve);
-    end(store, &place->times.convert);
+    slot->times.convert = begin_span(store);
+    hd_frame_encode(&slot->frame, outputs->style.picture.curve);
+    end_span(store, &slot->times.convert);
     return HD_OK;
 }
 
 /* Blocks while FFmpeg is busy. */
 static HdStatus add_to_film(void *context, int item, HdError *error) {
     const Film *film = context;
-    Place *place = place_of(film->store, item);
-    HdSpan *span = &place->films[film->index];
+    Slot *slot = slot_of(film->store, item);
+    HdSpan *span = &slot->films[film->index];
     *span = (HdSpan){.began = -1.0};
     if (!hd_resume_film_lacks(film->store->plan.resume, film->index, item))
         return HD_OK;
-    *span = begin(film->store);
-    HdStatus status = hd_film_add(film->film, item, &place->frame, error);
-    end(film->store, span);
+    *span = begin_span(film->store);
+    HdStatus status = hd_film_add(film->film, item, &slot->frame, error);
+    end_span(film->store, span);
     return status;
 }
 
-/* Under a temporary name. */
-static HdStatus write_picture(const HdOutputPlan *outputs, int index, Place *place, int number,
+/* Writes the picture to a temporary file. */
+static HdStatus write_picture(const HdOutputPlan *outputs, int index, Slot *slot, int number,
                               HdError *error) {
     const HdPictureLabel label = {
         .scene = outputs->scene,
@@ -130,10 +131,10 @@ static HdStatus write_picture(const HdOutputPlan *outputs, int index, Place *pla
         .has_fingerprint = outputs->has_fingerprint,
         .fingerprint = hd_frame_fingerprint(outputs->fingerprint, number),
     };
-    HdAtomicFile *file = &place->files[index];
+    HdAtomicFile *file = &slot->files[index];
     char path[HD_MAX_PATH];
     HD_TRY(hd_output_file(&outputs->list[index], number, path, error));
-    HD_TRY(hd_picture_prepare(file, &place->frame, outputs->list[index].format,
+    HD_TRY(hd_picture_prepare(file, &slot->frame, outputs->list[index].format,
                               &outputs->style.picture, &label, path, error));
     return hd_atomic_file_close(file, error);
 }
@@ -141,23 +142,23 @@ static HdStatus write_picture(const HdOutputPlan *outputs, int index, Place *pla
 static HdStatus write_pictures(void *context, int item, HdError *error) {
     HdFrameStore *store = context;
     const HdOutputPlan *outputs = store->plan.outputs;
-    Place *place = place_of(store, item);
+    Slot *slot = slot_of(store, item);
     HdStatus status = HD_OK;
     if (was_finished(store, item))
         return HD_OK;
-    place->times.store = begin(store);
+    slot->times.store = begin_span(store);
     for (int i = 0; i < outputs->count && status == HD_OK; i++)
         if (!outputs->list[i].is_film)
-            status = write_picture(outputs, i, place, number_of(store, item), error);
-    end(store, &place->times.store);
+            status = write_picture(outputs, i, slot, number_of(store, item), error);
+    end_span(store, &slot->times.store);
     return status;
 }
 
-static HdSpan span_of_films(const HdFrameStore *store, const Place *place) {
+static HdSpan span_of_films(const HdFrameStore *store, const Slot *slot) {
     HdSpan whole = {.began = -1.0};
     double ended = 0.0;
     for (int i = 0; i < HD_MAX_OUTPUTS; i++) {
-        const HdSpan *span = &place->films[i];
+        const HdSpan *span = &slot->films[i];
         if (store->films[i].film == NULL || span->began < 0.0)
             continue;
         whole.began = whole.began < 0.0 ? span->began : fmin(whole.began, span->began);
@@ -168,12 +169,12 @@ static HdSpan span_of_films(const HdFrameStore *store, const Place *place) {
     return whole;
 }
 
-/* ---- the last stage: pictures get their names, and then the frame counts as stored. In the order
-   of the frames, so that a run that ends early leaves its first frames and no others; but several
-   together, because a disk is waited for as long for one file as for many ---- */
+/* ---- the last stage publishes pictures and counts frames as stored, in their order, so that an
+   interrupted run leaves its first frames only. It publishes several together, since syncing many
+   files takes about as long as one ---- */
 
-/* Does the step with the files of the first `count` frames, and returns for how many it was done.
-   Fills `error` for the one that failed, and leaves it alone where none does. */
+/* Applies the step to the files of the first `count` frames; returns the number of frames done. On
+   failure fills `error`, otherwise leaves it alone. */
 static int do_step(HdFrameStore *store, HdStatus (*step)(HdAtomicFile *, HdError *), int count,
                    HdError *error) {
     for (int i = 0; i < count; i++)
@@ -183,8 +184,8 @@ static int do_step(HdFrameStore *store, HdStatus (*step)(HdAtomicFile *, HdError
     return count;
 }
 
-/* Frames that follow each other lie mostly in one folder. Finished ones are looked after too, whose
-   names may not have come to the disk before an earlier run was killed. */
+/* Consecutive frames mostly share a folder. Includes finished frames, whose names may not have been
+   synced before an earlier run was killed. */
 static HdStatus sync_folders(const HdFrameStore *store, const HdOutput *output, int count,
                              HdError *error) {
     char path[HD_MAX_PATH], last[HD_MAX_PATH] = "";
@@ -207,7 +208,7 @@ static HdStatus sync_names(const HdFrameStore *store, int count, HdError *error)
     return HD_OK;
 }
 
-static HdStatus tell(HdFrameStore *store, int count, HdError *error) {
+static HdStatus report_stored(HdFrameStore *store, int count, HdError *error) {
     for (int i = 0; i < count; i++) {
         store->stored = store->waiting[i].stored.done;
         HD_TRY(store->plan.stored(store->plan.context, &store->waiting[i].stored, error));
@@ -222,10 +223,9 @@ static void drop_waiting(HdFrameStore *store) {
     store->waiting_count = 0;
 }
 
-/* All bytes are on the disk before a file gets its name, and all names before frames are told.
-   After a failure, which is that of the first frame that could not be stored, the frames before it
-   are stored and later ones gone, but where telling failed, those that waited with that frame have
-   their names. */
+/* Syncs all files before it renames them, and syncs all names before it reports frames. After a
+   failure at a frame, the frames before it are stored and later ones are gone. Only if reporting
+   fails do frames that waited with it keep their names. */
 static HdStatus settle(void *context, HdError *error) {
     HdFrameStore *store = context;
     HdError first = {.status = HD_OK}, own;
@@ -233,7 +233,7 @@ static HdStatus settle(void *context, HdError *error) {
     if (store->plan.outputs->durability == HD_DURABLE)
         count = do_step(store, hd_atomic_file_sync, count, &first);
     count = do_step(store, hd_atomic_file_publish, count, &first);
-    if (sync_names(store, count, &own) != HD_OK || tell(store, count, &own) != HD_OK)
+    if (sync_names(store, count, &own) != HD_OK || report_stored(store, count, &own) != HD_OK)
         first = own;
     drop_waiting(store);
     if (first.status != HD_OK)
@@ -241,42 +241,42 @@ static HdStatus settle(void *context, HdError *error) {
     return first.status;
 }
 
-/* Takes over the files that were written for the frame. */
-static void keep_waiting(Waiting *waiting, Place *place) {
-    waiting->frame = place->frame;
+/* Takes over the files written for the frame. */
+static void keep_waiting(Waiting *waiting, Slot *slot) {
+    waiting->frame = slot->frame;
     waiting->frame.rgb = NULL;
     waiting->frame.rgba = NULL;
     waiting->file_count = 0;
     for (int i = 0; i < HD_MAX_OUTPUTS; i++) {
-        if (place->files[i].lock < 0)
+        if (slot->files[i].lock < 0)
             continue;
-        waiting->files[waiting->file_count++] = place->files[i];
-        place->files[i].lock = -1;
+        waiting->files[waiting->file_count++] = slot->files[i];
+        slot->files[i].lock = -1;
     }
 }
 
 static HdStatus publish(void *context, int item, HdError *error) {
     HdFrameStore *store = context;
-    Place *place = place_of(store, item);
-    if (store->waiting_count == store->place_count)
+    Slot *slot = slot_of(store, item);
+    if (store->waiting_count == store->slot_count)
         HD_TRY(settle(store, error));
     Waiting *waiting = &store->waiting[store->waiting_count++];
-    keep_waiting(waiting, place);
+    keep_waiting(waiting, slot);
     waiting->stored = (HdStoredFrame){
         .number = number_of(store, item),
-        .worker = place->worker,
+        .worker = slot->worker,
         .done = item + 1,
         .frame = &waiting->frame,
         .was_finished = was_finished(store, item),
-        .times = place->times,
+        .times = slot->times,
     };
-    waiting->stored.times.film = span_of_films(store, place);
+    waiting->stored.times.film = span_of_films(store, slot);
     return HD_OK;
 }
 
-/* ---- which stages, and how many frames at a time ---- */
+/* ---- stages and their capacity ---- */
 
-/* Returns the stage's bit. */
+/* Adds a stage and returns its bit. */
 static unsigned add_stage(HdFrameStore *store, HdStage stage) {
     store->list[store->stage_count] = stage;
     return 1u << store->stage_count++;
@@ -286,7 +286,7 @@ static int picture_count(const HdFrameStorePlan *plan) {
     return plan->outputs->count - plan->outputs->film_count;
 }
 
-/* Where tracing has all processors too, they share them; elsewhere none of them idles. */
+/* Uses all processors: they share them with tracing on the CPU, and would idle otherwise. */
 static int encoder_count(const HdFrameStorePlan *plan) {
     if (picture_count(plan) == 0)
         return 0;
@@ -296,7 +296,7 @@ static int encoder_count(const HdFrameStorePlan *plan) {
 static void list_stages(HdFrameStore *store) {
     const int encoders = encoder_count(&store->plan);
     unsigned converted = 0;
-    /* Reading frames back, from pictures, takes longer than converting them. */
+    /* Loading frames from pictures takes longer than converting them. */
     const int readers = store->plan.resume->finished_count > 0 ? encoders : 1;
     if (store->plan.outputs->film_count > 0)
         converted = add_stage(
@@ -319,31 +319,31 @@ static bool has_image(const HdOutputPlan *outputs) {
     return outputs->film_count > 0 || !outputs->request.radiance;
 }
 
-static size_t bytes_of_place(const HdFrameStorePlan *plan) {
+static size_t bytes_of_slot(const HdFrameStorePlan *plan) {
     const size_t pixels = (size_t)plan->width * (size_t)plan->height;
     const size_t layers = hd_layer_bytes(plan->outputs->request.layers);
-    return sizeof(Place) + pixels * (3 * sizeof(float) + layers) +
+    return sizeof(Slot) + pixels * (3 * sizeof(float) + layers) +
            (has_image(plan->outputs) ? 4 * pixels : 0);
 }
 
-/* While a picture is closed it has one descriptor more. */
-static int count_places_by_descriptors(int pictures) {
+/* A picture has one more descriptor while it is closed. */
+static int count_slots_by_descriptors(int pictures) {
     const int fitting = (hd_free_descriptors() - SPARE_DESCRIPTORS) / (2 * pictures + 1);
     return hd_max(hd_min(fitting, MAX_OPEN_PICTURES / pictures), 1);
 }
 
 static int choose_place_count(const HdFrameStorePlan *plan) {
-    const int spare = SPARE_FRAMES + FRAMES_OF_A_TRACER * (plan->workers - 1);
+    const int spare = SPARE_FRAMES + FRAMES_PER_WORKER * (plan->workers - 1);
     int wanted = hd_min(encoder_count(plan) + spare, plan->resume->all->count);
     if (picture_count(plan) > 0)
-        wanted = hd_min(wanted, count_places_by_descriptors(picture_count(plan)));
-    const size_t fitting = MAX_BYTES * (size_t)plan->workers / bytes_of_place(plan);
+        wanted = hd_min(wanted, count_slots_by_descriptors(picture_count(plan)));
+    const size_t fitting = MAX_BYTES * (size_t)plan->workers / bytes_of_slot(plan);
     return hd_max((int)hd_min_size(fitting, (size_t)wanted), 1);
 }
 
-/* ---- the begin ---- */
+/* ---- start ---- */
 
-/* Whether the pictures of the first frame can be written; makes their folders. */
+/* Makes the folders and checks that the pictures of the first frame can be written. */
 static HdStatus probe_pictures(const HdFrameStorePlan *plan, HdError *error) {
     for (int i = 0; i < plan->outputs->count && plan->resume->missing.count > 0; i++) {
         const HdOutput *output = &plan->outputs->list[i];
@@ -369,36 +369,36 @@ static HdStatus open_films(HdFrameStore *store, HdError *error) {
     return HD_OK;
 }
 
-static HdStatus create_place(Place *place, const HdFrameStorePlan *plan, HdError *error) {
+static HdStatus create_slot(Slot *slot, const HdFrameStorePlan *plan, HdError *error) {
     for (int i = 0; i < HD_MAX_OUTPUTS; i++)
-        place->files[i].lock = -1;
-    HD_TRY(hd_frame_create(&place->frame, plan->width, plan->height, error));
+        slot->files[i].lock = -1;
+    HD_TRY(hd_frame_create(&slot->frame, plan->width, plan->height, error));
     if (has_image(plan->outputs))
-        HD_TRY(hd_frame_add_rgba(&place->frame, error));
-    return hd_frame_add_layers(&place->frame, plan->outputs->request.layers, error);
+        HD_TRY(hd_frame_add_rgba(&slot->frame, error));
+    return hd_frame_add_layers(&slot->frame, plan->outputs->request.layers, error);
 }
 
 static HdStatus create_places(HdFrameStore *store, HdError *error) {
     const int count = choose_place_count(&store->plan);
-    store->places = calloc((size_t)count, sizeof *store->places);
+    store->slots = calloc((size_t)count, sizeof *store->slots);
     store->waiting = calloc((size_t)count, sizeof *store->waiting);
-    if (store->places == NULL || store->waiting == NULL)
+    if (store->slots == NULL || store->waiting == NULL)
         return HD_NO_ROOM(error, "%d frames", count);
-    while (store->place_count < count)
-        HD_TRY(create_place(&store->places[store->place_count++], &store->plan, error));
+    while (store->slot_count < count)
+        HD_TRY(create_slot(&store->slots[store->slot_count++], &store->plan, error));
     return HD_OK;
 }
 
-/* Drops pictures that were written but not published. */
-static void free_places(HdFrameStore *store) {
+/* Discards pictures that are not published. */
+static void free_slots(HdFrameStore *store) {
     drop_waiting(store);
-    for (int i = 0; i < store->place_count; i++) {
-        Place *place = &store->places[i];
+    for (int i = 0; i < store->slot_count; i++) {
+        Slot *slot = &store->slots[i];
         for (int k = 0; k < HD_MAX_OUTPUTS; k++)
-            hd_atomic_file_discard(&place->files[k]);
-        hd_frame_free(&place->frame);
+            hd_atomic_file_discard(&slot->files[k]);
+        hd_frame_free(&slot->frame);
     }
-    free(store->places);
+    free(store->slots);
     free(store->waiting);
 }
 
@@ -410,7 +410,7 @@ static void drop_films(HdFrameStore *store) {
     }
 }
 
-/* Drops the films; pictures stay. */
+/* Discards the films; pictures stay. */
 static void destroy(HdFrameStore *store) {
     drop_films(store);
     free(store);
@@ -423,7 +423,7 @@ static HdStatus start(HdFrameStore *store, HdError *error) {
     HD_TRY(create_places(store, error));
     list_stages(store);
     return hd_stages_start(&store->stages, store->list, store->stage_count, resume->all->count,
-                           resume->is_finished, store->place_count, error);
+                           resume->is_finished, store->slot_count, error);
 }
 
 HdStatus hd_frame_store_start(HdFrameStore **out, const HdFrameStorePlan *plan, HdError *error) {
@@ -437,7 +437,7 @@ HdStatus hd_frame_store_start(HdFrameStore **out, const HdFrameStorePlan *plan, 
     if (status == HD_OK) {
         *out = store;
     } else {
-        free_places(store);
+        free_slots(store);
         destroy(store);
     }
     return status;
@@ -449,18 +449,18 @@ HdStages *hd_frame_store_stages(HdFrameStore *store) {
     return store->stages;
 }
 
-HdFrame *hd_frame_store_frame(HdFrameStore *store, int place, int worker, HdFrameTimes **times) {
+HdFrame *hd_frame_store_frame(HdFrameStore *store, int item, int worker, HdFrameTimes **times) {
     static const HdSpan nothing = {.began = -1.0};
-    Place *found = place_of(store, place);
+    Slot *found = slot_of(store, item);
     found->worker = worker;
     found->times = (HdFrameTimes){nothing, nothing, nothing, nothing, nothing, nothing, -1.0};
     *times = &found->times;
     return &found->frame;
 }
 
-/* ---- the end ---- */
+/* ---- end ---- */
 
-/* A film that fails takes those after it with it; those before it stay. */
+/* If a film fails, later ones are discarded; earlier ones stay. */
 static HdStatus close_films(HdFrameStore *store, HdError *error) {
     for (int i = 0; i < HD_MAX_OUTPUTS; i++) {
         HdFilm *film = store->films[i].film;
@@ -497,10 +497,10 @@ static void report_interrupted(const HdFrameStore *store, HdError *error) {
             resume->all->count, more);
 }
 
-/* What fails in the store comes before what its caller met: its frames are earlier ones. */
+/* A failure in the store precedes the caller's: its frames are earlier. */
 HdStatus hd_frame_store_end(HdFrameStore *store, HdStatus traced, HdError *error) {
     HdStatus status = hd_stages_end(store->stages, error);
-    free_places(store);
+    free_slots(store);
     if (status == HD_OK)
         status = traced;
     if (status == HD_INTERRUPTED) {

@@ -62,7 +62,7 @@ HdStatus hd_output_file(const HdOutput *output, int number, char out[HD_MAX_PATH
     return hd_path_expand_home(expanded, out, error);
 }
 
-/* Patterns are compared by the name of a late frame, for "#" and "##" differ only before that. */
+/* Compares patterns by a high frame number, for "#" and "##" differ only before that. */
 static HdStatus check_different(const HdOutput *output, const HdOutput *other, int frame_count,
                                 HdError *error) {
     char file[HD_MAX_PATH], other_file[HD_MAX_PATH];
@@ -71,7 +71,7 @@ static HdStatus check_different(const HdOutput *output, const HdOutput *other, i
     if (!hd_path_is_same(file, other_file))
         return HD_OK;
     if (strcmp(output->name, other->name) == 0)
-        return hd_fail(error, HD_BAD_INPUT, "the output '%s' is there twice", output->name);
+        return hd_fail(error, HD_BAD_INPUT, "the output '%s' is given twice", output->name);
     return hd_fail(error, HD_BAD_INPUT, "the outputs '%.4000s' and '%.4000s' are the same file",
                    other->name, output->name);
 }
@@ -87,7 +87,7 @@ static void sum_up(HdOutputPlan *plan) {
         plan->request.radiance |=
             !output->is_film && plan->style.picture.bits > format->max_encoded_bits;
         plan->request.layers |= format->has_layers ? HD_LAYER_BIT(HD_LAYER_ALPHA) : 0;
-        /* Pictures must be rendered anyway but numbered ones with fingerprints. */
+        /* Only numbered pictures with fingerprints, and films, can save rendering. */
         plan->can_resume &= output->is_film || (bears_fingerprints && output->is_numbered);
     }
 }
@@ -119,9 +119,9 @@ HdStatus hd_outputs_add_layers(HdOutputPlan *plan, unsigned layers, bool is_boun
         return hd_fail(error, HD_BAD_INPUT,
                        "--layers is for OpenEXR: expected an output that ends in .exr");
     if (!is_bounded && (layers & HD_LAYER_BIT(HD_LAYER_BOUND)) != 0)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "--layers has bound, which is known with --max-error, --aa adaptive or "
-                       "--reference alone");
+        return hd_fail(
+            error, HD_BAD_INPUT,
+            "--layers has bound, expected --max-error, --aa adaptive or --reference with it");
     plan->request.layers |= layers;
     return HD_OK;
 }
@@ -132,7 +132,7 @@ void hd_outputs_set_fingerprint(HdOutputPlan *plan, uint64_t fingerprint, bool r
     plan->resumes = resumes && plan->can_resume;
 }
 
-/* ---- names of frames, known again ---- */
+/* ---- recognising names of frames ---- */
 
 /* A number that differs from 0 in its first digit, however many digits 0 has. */
 enum { ALL_ONES = 1111111111, MAX_DIGITS = 10 };
@@ -168,7 +168,7 @@ static int find_frame(const HdFrameList *frames, int number) {
     return found != NULL ? (int)(found - frames->frames) : -1;
 }
 
-/* Negative where these are no digits of a number as it is written. */
+/* Returns a negative number if these are not the digits as names have them. */
 static int read_number(const HdFrameNames *names, const char *text, int digits) {
     int64_t number = 0;
     if (digits > names->digits && text[0] == '0')

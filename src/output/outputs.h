@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Where the frames of a run go, settled once: pictures, numbered sequences and films, several at
-   once. */
+/* Outputs of a run, settled once: pictures, numbered sequences and films, several in one run. */
 #ifndef HD_OUTPUT_OUTPUTS_H
 #define HD_OUTPUT_OUTPUTS_H
 
@@ -14,10 +13,10 @@
 #include "system/atomic_file.h"
 
 typedef struct HdOutput {
-    const char *name; /* of a film or a picture, or a sequence's pattern; as people wrote it */
+    const char *name; /* name of a film or picture, or a sequence's pattern, as the user wrote it */
     const HdFormat *format;
     bool is_film;
-    bool is_numbered; /* a picture for each frame */
+    bool is_numbered; /* one picture per frame */
 } HdOutput;
 
 typedef struct HdOutputPlan {
@@ -25,64 +24,63 @@ typedef struct HdOutputPlan {
     int count;
     int film_count;
     HdOutputStyle style;
-    HdFrameRequest request;  /* what a frame must hold for all of them */
-    bool bears_fingerprints; /* some are pictures of a format that can */
+    HdFrameRequest request;  /* contents of a frame that satisfy all outputs */
+    bool bears_fingerprints; /* formats of some pictures can */
     bool can_resume;         /* frames can be finished before the run (resume.h) */
-    bool has_fingerprint; /* those pictures bear their frame's, and films are made by segments that
-                             stay when the run is ended */
-    uint64_t fingerprint; /* of the run (fingerprint.h), where it has one */
-    const char *scene;    /* what pictures say of the run (HdPictureLabel): the caller sets both */
+    bool has_fingerprint; /* those pictures bear their frame's, and films are made in segments that
+                             stay if the run is interrupted */
+    uint64_t fingerprint; /* fingerprint of the run (fingerprint.h), if any */
+    const char *scene;    /* label of the pictures (HdPictureLabel), set by the caller */
     const char *options;
-    bool resumes;            /* frames that are there are finished (resume.h) */
-    HdDurability durability; /* of pictures and films; durable, unless the caller says otherwise */
+    bool resumes;            /* existing frames count as finished (resume.h) */
+    HdDurability durability; /* durability of the files; durable unless the caller changes it */
 } HdOutputPlan;
 
-/* Checks that the name has an ending that tells what to write; `option` is for the message. */
+/* Checks that the name's ending is that of a format; the message names `option`. */
 HdStatus hd_output_check_name(const char *name, const char *option, HdError *error);
 
-/* Finds out what each of the names, 1 to HD_MAX_OUTPUTS, stands for; they must live on. An ending
-   that is of no format stands for the data format, as in the classic mode.
-   HD_BAD_INPUT where one does not suit the number of frames, or is there twice, whatever the
-   spelling, or is of a format that cannot have the style. The plan has no fingerprint yet. */
+/* Settles the outputs of 1 to HD_MAX_OUTPUTS names, which must live on. An unknown ending means the
+   data format, as in the classic mode. Fails with HD_BAD_INPUT if a name does not suit the number
+   of frames, if two names mean the same file, or if a format cannot have the style. The plan has no
+   fingerprint yet. */
 HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int count,
                            const HdOutputStyle *style, int frame_count, HdError *error);
 
-/* Has the pictures that can hold layers get these, a set of HD_LAYER_BIT, besides alpha, which they
-   always do. HD_BAD_INPUT, in terms of the option --layers, where no output can, or where they have
-   a bound and the scene is not surveyed (hd_scene_has_error_bound). */
+/* Adds layers, a set of HD_LAYER_BIT, to pictures that can hold them; alpha is always there. Fails
+   with HD_BAD_INPUT, in terms of --layers, if no output can hold them, or if they include a bound
+   and the scene has none (hd_scene_has_error_bound). */
 HdStatus hd_outputs_add_layers(HdOutputPlan *plan, unsigned layers, bool is_bounded,
                                HdError *error);
 
-/* Has the plan's pictures bear the fingerprint, where they can; with `resumes` those that are there
-   are kept, where that can be. Films are made by segments. `fingerprint` is the run's. */
+/* Gives pictures that can bear it the run's fingerprint, and makes films in segments. With
+   `resumes`, keeps finished ones if possible. */
 void hd_outputs_set_fingerprint(HdOutputPlan *plan, uint64_t fingerprint, bool resumes);
 
-/* The name that an output has for one frame, as people wrote it, and the file that it stands for.
- */
+/* Write the output's name for one frame, as the user wrote it, and its file. */
 HdStatus hd_output_name(const HdOutput *output, int number, char out[HD_MAX_PATH], HdError *error);
 HdStatus hd_output_file(const HdOutput *output, int number, char out[HD_MAX_PATH], HdError *error);
 
-/* ---- the names of an output's frames, known again in a folder: so that one look at a folder finds
-   what is there of them, however many they are ---- */
+/* ---- recognises the names of an output's frames in a folder, so that one listing finds all that
+   exist ---- */
 
 typedef struct HdFrameNames {
-    const HdFrameList *frames; /* ascending, each once */
-    char folder[HD_MAX_PATH];  /* of the entries that bear the number; with its last slash; empty:
-                                  the  current one */
-    char prefix[HD_MAX_PATH];  /* of such an entry's name, up to the number */
-    char suffix[HD_MAX_PATH];  /* of its name, after the number */
-    char rest[HD_MAX_PATH]; /* of the path after the entry, from its slash on; empty: the entry is
-                               the file */
-    int digits;             /* of the number at least; 0: there is none, all frames are one file */
+    const HdFrameList *frames; /* ascending, without repetition */
+    char folder[HD_MAX_PATH];  /* folder of the entries with the number, with its last slash; empty:
+                                  the current one */
+    char prefix[HD_MAX_PATH];  /* start of the entry's name, before the number */
+    char suffix[HD_MAX_PATH];  /* end of its name, after the number */
+    char rest[HD_MAX_PATH]; /* path after the entry, from its slash on; empty: the entry is the file
+                             */
+    int digits;             /* least number of digits; 0: no number, all frames are one file */
 } HdFrameNames;
 
-/* The error is that of hd_output_file. `frames` must live on and have a frame. */
+/* Fills `names`; errors as hd_output_file. `frames` must live on and not be empty. */
 HdStatus hd_frame_names_find(HdFrameNames *names, const HdOutput *output, const HdFrameList *frames,
                              HdError *error);
 
-/* The place in the list of the frame whose entry has this name of `length` bytes; negative: none
-   has. Of a name that `is_cut` only the begin is known, and it may be any of the frames with such a
-   begin. */
+/* Returns the list index of the frame whose entry has this name of `length` bytes, or a negative
+   number. Of a name that `is_cut` only the start is known; the result is then any frame whose name
+   starts so. */
 int hd_frame_names_place(const HdFrameNames *names, const char *entry, size_t length, bool is_cut);
 
 #endif

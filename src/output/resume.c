@@ -14,8 +14,7 @@
 
 static const int64_t MAX_PICTURE_BYTES = INT64_C(1) << 36;
 
-/* A file that cannot be read is not finished, for whatever reason. `*bytes` is the caller's to free
-   then too. */
+/* A file that cannot be read is not finished. The caller frees `*bytes` even then. */
 static bool read_whole(const HdOutputPlan *plan, const HdOutput *output, int number,
                        unsigned char **bytes, size_t *size) {
     char path[HD_MAX_PATH];
@@ -38,7 +37,7 @@ bool hd_resume_film_lacks(const HdResume *resume, int output, int item) {
     return film->film[0] != '\0' && !hd_segments_have(film, item);
 }
 
-/* Pictures of 8 bits are what films get. */
+/* Films are made of pictures of 8 bits. */
 bool hd_resume_keeps(const HdResume *resume, const HdOutputPlan *plan, int item) {
     if (plan->film_count < plan->count && plan->style.picture.bits == 8)
         return true;
@@ -62,7 +61,7 @@ static bool is_finished(const HdResume *resume, const HdOutputPlan *plan, int it
 
 typedef struct Presence {
     HdFrameNames names;
-    bool *is_there; /* by place */
+    bool *is_there; /* entries found, by index in the list */
 } Presence;
 
 static void note_presence(void *context, const char *entry) {
@@ -72,8 +71,8 @@ static void note_presence(void *context, const char *entry) {
         presence->is_there[place] = true;
 }
 
-/* Marks the frames that there is anything of in the first output that is no film, all of whose
-   frames have numbers: a look at its folder takes no longer for more frames. */
+/* Marks frames that have an entry in the first picture output, all of whose frames have numbers;
+   one listing of its folder serves all frames. */
 static void mark_present(HdResume *resume, const HdOutputPlan *plan) {
     Presence presence = {.is_there = resume->is_finished};
     HdError ignored;
@@ -138,14 +137,14 @@ void hd_resume_free(HdResume *resume) {
     *resume = (HdResume){0};
 }
 
-/* ---- what killed runs left ---- */
+/* ---- files of killed runs ---- */
 
-enum { ORPHAN_GLANCES = 1000 /* of 10 ms each */ };
+enum { ORPHAN_POLLS = 1000 /* 10 ms each */ };
 
 typedef struct Search {
-    HdFrameNames names; /* whose entries are the output's files, or folders with one each */
+    HdFrameNames names; /* names of the output's files, or of folders with one each */
     bool is_film;
-    bool is_done; /* nothing that is to be waited for was found */
+    bool is_done; /* nothing was found that needs waiting */
 } Search;
 
 static void remove_if_stale(void *context, const char *entry) {
@@ -164,7 +163,7 @@ static void remove_if_stale(void *context, const char *entry) {
         search->is_done &= hd_temporary_remove_stale(path);
 }
 
-/* Of one frame, in a folder of its own. */
+/* Searches the own folder of one frame. */
 static void search_own_folder(void *context, const char *entry) {
     Search *search = context;
     const HdFrameNames *names = &search->names;
@@ -196,7 +195,7 @@ static bool remove_stale(const HdOutputPlan *plan, const HdFrameList *frames) {
 
 void hd_stale_files_remove(const HdOutputPlan *plan, const HdFrameList *frames) {
     const struct timespec poll_interval = {.tv_nsec = 10000000};
-    for (int i = 0; i < ORPHAN_GLANCES && hd_interrupt_signal() == 0; i++) {
+    for (int i = 0; i < ORPHAN_POLLS && hd_interrupt_signal() == 0; i++) {
         if (remove_stale(plan, frames))
             return;
         nanosleep(&poll_interval, NULL);

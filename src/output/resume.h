@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What earlier runs left. Which frames of a run are finished already: those whose pictures are all
-   there, whole, and bear the fingerprint that they would get, and which are in a whole
-   segment of each film (film.h), or can be read back for it. */
+/* Finds results of earlier runs. A frame is finished if all its pictures are complete and bear its
+   fingerprint. Each film must also have it in a complete segment, or be able to read it back from a
+   picture. */
 #ifndef HD_OUTPUT_RESUME_H
 #define HD_OUTPUT_RESUME_H
 
@@ -15,37 +15,35 @@
 
 typedef struct HdResume {
     const HdFrameList *all;
-    HdFrameList missing; /* the frames that have to be rendered */
-    bool *is_finished;   /* owned; by place in `all` */
+    HdFrameList missing; /* frames to render */
+    bool *is_finished;   /* owned; by index in `all` */
     int finished_count;
-    HdSegments films[HD_MAX_OUTPUTS]; /* by output */
-    int first_missing;                /* place in `all`; so many frames before it are finished */
+    HdSegments films[HD_MAX_OUTPUTS]; /* segments by output */
+    int first_missing;                /* number of finished frames at the start of `all` */
 } HdResume;
 
-/* Looks at the pictures and films of a settled plan. No frame counts as finished where the plan
-   does not resume. The list must live on. HD_INTERRUPTED where a signal came (interrupt.h). To be
-   freed in any case. */
+/* Examines the pictures and films of a settled plan; no frame is finished unless the plan resumes.
+   The list must live on. Fails with HD_INTERRUPTED after a signal (interrupt.h). Free `resume` also
+   after a failure. */
 HdStatus hd_resume_find(HdResume *resume, const HdOutputPlan *plan, const HdFrameList *frames,
                         HdError *error);
 
-/* Whether the output is a film and lacks the frame at that place of the list. */
+/* Returns whether the output is a film that lacks the frame at list index `item`. */
 bool hd_resume_film_lacks(const HdResume *resume, int output, int item);
 
-/* Whether the films of the plan, if there are any, need the frame no more, or can get it from a
-   picture. */
+/* Returns whether each of the plan's films has the frame, or can get it from a picture. */
 bool hd_resume_keeps(const HdResume *resume, const HdOutputPlan *plan, int item);
 
-/* Reads a finished frame back into `frame`, encoded (`rgba`), as films take it. HD_FAILED where its
-   picture has changed since. */
+/* Reads a finished frame back into `frame`, encoded (`rgba`) as films need it. Fails with HD_FAILED
+   if its picture has changed. */
 HdStatus hd_resume_load(const HdOutputPlan *plan, int number, HdFrame *frame, HdError *error);
 
 void hd_resume_free(HdResume *resume);
 
-/* Removes the temporary files (atomic_file.h) of these frames' outputs, and of segments of their
-   films, whose writer is gone. Those of a living process stay, for it has them locked: on other
-   machines too where the file system shares its locks. Where something that a writer had started
-   still has one locked, waits for that, up to 10 s in all, or an interrupt. What cannot be looked
-   at or removed stays too. */
+/* Removes temporary files (atomic_file.h) of dead processes for these frames' outputs and for
+   segments of their films. Keeps those of live processes, which have them locked; this includes
+   other machines if the file system shares locks. If a dead writer's child process still locks one,
+   waits up to 10 s in all, or until an interrupt. Files that cannot be examined or removed stay. */
 void hd_stale_files_remove(const HdOutputPlan *plan, const HdFrameList *frames);
 
 #endif

@@ -17,29 +17,29 @@ typedef struct Worker {
     pthread_t thread;
 } Worker;
 
-/* What has become of an item. Those that are ready are given from the start. */
-typedef enum State { FREE, TAKEN, GIVEN } State;
+/* State of an item; ready ones are submitted from the start. */
+typedef enum State { FREE, CLAIMED, SUBMITTED } State;
 
-/* Of an item under way, a bit for each stage. */
+/* Bits for each stage of an item in flight. */
 typedef struct Slot {
-    unsigned taken, done;
+    unsigned claimed, done;
 } Slot;
 
 struct HdStages {
     pthread_mutex_t mutex;
-    pthread_cond_t room_made; /* or something else that takers wait for */
+    pthread_cond_t claims_changed; /* or another event that claimers wait for */
     pthread_cond_t work_made[HD_MAX_STAGES];
     HdStage list[HD_MAX_STAGES];
-    int next[HD_MAX_STAGES]; /* the first item that the stage has not taken */
+    int next[HD_MAX_STAGES]; /* first item that each stage has not claimed */
     int count;
     int capacity;
-    Slot *slots;           /* by item modulo room */
-    unsigned char *states; /* by item */
-    int item_count;        /* at the end only those before the first that was not given */
-    int first_free;        /* no item before it is free */
-    int given_until;       /* the items before it are given */
-    int gone;              /* items that went through all stages, and so did those before them */
-    int limit;             /* the first item that failed; INT_MAX: none */
+    Slot *slots;           /* slots by item modulo capacity */
+    unsigned char *states; /* states by item */
+    int item_count; /* number of items; at the end those before the first that was not submitted */
+    int first_free; /* no item before it is free */
+    int submitted_until; /* all items before it are submitted */
+    int finished_until;  /* all stages have finished the items before it */
+    int limit;           /* first item that failed; INT_MAX: none */
     bool stopped;
     bool ended; /* no more items come */
     HdStatus status;
@@ -52,53 +52,53 @@ static Slot *slot_of(const HdStages *stages, int item) {
     return &stages->slots[item % stages->capacity];
 }
 
-static bool is_given(const HdStages *stages, int item) {
-    return item < stages->item_count && stages->states[item] == GIVEN;
+static bool is_submitted(const HdStages *stages, int item) {
+    return item < stages->item_count && stages->states[item] == SUBMITTED;
 }
 
-/* The end of the items that are wanted. */
+/* Returns the end of the wanted items. */
 static int wanted_end(const HdStages *stages) {
     return hd_min(stages->item_count, stages->limit);
 }
 
-static int first_not_given(HdStages *stages) {
-    while (is_given(stages, stages->given_until))
-        stages->given_until++;
-    return stages->given_until;
+static int first_not_submitted(HdStages *stages) {
+    while (is_submitted(stages, stages->submitted_until))
+        stages->submitted_until++;
+    return stages->submitted_until;
 }
 
-/* What the stage can take: the next item, or with several threads, which keep no order, the first
-   of those that are there. Negative: none. */
+/* Returns the stage's next item, or, with several threads, which keep no order, the first available
+   one; -1 if none. */
 static int find_work(const HdStages *stages, int stage) {
     const HdStage *what = &stages->list[stage];
     const int first = stages->next[stage];
-    int end = hd_min(stages->gone + stages->capacity, wanted_end(stages));
+    int end = hd_min(stages->finished_until + stages->capacity, wanted_end(stages));
     if (what->threads == 1)
         end = hd_min(end, first + 1);
     for (int item = first; item < end; item++) {
         const Slot *slot = slot_of(stages, item);
-        if (is_given(stages, item) && (slot->taken >> stage & 1) == 0 &&
+        if (is_submitted(stages, item) && (slot->claimed >> stage & 1) == 0 &&
             (slot->done & what->after) == what->after)
             return item;
     }
     return -1;
 }
 
-static void take_work(HdStages *stages, int stage, int item) {
-    int end = stages->gone + stages->capacity;
-    slot_of(stages, item)->taken |= 1u << stage;
+static void claim_work(HdStages *stages, int stage, int item) {
+    int end = stages->finished_until + stages->capacity;
+    slot_of(stages, item)->claimed |= 1u << stage;
     while (stages->next[stage] < end &&
-           (slot_of(stages, stages->next[stage])->taken >> stage & 1) != 0)
+           (slot_of(stages, stages->next[stage])->claimed >> stage & 1) != 0)
         stages->next[stage]++;
 }
 
 static void wake_all(HdStages *stages) {
     for (int i = 0; i < stages->count; i++)
         pthread_cond_broadcast(&stages->work_made[i]);
-    pthread_cond_broadcast(&stages->room_made);
+    pthread_cond_broadcast(&stages->claims_changed);
 }
 
-/* Of several failures that of the earliest item counts, for an earlier one may still come. */
+/* Keeps the failure of the earliest item, for an earlier one may still come. */
 static void note_failure(HdStages *stages, int item, const HdError *error) {
     if (item >= stages->limit)
         return;
@@ -120,16 +120,17 @@ static void note_success(HdStages *stages, int stage, int item) {
     for (int i = stage + 1; i < stages->count; i++)
         if ((stages->list[i].after >> stage & 1) != 0)
             pthread_cond_broadcast(&stages->work_made[i]);
-    while (slot_of(stages, stages->gone)->done == all) {
-        *slot_of(stages, stages->gone) = (Slot){0};
-        stages->gone++;
-        pthread_cond_broadcast(&stages->room_made);
-        if (is_given(stages, stages->gone + stages->capacity - 1))
+    while (slot_of(stages, stages->finished_until)->done == all) {
+        *slot_of(stages, stages->finished_until) = (Slot){0};
+        stages->finished_until++;
+        pthread_cond_broadcast(&stages->claims_changed);
+        if (is_submitted(stages, stages->finished_until + stages->capacity - 1))
             wake_first_stages(stages);
     }
 }
 
-/* Works on the item, or settles after it. Called with the mutex, which is not held meanwhile. */
+/* Works on the item or settles after it. Called with the mutex locked, which is unlocked meanwhile.
+ */
 static bool work(HdStages *stages, int number, int item, bool settles) {
     const HdStage *stage = &stages->list[number];
     HdError error;
@@ -148,15 +149,15 @@ static void *worker_main(void *argument) {
     const Worker *worker = argument;
     HdStages *stages = worker->stages;
     const int stage = worker->stage;
-    int unsettled = -1; /* the last item that may have been put off; negative: none */
+    int unsettled = -1; /* last item that may be deferred; negative: none */
     pthread_mutex_lock(&stages->mutex);
     for (;;) {
-        /* nothing is left for the stage, now or later */
+        /* no work is left for the stage, now or later */
         const bool over =
             stages->next[stage] >= (stages->ended ? wanted_end(stages) : stages->limit);
         const int item = over ? -1 : find_work(stages, stage);
         if (item >= 0) {
-            take_work(stages, stage, item);
+            claim_work(stages, stage, item);
             unsettled = work(stages, stage, item, false) ? item : -1;
         } else if (unsettled >= 0 && stages->list[stage].settle != NULL) {
             work(stages, stage, unsettled, true);
@@ -174,7 +175,7 @@ static void *worker_main(void *argument) {
 static void destroy(HdStages *stages) {
     for (int i = 0; i < stages->count; i++)
         pthread_cond_destroy(&stages->work_made[i]);
-    pthread_cond_destroy(&stages->room_made);
+    pthread_cond_destroy(&stages->claims_changed);
     pthread_mutex_destroy(&stages->mutex);
     free(stages->workers);
     free(stages->slots);
@@ -196,12 +197,12 @@ static HdStages *create(const HdStage *list, int count, int item_count, const bo
     stages->count = count;
     stages->item_count = item_count;
     for (int i = 0; i < item_count && stages->states != NULL; i++)
-        stages->states[i] = is_ready[i] ? GIVEN : FREE;
+        stages->states[i] = is_ready[i] ? SUBMITTED : FREE;
     stages->capacity = capacity;
     stages->limit = INT_MAX;
     memcpy(stages->list, list, (size_t)count * sizeof *list);
     pthread_mutex_init(&stages->mutex, NULL);
-    pthread_cond_init(&stages->room_made, NULL);
+    pthread_cond_init(&stages->claims_changed, NULL);
     for (int i = 0; i < count; i++)
         pthread_cond_init(&stages->work_made[i], NULL);
     if (stages->slots != NULL && stages->states != NULL && stages->workers != NULL)
@@ -213,14 +214,14 @@ static HdStages *create(const HdStage *list, int count, int item_count, const bo
 static void join_all(HdStages *stages) {
     pthread_mutex_lock(&stages->mutex);
     stages->ended = true;
-    stages->item_count = first_not_given(stages);
+    stages->item_count = first_not_submitted(stages);
     wake_all(stages);
     pthread_mutex_unlock(&stages->mutex);
     for (int i = 0; i < stages->worker_count; i++)
         pthread_join(stages->workers[i].thread, NULL);
 }
 
-/* The first item that is free; the end where none is. */
+/* Returns the first free item, or the end if none is. */
 static int find_free(HdStages *stages) {
     const int end = wanted_end(stages);
     while (stages->first_free < end && stages->states[stages->first_free] != FREE)
@@ -230,8 +231,8 @@ static int find_free(HdStages *stages) {
 
 static bool can_claim(const HdStages *stages, const HdClaimer *claimer, int item) {
     const int end = wanted_end(stages);
-    int left = 0; /* no more than there is room for need be counted */
-    if (item >= end || item >= stages->gone + stages->capacity + claimer->ahead)
+    int left = 0; /* counted up to the capacity only */
+    if (item >= end || item >= stages->finished_until + stages->capacity + claimer->ahead)
         return false;
     for (int i = item; i < end && left < stages->capacity; i++)
         left += stages->states[i] == FREE;
@@ -239,27 +240,28 @@ static bool can_claim(const HdStages *stages, const HdClaimer *claimer, int item
 }
 
 int hd_stages_claim(HdStages *stages, const HdClaimer *claimer, bool waits) {
-    int taken = -1;
+    int claimed = -1;
     pthread_mutex_lock(&stages->mutex);
-    while (!stages->stopped && first_not_given(stages) < wanted_end(stages)) {
+    while (!stages->stopped && first_not_submitted(stages) < wanted_end(stages)) {
         int item = find_free(stages);
         if (can_claim(stages, claimer, item)) {
-            stages->states[item] = TAKEN;
-            taken = item;
+            stages->states[item] = CLAIMED;
+            claimed = item;
             break;
         }
         if (!waits)
             break;
-        pthread_cond_wait(&stages->room_made, &stages->mutex);
+        pthread_cond_wait(&stages->claims_changed, &stages->mutex);
     }
     pthread_mutex_unlock(&stages->mutex);
-    return taken;
+    return claimed;
 }
 
 bool hd_stages_wait(HdStages *stages, int item) {
     pthread_mutex_lock(&stages->mutex);
-    while (!stages->stopped && item < stages->limit && item >= stages->gone + stages->capacity)
-        pthread_cond_wait(&stages->room_made, &stages->mutex);
+    while (!stages->stopped && item < stages->limit &&
+           item >= stages->finished_until + stages->capacity)
+        pthread_cond_wait(&stages->claims_changed, &stages->mutex);
     bool is_wanted = !stages->stopped && item < stages->limit;
     pthread_mutex_unlock(&stages->mutex);
     return is_wanted;
@@ -267,9 +269,9 @@ bool hd_stages_wait(HdStages *stages, int item) {
 
 void hd_stages_submit(HdStages *stages, int item) {
     pthread_mutex_lock(&stages->mutex);
-    stages->states[item] = GIVEN;
+    stages->states[item] = SUBMITTED;
     wake_first_stages(stages);
-    pthread_cond_broadcast(&stages->room_made);
+    pthread_cond_broadcast(&stages->claims_changed);
     pthread_mutex_unlock(&stages->mutex);
 }
 
@@ -277,13 +279,13 @@ void hd_stages_release(HdStages *stages, int item) {
     pthread_mutex_lock(&stages->mutex);
     stages->states[item] = FREE;
     stages->first_free = hd_min(stages->first_free, item);
-    pthread_cond_broadcast(&stages->room_made);
+    pthread_cond_broadcast(&stages->claims_changed);
     pthread_mutex_unlock(&stages->mutex);
 }
 
 void hd_stages_wake(HdStages *stages) {
     pthread_mutex_lock(&stages->mutex);
-    pthread_cond_broadcast(&stages->room_made);
+    pthread_cond_broadcast(&stages->claims_changed);
     pthread_mutex_unlock(&stages->mutex);
 }
 
@@ -296,7 +298,7 @@ void hd_stages_fail(HdStages *stages, int item, const HdError *error) {
 void hd_stages_stop(HdStages *stages) {
     pthread_mutex_lock(&stages->mutex);
     stages->stopped = true;
-    pthread_cond_broadcast(&stages->room_made);
+    pthread_cond_broadcast(&stages->claims_changed);
     pthread_mutex_unlock(&stages->mutex);
 }
 
@@ -309,7 +311,7 @@ HdStatus hd_stages_end(HdStages *stages, HdError *error) {
     return status;
 }
 
-/* Returns 0 or what went wrong, as errno would. */
+/* Returns 0, or an errno value. */
 static int start_worker(HdStages *stages, int stage) {
     Worker *worker = &stages->workers[stages->worker_count];
     *worker = (Worker){.stages = stages, .stage = stage};
@@ -318,7 +320,7 @@ static int start_worker(HdStages *stages, int stage) {
     return reason;
 }
 
-/* Every stage has one thread already, and could do with it. */
+/* Adds threads; each stage has one already and can work with it. */
 static void start_more(HdStages *stages) {
     int reason = 0, wanted = 0;
     for (int i = 0; i < stages->count; i++) {
@@ -349,6 +351,6 @@ HdStatus hd_stages_start(HdStages **out, const HdStage *list, int count, int ite
             "cannot start thread %d of at least %d for the outputs: %s; --threads leaves more of "
             "them to the outputs",
             stages->worker_count + 1, count, strerror(reason));
-    hd_stages_fail(stages, 0, error); /* not even what is ready is wanted */
+    hd_stages_fail(stages, 0, error); /* not even ready items are wanted */
     return hd_stages_end(stages, error);
 }

@@ -14,17 +14,17 @@
 #include "system/interrupt.h"
 
 enum {
-    TIMEOUT_S = 600, /* HEDRON_FFMPEG_PATIENCE says otherwise */
+    TIMEOUT_S = 600, /* default of HEDRON_FFMPEG_PATIENCE */
     MAX_TIMEOUT_S = 86400,
-    LAST_WORDS_MS = 3000 /* which one has that stopped reading */
+    EXIT_TIMEOUT_MS = 3000 /* time to exit after it stopped reading */
 };
 
 struct HdVideo {
     HdChild ffmpeg;
-    int timeout_ms; /* with FFmpeg and ffprobe */
+    int timeout_ms; /* timeout of FFmpeg and ffprobe */
     HdVideoPlan plan;
     long frames;
-    HdAtomicFile file; /* which FFmpeg writes */
+    HdAtomicFile file; /* output of FFmpeg */
     char ffprobe[HD_MAX_PATH];
 };
 
@@ -84,7 +84,7 @@ static HdStatus read_timeout(int *milliseconds, HdError *error) {
     return HD_OK;
 }
 
-/* FFmpeg is given a name that exists: so it is taken against other processes. */
+/* The file exists before FFmpeg starts, which reserves its name against other processes. */
 static HdStatus open_film(HdVideo *video, const char *path, HdError *error) {
     char ffmpeg[HD_MAX_PATH];
     HD_TRY(read_timeout(&video->timeout_ms, error));
@@ -92,7 +92,7 @@ static HdStatus open_film(HdVideo *video, const char *path, HdError *error) {
     HD_TRY(hd_child_find("ffprobe", video->ffprobe, error));
     HD_TRY(hd_atomic_file_reserve(&video->file, path, error));
     HD_TRY(start_ffmpeg(video, ffmpeg, error));
-    /* Where FFmpeg does not take it, it does not take the first part either. */
+    /* If FFmpeg does not accept it, it will not accept the first part either. */
     if (video->plan.is_joined)
         hd_child_send(&video->ffmpeg, join_head, sizeof join_head - 1, video->timeout_ms);
     return HD_OK;
@@ -117,31 +117,29 @@ static HdStatus fail_interrupted(const HdVideo *video, const char *program, HdEr
                    video->file.path);
 }
 
-/* FFmpeg's words on a file that is gone mislead. */
-static void blame_folder(const HdVideo *video, HdError *error) {
+/* Replaces FFmpeg's message if the file is gone, for it misleads. */
+static void report_missing_file(const HdVideo *video, HdError *error) {
     HdError gone;
     if (hd_atomic_file_check(&video->file, &gone) != HD_OK)
         *error = gone;
 }
 
-static HdStatus fail_stuck(const HdVideo *video, const char *program, const char *when,
-                           HdChild *child, HdError *error) {
-    return hd_fail(
-        error, HD_FAILED,
-        "%s stood still for %d s %s of %s and was ended (HEDRON_FFMPEG_PATIENCE sets the "
-        "seconds); it said: %s",
-        program, video->timeout_ms / 1000, when, video->file.path, hd_child_said(child));
+static HdStatus fail_idle(const HdVideo *video, const char *program, const char *when,
+                          HdChild *child, HdError *error) {
+    return hd_fail(error, HD_FAILED,
+                   "%s was idle for %d s %s of %s and was stopped (HEDRON_FFMPEG_PATIENCE sets the "
+                   "seconds); it said: %s",
+                   program, video->timeout_ms / 1000, when, video->file.path, hd_child_said(child));
 }
 
 static HdStatus fail_early(HdVideo *video, HdError *error) {
     char how[64];
-    hd_child_end(&video->ffmpeg, LAST_WORDS_MS, how);
+    hd_child_end(&video->ffmpeg, EXIT_TIMEOUT_MS, how);
     if (hd_interrupt_signal() != 0)
         return fail_interrupted(video, "FFmpeg", error);
-    hd_fail(error, HD_FAILED,
-            "FFmpeg ended early (%s) while it was given frame %ld of %s; it said: %s", how,
+    hd_fail(error, HD_FAILED, "FFmpeg ended early (%s) at frame %ld of %s; it said: %s", how,
             video->frames, video->file.path, hd_child_said(&video->ffmpeg));
-    blame_folder(video, error);
+    report_missing_file(video, error);
     return HD_FAILED;
 }
 
@@ -156,7 +154,7 @@ static HdStatus send(HdVideo *video, const void *bytes, size_t size, HdError *er
         return fail_early(video, error);
     hd_child_stop(&video->ffmpeg);
     snprintf(when, sizeof when, "at frame %ld", video->frames);
-    return fail_stuck(video, "FFmpeg", when, &video->ffmpeg, error);
+    return fail_idle(video, "FFmpeg", when, &video->ffmpeg, error);
 }
 
 HdStatus hd_video_add(HdVideo *video, const HdFrame *frame, HdError *error) {
@@ -165,8 +163,8 @@ HdStatus hd_video_add(HdVideo *video, const HdFrame *frame, HdError *error) {
     return HD_OK;
 }
 
-/* In single quotes, which FFmpeg reads as a shell does. The times are told, since each film knows
-   its own only to a millisecond. */
+/* Quotes as FFmpeg does, like a shell. Gives the times, since each film has its own only to a
+   millisecond. */
 static void describe_part(const HdVideo *video, const char *path, int frames, FILE *out) {
     const int rate = video->plan.style.frames_per_second;
     const int64_t microseconds = ((int64_t)frames * 1000000 + rate / 2) / rate;
@@ -202,12 +200,12 @@ static HdStatus end_ffmpeg(HdVideo *video, HdError *error) {
     if (hd_interrupt_signal() != 0)
         return fail_interrupted(video, "FFmpeg", error);
     if (video->ffmpeg.is_stuck)
-        return fail_stuck(video, "FFmpeg", "after the last frame", &video->ffmpeg, error);
+        return fail_idle(video, "FFmpeg", "after the last frame", &video->ffmpeg, error);
     return hd_fail(error, HD_FAILED, "FFmpeg could not make %s (%s); it said: %s", video->file.path,
                    how, hd_child_said(&video->ffmpeg));
 }
 
-/* FFmpeg ends with code 0 even where its input was cut short, so only the file itself tells. */
+/* FFmpeg exits with code 0 even if its input was cut short, so only the file itself can tell. */
 static HdStatus count_frames(HdVideo *video, HdError *error) {
     char target[HD_MAX_PATH + 8], how[64], excuse[MAX_EXCUSE] = "", *end;
     HdChild ffprobe;
@@ -222,8 +220,8 @@ static HdStatus count_frames(HdVideo *video, HdError *error) {
     if (!done && hd_interrupt_signal() != 0)
         return fail_interrupted(video, "ffprobe", error);
     if (ffprobe.is_stuck)
-        return fail_stuck(video, "ffprobe", "while it counted the frames", &ffprobe, error);
-    /* What FFmpeg said although it ended with code 0: a full disk, say. */
+        return fail_idle(video, "ffprobe", "while it counted the frames", &ffprobe, error);
+    /* FFmpeg's messages despite exit code 0: a full disk, say. */
     if (video->ffmpeg.said_length > 0)
         snprintf(excuse, MAX_EXCUSE, "; FFmpeg had said: %.500s", hd_child_said(&video->ffmpeg));
     const char *answer = hd_child_said(&ffprobe);
@@ -244,7 +242,7 @@ HdStatus hd_video_close(HdVideo *video, HdDurability durability, HdError *error)
     if (status == HD_OK)
         status = count_frames(video, error);
     if (status == HD_FAILED)
-        blame_folder(video, error);
+        report_missing_file(video, error);
     if (status == HD_OK)
         status = hd_atomic_file_commit(&video->file, durability, error);
     hd_video_abort(video);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A film made by FFmpeg's programs from raw frames. */
+/* Makes a film with FFmpeg's programs from raw frames. */
 #ifndef HD_OUTPUT_VIDEO_H
 #define HD_OUTPUT_VIDEO_H
 
@@ -11,37 +11,35 @@
 
 typedef struct HdVideo HdVideo;
 
-/* As the outputs were settled. */
+/* A film's settled properties. */
 typedef struct HdVideoPlan {
-    const HdFormat *format; /* of a film */
+    const HdFormat *format; /* format of a film */
     int width, height;
     HdOutputStyle style;
-    bool is_joined; /* of other films, which hd_video_add_part names; otherwise it gets frames */
+    bool is_joined; /* joins other films (hd_video_add_part); otherwise gets frames */
 } HdVideoPlan;
 
 /* Finds FFmpeg ("ffmpeg" and "ffprobe" in PATH), makes missing folders, and starts FFmpeg without a
-   shell, writing to a temporary name beside `path`. The format tells what is made: MP4, H.264,
-   yuv420p, BT.709, an odd width or height padded by one pixel; MKV, FFV1, the frames' RGB without
-   loss; GIF, a palette for each frame, ordered dither, repeating for ever, times rounded to
-   centiseconds. Frames are 8-bit RGBA of one size, alpha 255, on the style's curve, as the film
-   says; a GIF can only say sRGB, and with another curve is HD_BAD_INPUT. Films that are joined are
-   of that size and style, and of the format that segments of `format` have; nothing is encoded
-   again but a GIF. HD_UNAVAILABLE where FFmpeg is missing. */
+   shell, writing to a temporary file in the folder of `path`. Formats: MP4 is H.264, yuv420p,
+   BT.709, an odd width or height padded by one pixel. MKV is FFV1, lossless RGB. GIF has a palette
+   for each frame, ordered dither, an endless loop, and times rounded to centiseconds. Frames are
+   8-bit RGBA of one size, alpha 255, on the style's curve, which the film names; a GIF must be
+   sRGB, or it is HD_BAD_INPUT. Joined films have that size and style, and the segment format of
+   `format`; only a GIF is encoded again. Fails with HD_UNAVAILABLE if FFmpeg is missing. */
 HdStatus hd_video_open(HdVideo **video, const char *path, const HdVideoPlan *plan, HdError *error);
 
-/* Names the next film, and how many frames it has. */
+/* Adds the next film to join, and its number of frames. */
 HdStatus hd_video_add_part(HdVideo *video, const char *path, int frames, HdError *error);
 
-/* Hands over `rgba` of one frame of the plan's size, unless one failed before; blocks while FFmpeg
-   is busy, but at most for 600 s, or what HEDRON_FFMPEG_PATIENCE says, while it takes nothing and
-   says nothing. An FFmpeg that ended early is an error that quotes the end of what it said, never a
-   signal. */
+/* Sends a frame's `rgba` of the plan's size, unless one failed before. Blocks while FFmpeg is busy;
+   fails if FFmpeg neither reads nor prints for 600 s, or HEDRON_FFMPEG_PATIENCE seconds. If FFmpeg
+   exited, the error quotes the end of its output; no signal occurs. */
 HdStatus hd_video_add(HdVideo *video, const HdFrame *frame, HdError *error);
 
-/* Ends a film that has frames, none of which failed: waits for FFmpeg, with the same patience,
-   checks its exit code, counts the frames of the file with ffprobe against the frames added,
-   renames the file to its final name; with HD_DURABLE it is on the disk before, and its name
-   afterwards. Frees `video` in every case; on failure no file is left. */
+/* Completes a film that has frames, none of which failed. Waits for FFmpeg, with the same timeout,
+   checks its exit code, compares the file's frame count (ffprobe) with the frames added, and
+   renames the file. With HD_DURABLE syncs the file before and its name after. Frees `video` also on
+   failure, which leaves no file. */
 HdStatus hd_video_close(HdVideo *video, HdDurability durability, HdError *error);
 
 /* Stops FFmpeg, removes the temporary file, frees `video`. */

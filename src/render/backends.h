@@ -5,7 +5,7 @@
 
 #include "device/backend.h"
 
-/* X(name): all backends, the best first; the last one is always there. */
+/* X(name): all backends in order of preference; the last one is always available. */
 #define HD_BACKENDS(X) X(cuda) X(opencl) X(c)
 
 #define HD_BACKEND_DECLARED(name) extern const HdBackend hd_backend_##name;
@@ -15,10 +15,10 @@ enum { HD_BACKEND_COUNT = 0 HD_BACKENDS(HD_BACKEND_COUNTED) };
 HD_BACKENDS(HD_BACKEND_DECLARED)
 extern const HdBackend *const hd_backends[HD_BACKEND_COUNT];
 
-/* NULL where no backend has that name. */
+/* Returns the backend of that name, or NULL. */
 const HdBackend *hd_backend_find(const char *name);
 
-/* The one that needs no driver. */
+/* Returns the backend that needs no driver. */
 const HdBackend *hd_backend_always_there(void);
 
 #endif

@@ -14,14 +14,14 @@
 
 /* ---- samples ---- */
 
-enum { BITS = 24, TURN_OVER = (1 << (BITS - 1)) - 1 };
+enum { BITS = 24, FLIPPED_BITS = (1 << (BITS - 1)) - 1 };
 
 typedef struct Point {
-    uint32_t x, y; /* in parts of 2^BITS */
+    uint32_t x, y; /* coordinates in units of 2^-BITS */
 } Point;
 
-/* Sobol's first two dimensions: the bits of i turned round, and the same after multiplication by
-   Pascal's triangle modulo 2. */
+/* Returns a point of Sobol's first two dimensions: the reversed bits of i, and the same after
+   multiplication by Pascal's triangle modulo 2. */
 static Point sequence_point(uint32_t i) {
     Point point = {0, 0};
     uint32_t second = UINT32_C(1) << (BITS - 1);
@@ -32,8 +32,8 @@ static Point sequence_point(uint32_t i) {
         }
         second ^= second >> 1;
     }
-    point.x ^= TURN_OVER;
-    point.y ^= TURN_OVER;
+    point.x ^= FLIPPED_BITS;
+    point.y ^= FLIPPED_BITS;
     return point;
 }
 
@@ -51,8 +51,8 @@ static HdStatus create(HdSampleSet *set, int count, int grid_side, HdError *erro
 HdStatus hd_sample_set_grid(HdSampleSet *set, int side, HdError *error) {
     const int count = side * side;
     HD_TRY(create(set, count, side, error));
-    unsigned char *taken = calloc((size_t)count, 1);
-    if (taken == NULL) {
+    unsigned char *used = calloc((size_t)count, 1);
+    if (used == NULL) {
         hd_sample_set_free(set);
         return HD_NO_ROOM(error, "%d samples", count);
     }
@@ -60,12 +60,12 @@ HdStatus hd_sample_set_grid(HdSampleSet *set, int side, HdError *error) {
     for (uint32_t i = 0; found < count; i++) {
         Point point = sequence_point(i);
         int column = cell_of(point.x, side), row = cell_of(point.y, side);
-        if (taken[row * side + column])
+        if (used[row * side + column])
             continue;
-        taken[row * side + column] = 1;
+        used[row * side + column] = 1;
         set->places[found++] = column | row << 16;
     }
-    free(taken);
+    free(used);
     return HD_OK;
 }
 
@@ -87,8 +87,8 @@ static void shuffle(int *numbers, int count, uint32_t *state) {
     }
 }
 
-/* Where the random place `within` in part `part` of the cell number `cell` is, on the dense grid.
- */
+/* Returns the coordinate, on the dense grid, of random position `within` in part `part` of cell
+   `cell`. */
 static int dense_place(int side, int cell, int part, uint32_t within) {
     double place = cell + (part + (double)within / 4294967296.0) / side;
     return (int)(place * HD_DENSE_GRID / side);
@@ -116,15 +116,15 @@ void hd_sample_set_free(HdSampleSet *set) {
 
 /* ---- errors ---- */
 
-/* sRGB: 1 / f' is 1 / 12.92 = 0.0774 up to 0.0031308, and then 2.2749 v^0.5833, which is concave:
-   the line 0.0705 + 2.2 v is below both at their ends, 0.0774 at 0.0031308 and 2.2749 at 1. */
+/* sRGB: 1 / f' is 1 / 12.92 = 0.0774 up to 0.0031308, then 2.2749 v^0.5833, which is concave. The
+   line 0.0705 + 2.2 v is below both at their ends: 0.0774 at 0.0031308 and 2.2749 at 1. */
 double hd_missing_allowed(HdCurve curve, double steps, double radiance) {
     if (curve != HD_CURVE_SRGB)
         return steps * (1.0 / 255.0);
     return steps * (0.0705 / 255.0 + 2.2 / 255.0 * (radiance > 0.0 ? radiance : 0.0));
 }
 
-/* Curves grow slower the brighter it is. */
+/* Curves are the steepest at the dark end. */
 double hd_missing_steps(HdCurve curve, double missing, double radiance) {
     return 255.0 *
            (hd_curve_to_display(curve, radiance + missing) - hd_curve_to_display(curve, radiance));
@@ -135,27 +135,27 @@ float hd_darkest(const float rgb[3]) {
     return least < rgb[2] ? least : rgb[2];
 }
 
-/* ---- surveys ---- */
+/* ---- bound passes ---- */
 
-/* Entries of one submission, at most, in whole items; lists are worked off in parts, as few as can
-   be, for a GPU waits for the longest tree of each. */
+/* Most entries of one submission, in whole items. Few large submissions are faster, for a GPU waits
+   for the longest tree of each. */
 enum { MAX_ENTRIES = HD_MAX_IMAGE_SIDE / HD_LISTED_WIDTH * HD_LISTED_WIDTH * HD_LISTED_WIDTH };
 
-/* Cut-offs, as parts of what a dark pixel may miss: the first one, the factor to the next one, and
-   the last one, with which no sample can miss too much that has so many rays at most. */
+/* Cut-offs as parts of a dark pixel's allowance: the first one, the ratio of successive ones, and
+   the last one. With the last one no sample of at most MAX_RAYS rays can miss too much. */
 #define FIRST_CUTOFF (1.0 / 64.0)
 #define NEXT_CUTOFF  (1.0 / 8.0)
 #define LAST_CUTOFF  (1.0 / MAX_RAYS)
 
-/* Of a sample, on the mean of a pass: where there are more already, smaller cut-offs come to no
-   end. A packet cannot be interrupted. */
+/* Mean rays of a sample, beyond which smaller cut-offs would not terminate. A packet cannot be
+   interrupted. */
 #define MAX_RAYS 1048576.0
 
-/* Small limits are approached from this one, so that each pass tells what the next one costs. */
+/* First limit on the way to smaller ones, so that each pass predicts the cost of the next. */
 #define EASY_LIMIT 1.0
 
-/* A smaller cut-off is of no use where the bound stays above this part of what it was: depth or
-   weight ended the rays. */
+/* A bound that stays above this part of its last value gains nothing from a smaller cut-off: depth
+   or weight ended the rays. */
 #define PROGRESS 0.99F
 
 void hd_bound_passes_free(HdBoundPasses *passes) {
@@ -213,8 +213,8 @@ typedef struct Part {
     HdBoundPasses *passes;
     const HdBoundPass *pass;
     double cutoff;
-    bool is_first; /* of several cut-offs */
-    int *open;     /* numbers of the requests; at first they are from, from + 1, ... */
+    bool is_first; /* first of several cut-offs */
+    int *open;     /* numbers of the requests; at first from, from + 1, ... */
     int from, count;
 } Part;
 
@@ -222,10 +222,10 @@ static int request_number(const Part *part, int i) {
     return part->is_first ? part->from + i : part->open[i];
 }
 
-/* Where request number i of `count` is in the list: items render their 64 entries in Z order, so
-   that requests next to each other share packets only if they are listed so. The last ones, which
-   fill no item, are listed as they come. */
-static int place_of(int i, int count) {
+/* Returns the list position of request i of `count`. Items render their 64 entries in Z order, so
+   neighbours share packets only if they are listed so. The last requests, which fill no item, stay
+   in order. */
+static int list_position(int i, int count) {
     enum { ITEM = HD_LISTED_WIDTH * HD_LISTED_WIDTH };
     int z = i % ITEM, first = i - z;
     return first + ITEM <= count ? first + HD_Z_ROW(z) * HD_LISTED_WIDTH + HD_Z_COLUMN(z) : i;
@@ -235,13 +235,13 @@ static void list_entries(void *context, int first, int end) {
     const Part *part = context;
     for (int i = first; i < end; i++) {
         const HdBoundRequest *request = &part->pass->requests[request_number(part, i)];
-        size_t place = (size_t)place_of(i, part->count);
+        size_t place = (size_t)list_position(i, part->count);
         part->passes->entries[2 * place] = request->pixel;
         part->passes->entries[2 * place + 1] = request->first;
     }
 }
 
-/* Chooses the requests that are not within the limit. */
+/* Stores means and selects the requests beyond the limit. */
 static int store_means(void *context, int first, int end, int *still_open) {
     const Part *part = context;
     const float *values = part->passes->frame.rgb;
@@ -250,7 +250,7 @@ static int store_means(void *context, int first, int end, int *still_open) {
         int number = request_number(part, i);
         HdBoundedMean *mean = &part->pass->means[number];
         float before = mean->bound;
-        size_t place = (size_t)place_of(i, part->count);
+        size_t place = (size_t)list_position(i, part->count);
         memcpy(mean, values + HD_BOUNDED_FLOATS * place, sizeof *mean);
         bool goes_on = part->is_first || mean->bound < PROGRESS * before;
         if (goes_on && !is_within(part->passes, mean))
@@ -281,7 +281,7 @@ static HdStatus submit(const Part *part, HdWatched watched, HdError *error) {
     return status;
 }
 
-/* Surveys the requests of a part, of which those that are not within the limit stay, in place. */
+/* Renders the requests of a part and keeps those beyond the limit, in place. */
 static HdStatus bound_part(Part *part, HdWatched watched, HdError *error) {
     HdBoundPasses *passes = part->passes;
     hd_chunks_run(passes->threads, part->count, list_entries, part);
@@ -291,7 +291,7 @@ static HdStatus bound_part(Part *part, HdWatched watched, HdError *error) {
     return HD_OK;
 }
 
-/* Of the requests that are open, at first all. */
+/* Renders the open requests, at first all. */
 static HdStatus bound_open(HdBoundPasses *passes, const HdBoundPass *pass, double cutoff,
                            bool is_first, HdWatched watched, int *open_count, HdError *error) {
     int left = 0;
@@ -307,8 +307,8 @@ static HdStatus bound_open(HdBoundPasses *passes, const HdBoundPass *pass, doubl
     return HD_OK;
 }
 
-/* Smaller and smaller cut-offs, until no request is open. The first one is worth most of what is
-   left, for few samples need another one; without a limit there is one. */
+/* Decreases the cut-off until no request is open; without a limit one cut-off suffices. Each step
+   gets most of the remaining weight, for few samples need another one. */
 HdStatus hd_bound_pass(HdBoundPasses *passes, const HdBoundPass *pass, HdError *error) {
     double limit = passes->scene->max_error;
     double easy = limit > 0.0 && limit < EASY_LIMIT ? EASY_LIMIT : limit;

@@ -13,26 +13,26 @@
 #include "system/thread_pool.h"
 #include "tables/table.h"
 
-/* Steps of 255 by which pictures must differ, for each step of the error that is aimed at: of
-   neighbours that have one sample; of the parts of a pixel's samples; of neighbours that have
-   more. Measured on the scenes that ship (docs/performance.md). */
+/* Least contrasts in steps of 1/255, per step of the target error: of neighbours with one sample,
+   of the parts of a pixel's samples, and of neighbours with more samples. Measured on the bundled
+   scenes (docs/performance.md). */
 #define FIRST_CONTRAST     0.5
 #define PART_CONTRAST      2.0
 #define NEIGHBOUR_CONTRAST 8.0
 
-/* The error that is aimed at where nobody said another. */
+/* Target error unless the user sets one. */
 #define USUAL_ERROR 2.0
 
-/* What is usual of a picture: pixels that are refined, dear as they are, and, of a pass, the
-   samples that it brings to neighbours. Progress is guessed by them, and nothing else. */
+/* Typical share of refined pixels, weighted by cost, and of a pass's samples that spread to
+   neighbours. Only progress estimates use them. */
 #define USUAL_SHARE  0.75
 #define USUAL_SPREAD 0.05
 
-/* How often samples spread to neighbours, and to which share of the picture at least: a pass of
-   fewer pixels keeps a GPU waiting as long as one of many. */
+/* Most rounds of spreading to neighbours, and the picture's part that a round must reach: a smaller
+   pass keeps a GPU waiting as long as a large one. */
 enum { MAX_SPREADS = 4, MIN_SPREAD = 1000 };
 
-/* More would wait for one another longer than they have work. */
+/* More would wait for each other longer than they work. */
 enum { MAX_THREADS = 16 };
 
 typedef struct Codes {
@@ -43,23 +43,23 @@ typedef struct Pixel {
     float mean[3];
     float bound;
     int samples;
-    Codes codes;    /* of the mean */
-    bool is_uneven; /* the means of its samples' parts differ much */
+    Codes codes;    /* codes of the mean */
+    bool is_uneven; /* means of its samples' parts differ much */
 } Pixel;
 
 typedef struct HdRefinement {
     HdThreadPool *threads;
-    HdBoundPasses passes; /* of the scene; its sums are the frame */
+    HdBoundPasses passes; /* passes of the scene; their sums are the frame */
     HdSampleSet samples;
     int width, height;
-    int *order; /* of the pixels: blocks of neighbours together, as packets like it */
+    int *order; /* pixels in blocks of neighbours, which suit packets */
     Pixel *pixels;
     int *chosen;   /* pixels of the pass */
-    double *steps; /* of 255, that a pixel may miss */
+    double *steps; /* steps of 1/255 that a pixel may miss */
     HdBoundRequest *requests;
     HdBoundedMean *means;
     int request_capacity, mean_capacity;
-    HdWatched left; /* of the frame, that no pass was given */
+    HdWatched left; /* weight of the frame not given to a pass */
 } HdRefinement;
 
 static void free_refinement(HdRefinement *r) {
@@ -89,7 +89,7 @@ static void order_pixels(HdRefinement *r) {
             }
 }
 
-/* The scene was uploaded to the renderer; both live on. */
+/* The scene is on the renderer; both must live on. */
 static HdStatus fill_refinement(HdRefinement *r, const HdFrameMaker *maker, HdError *error) {
     const HdScene *scene = maker->scene;
     const int side = scene->samples_per_side;
@@ -115,7 +115,7 @@ static HdStatus fill_refinement(HdRefinement *r, const HdFrameMaker *maker, HdEr
     return HD_OK;
 }
 
-/* ---- what is known of a pixel ---- */
+/* ---- contrast of pixels ---- */
 
 static double error_aimed_at(const HdRefinement *r) {
     double limit = r->passes.scene->max_error;
@@ -143,8 +143,8 @@ static void widen(Codes *least, Codes *most, Codes codes) {
     }
 }
 
-/* Whether surveys of `samples` samples each differ much. The pixel's own until now are a part as
-   well, unless they are fewer. */
+/* Returns whether means of `samples` samples differ much. The pixel's own mean counts too, unless
+   it has fewer samples. */
 static bool are_uneven(const HdRefinement *r, const Pixel *pixel, const HdBoundedMean *means,
                        int count, int samples) {
     Codes first = encode(r, means[0].rgb), least = first, most = first;
@@ -175,7 +175,7 @@ static void add_means(const HdRefinement *r, Pixel *pixel, const HdBoundedMean *
 
 /* ---- passes ---- */
 
-/* The chosen pixels' samples from number `from` on, in parts of `each`. */
+/* Samples of the chosen pixels from index `from` on, in parts of `each`. */
 typedef struct Pass {
     HdRefinement *refinement;
     int from, parts, each;
@@ -187,7 +187,8 @@ static void request_samples(void *context, int first, int end) {
     HdBoundRequest *request = &r->requests[(size_t)first * (size_t)pass->parts];
     for (int i = first; i < end; i++) {
         int x = r->chosen[i] % r->width, y = r->chosen[i] / r->width;
-        const int packed = (int)((uint32_t)y << 16 | (uint32_t)x); /* the sign is the row's, too */
+        const int packed =
+            (int)((uint32_t)y << 16 | (uint32_t)x); /* the sign bit belongs to the row */
         for (int p = 0; p < pass->parts; p++)
             *request++ = (HdBoundRequest){packed, pass->from + p * pass->each};
     }
@@ -204,8 +205,8 @@ static void add_samples(void *context, int first, int end) {
     }
 }
 
-/* The chosen pixels, in order, get the samples up to `samples` in `parts` equal parts. About
-   `later` samples follow in other passes. */
+/* Takes the chosen pixels, in order, to `samples` samples in `parts` equal parts. About `later`
+   samples follow in other passes. */
 static HdStatus sample_chosen(HdRefinement *r, int count, int from, int samples, int parts,
                               double later, HdError *error) {
     Pass pass = {r, from, parts, (samples - from) / parts};
@@ -230,16 +231,16 @@ static HdStatus sample_chosen(HdRefinement *r, int count, int from, int samples,
     return HD_OK;
 }
 
-/* What pixels are chosen by. */
+/* Criteria of the choice of pixels. */
 typedef struct Choice {
     const HdRefinement *refinement;
-    int samples;    /* that pixels have */
-    bool is_spread; /* by neighbours that have just got more, alone */
-    int likeness;   /* steps of 255 by which neighbours may differ */
+    int samples;    /* samples of the pixels to choose */
+    bool is_spread; /* choice only because of neighbours with new samples */
+    int likeness;   /* largest difference of similar neighbours, in 1/255 */
 } Choice;
 
-/* A pixel is uneven in itself, or not like a neighbour; likewise a neighbour that has just got more
-   samples. */
+/* A pixel qualifies if it, or a neighbour with new samples, is uneven, or if it differs from a
+   neighbour. */
 static bool is_reason(const Choice *choice, const Pixel *pixel, const Pixel *neighbour) {
     bool differs = greatest_difference(pixel->codes, neighbour->codes) > choice->likeness;
     return choice->is_spread
@@ -272,7 +273,7 @@ static int choose_pixels(void *context, int first, int end, int *chosen) {
     return count;
 }
 
-/* Chooses the pixels of so many samples that there is a reason for; returns their number. */
+/* Chooses the qualifying pixels of `samples` samples; returns their number. */
 static int choose(HdRefinement *r, int samples, bool is_spread, double contrast) {
     double likeness = contrast * error_aimed_at(r);
     Choice choice = {r, samples, is_spread, likeness < 255.0 ? (int)likeness : 255};
@@ -286,8 +287,7 @@ static HdStatus sample_all(HdRefinement *r, int samples, HdError *error) {
     return sample_chosen(r, pixels, 0, samples, 1, later, error);
 }
 
-/* Into how many parts so many samples are cut: three, or else the least number that divides them.
- */
+/* Returns the number of parts: three, or else the least number that divides the samples. */
 static int part_count(int samples) {
     int parts = 3;
     while (parts < samples && samples % parts != 0)
@@ -295,9 +295,9 @@ static int part_count(int samples) {
     return parts < samples ? parts : samples;
 }
 
-/* The chosen pixels get as many samples as `level` says, and after them the neighbours of those
-   that turn out to be uneven, as far as that spreads. Parts take longer to be sent, and tell
-   nothing more where one sample becomes all of them. */
+/* Gives the chosen pixels the samples of `level`, and then neighbours of those that become uneven,
+   while that spreads. One sample that becomes all of them needs no parts, which take longer to
+   send. */
 static HdStatus refine_chosen(HdRefinement *r, int count, int samples, int level, HdError *error) {
     bool is_only_level = samples == 1 && level == r->samples.count;
     int parts = is_only_level ? 1 : part_count(level - samples);
@@ -325,7 +325,7 @@ static HdStatus refine(HdRefinement *r, HdError *error) {
     return HD_OK;
 }
 
-/* ---- frames of surveyed scenes ---- */
+/* ---- frames with an error bound ---- */
 
 static void fill_pixels(void *context, int first, int end) {
     const HdRefinement *r = context;
@@ -343,7 +343,7 @@ static void fill_pixels(void *context, int first, int end) {
     }
 }
 
-/* The mean is added up in the pixels' order, so that it does not depend on the threads. */
+/* Sums the mean in the pixels' order, so that it does not depend on the threads. */
 static void fill_frame(HdRefinement *r, HdFrame *frame) {
     int pixels = r->width * r->height;
     double largest = 0.0, sum = 0.0;
@@ -357,21 +357,21 @@ static void fill_frame(HdRefinement *r, HdFrame *frame) {
     frame->mean_bound = sum / (double)pixels;
 }
 
-/* The grid's samples tell what is covered, however many of them a pixel took. */
+/* Coverage comes from the grid's samples, however many a pixel has. */
 static HdStatus find_first_hits(const HdFrameMaker *maker, const HdCamera *camera, HdFrame *frame,
                                 HdError *error) {
     HdFrameTables tables;
     HdStatus status =
         hd_compile_frame(&tables, maker->scene, camera,
                          hd_renderer_options(maker->renderer)->precision, NULL, error);
-    tables.watched = (HdWatched){.watch = maker->watch}; /* worth nothing more to it */
+    tables.watched = (HdWatched){.watch = maker->watch}; /* without further weight */
     if (status == HD_OK)
         status = hd_renderer_first_hits(maker->renderer, &tables, frame, error);
     hd_frame_tables_free(&tables);
     return status;
 }
 
-/* What passes are worth to the watch is a guess, since each hangs on what comes of those before. */
+/* Weights of passes are estimates, since each depends on the results of those before. */
 static HdStatus render_bounded(const HdFrameMaker *maker, const HdCamera *camera, HdFrame *frame,
                                HdError *error) {
     HdRefinement *r = maker->refinement;

@@ -12,19 +12,21 @@ static bool awaits_gpu(const HdFrameScheduler *scheduler) {
     return false;
 }
 
-/* When a tracer has finished so many frames more. */
-static double end_of(const HdScheduledWorker *worker, int more, double now) {
+/* Returns when the worker has finished `more` further frames. */
+static double finish_time(const HdScheduledWorker *worker, int more, double now) {
     return fmax(worker->busy_until, now) + more * worker->seconds;
 }
 
-/* Who finishes another frame first, if each has taken as many as `taken` says: -1: nobody. */
-static int first_to_finish(const HdScheduledWorker *list, const int *taken, int count, double now) {
+/* Returns the worker that finishes another frame first, if each has also claimed `claimed` ones;
+   -1: none. */
+static int first_to_finish(const HdScheduledWorker *list, const int *claimed, int count,
+                           double now) {
     int first = -1;
     double least = 0.0;
     for (int i = 0; i < count; i++) {
         if (list[i].is_gone || list[i].seconds <= 0.0)
             continue;
-        double end = end_of(&list[i], taken[i] + 1, now);
+        double end = finish_time(&list[i], claimed[i] + 1, now);
         if (first < 0 || end < least) {
             first = i;
             least = end;
@@ -33,9 +35,9 @@ static int first_to_finish(const HdScheduledWorker *list, const int *taken, int 
     return first;
 }
 
-static bool is_turn_of(const HdFrameScheduler *scheduler, int number, int left, double now) {
+static bool should_claim(const HdFrameScheduler *scheduler, int number, int left, double now) {
     const HdScheduledWorker *own = &scheduler->list[number];
-    int taken[HD_MAX_WORKERS] = {0};
+    int claimed[HD_MAX_WORKERS] = {0};
     if (scheduler->count == 1)
         return true;
     if (own->is_cpu && awaits_gpu(scheduler))
@@ -43,17 +45,17 @@ static bool is_turn_of(const HdFrameScheduler *scheduler, int number, int left, 
     if (own->seconds <= 0.0)
         return own->count_in_flight == 0;
     for (int i = 0; i < left; i++) {
-        int first = first_to_finish(scheduler->list, taken, scheduler->count, now);
+        int first = first_to_finish(scheduler->list, claimed, scheduler->count, now);
         if (first == number)
             return true;
-        taken[first]++;
+        claimed[first]++;
     }
     return false;
 }
 
 bool hd_scheduler_wants(HdFrameScheduler *scheduler, int number, int left, double now) {
     pthread_mutex_lock(&scheduler->mutex);
-    bool wanted = is_turn_of(scheduler, number, left, now);
+    bool wanted = should_claim(scheduler, number, left, now);
     pthread_mutex_unlock(&scheduler->mutex);
     return wanted;
 }
@@ -73,7 +75,7 @@ void hd_scheduler_leave(HdFrameScheduler *scheduler, int number) {
 void hd_scheduler_begun(HdFrameScheduler *scheduler, int number, double now) {
     HdScheduledWorker *worker = &scheduler->list[number];
     pthread_mutex_lock(&scheduler->mutex);
-    worker->busy_until = end_of(worker, 1, now);
+    worker->busy_until = finish_time(worker, 1, now);
     worker->count_in_flight++;
     pthread_mutex_unlock(&scheduler->mutex);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Which of several tracers takes the next frame: slow ones do not keep fast ones waiting. */
+/* Schedules frames among several workers, so that slow ones do not delay fast ones. */
 #ifndef HD_RUN_FRAME_SCHEDULER_H
 #define HD_RUN_FRAME_SCHEDULER_H
 
@@ -8,34 +8,33 @@
 
 #include "device/backend.h"
 
-/* What is known of a tracer. Times are seconds of one clock. */
+/* State of a worker. Times are seconds of one clock. */
 typedef struct HdScheduledWorker {
-    bool is_gone;        /* takes no more frames */
-    bool is_cpu;         /* or else a GPU */
-    double seconds;      /* for a frame; 0: not known yet */
-    int count_in_flight; /* frames under way */
-    double busy_until;   /* when those will be finished */
+    bool is_gone;        /* claims no more frames */
+    bool is_cpu;         /* otherwise a GPU */
+    double seconds;      /* time per frame; 0: not known yet */
+    int count_in_flight; /* frames in flight */
+    double busy_until;   /* time when those will be finished */
 } HdScheduledWorker;
 
-/* The functions below may be called on any thread. */
+/* All functions below are thread-safe. */
 typedef struct HdFrameScheduler {
-    pthread_mutex_t mutex; /* of what follows */
+    pthread_mutex_t mutex; /* lock of the members below */
     HdScheduledWorker list[HD_MAX_WORKERS];
     int count;
 } HdFrameScheduler;
 
-/* Whether tracer `number` is to take a frame now, if `left` frames, 1 or more, are left: if one of
-   them would be finished last by others. One whose pace is not known takes a single frame. CPUs
-   wait until the pace of every GPU is known, for theirs may be hundreds of times slower. The only
-   tracer that there is takes what it gets. */
+/* Returns whether worker `number` should claim a frame now: whether it would finish one of the
+   `left` remaining frames (1 or more) before the others. A worker of unknown speed claims one
+   frame. CPUs wait until every GPU's speed is known, for they may be hundreds of times slower. A
+   single worker claims all. */
 bool hd_scheduler_wants(HdFrameScheduler *scheduler, int number, int left, double now);
 
-/* The tracer is known to take so long for a frame; it takes no more frames. */
+/* Set a worker's time per frame; mark it as gone. */
 void hd_scheduler_estimate(HdFrameScheduler *scheduler, int number, double seconds);
 void hd_scheduler_leave(HdFrameScheduler *scheduler, int number);
 
-/* A frame was begun; one was finished, for which the tracer took so long, or, `seconds` being 0,
-   was given back. */
+/* Record a started frame; record a frame finished in `seconds`, or released if 0. */
 void hd_scheduler_begun(HdFrameScheduler *scheduler, int number, double now);
 void hd_scheduler_ended(HdFrameScheduler *scheduler, int number, double seconds, double now);
 

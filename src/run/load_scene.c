@@ -15,10 +15,10 @@
 #include "scene/triangulate.h"
 #include "system/interrupt.h"
 
-/* Far above any classic input, and small enough to read into memory without a thought. */
+/* Far above any classic input, yet small enough to read into memory. */
 enum { MAX_INPUT_BYTES = 1 << 20 };
 
-/* Of the discs of edge lights, where they become polygons. */
+/* Sides of the polygons that replace discs of edge lights. */
 enum { DISC_SIDES = 16 };
 
 static const char standard_input[] = "standard input";
@@ -27,7 +27,7 @@ const char *hd_scene_name(const char *path) {
     return path == NULL ? "the built-in scene" : strcmp(path, "-") == 0 ? standard_input : path;
 }
 
-/* Whatever there is, up to `most` bytes, and an interrupt; the text is the caller's to free. */
+/* Reads up to `most` bytes, or until an interrupt; the caller frees the text. */
 static HdStatus read_stream(FILE *stream, const char *name, size_t most, char **text, size_t *size,
                             HdError *error) {
     *text = malloc(most + 1);
@@ -93,7 +93,7 @@ static void set_numbers(HdScene *scene, const HdScenePlan *plan) {
 
 static HdStatus crop(HdScene *scene, const HdPlannedArea *part, HdError *error) {
     if (part->left + part->width > scene->width || part->top + part->height > scene->height)
-        return hd_fail(error, HD_BAD_INPUT, "the picture has %d x %d pixels, which end before that",
+        return hd_fail(error, HD_BAD_INPUT, "the area ends outside the picture of %d x %d pixels",
                        scene->width, scene->height);
     scene->crop = (HdCrop){scene->width, scene->height, part->left, part->top};
     scene->width = part->width;
@@ -124,7 +124,7 @@ static HdStatus apply_geometry(HdScene *scene, const HdScenePlan *plan, HdError 
     scene->accel = plan->accel;
     if (plan->geometry == HD_GEOMETRY_SOLIDS && plan->divisions > 0)
         return hd_fail(error, HD_BAD_INPUT, "--divisions needs --geometry triangles");
-    hd_scene_part_contacts(scene);
+    hd_scene_separate_contacts(scene);
     if (plan->geometry == HD_GEOMETRY_SOLIDS)
         return HD_OK;
     return hd_scene_triangulate(scene, DISC_SIDES, plan->divisions > 0 ? plan->divisions : 1,

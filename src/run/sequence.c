@@ -15,13 +15,13 @@
 #include "system/thread_pool.h"
 #include "verify/trust.h"
 
-/* One for each count of lanes. */
+/* One for each lane count. */
 #define COUNTED(lanes) +1
 enum { MAX_TABLES = 0 HD_LANE_COUNTS(COUNTED) };
 
 typedef struct Run Run;
 
-/* A device of the team that traces the frames; it may be the only one. */
+/* A device of the team, which may be the only one. */
 typedef struct Member {
     Run *run;
     int number;
@@ -31,15 +31,15 @@ typedef struct Member {
 
 struct Run {
     const HdSequence *sequence;
-    HdFrameScheduler scheduler; /* its mutex is taken after the store's, never before it */
-    double start;               /* by hd_monotonic_seconds */
+    HdFrameScheduler scheduler; /* its mutex is locked after the store's, never before it */
+    double start;               /* start by hd_monotonic_seconds */
     HdFrameStore *store;
-    HdStages *stages; /* of the store */
+    HdStages *stages; /* stages of the store */
     Member members[HD_MAX_WORKERS];
-    pthread_mutex_t mutex; /* of what follows */
+    pthread_mutex_t mutex; /* lock of the members below */
     HdSceneTables tables[MAX_TABLES];
     int table_count;
-    int waiting; /* renderers that have not got the scene */
+    int waiting; /* renderers without the scene */
     int alive;
     HdStatus status;
     HdError error;
@@ -51,7 +51,7 @@ static HdRenderer *renderer_of(const Run *run, int number) {
     return run->sequence->team->list[number].renderer;
 }
 
-/* The scene is compiled once for all renderers of the same lanes. */
+/* Compiles the scene once for all renderers with the same number of lanes. */
 static HdStatus find_tables(Run *run, const HdRenderer *renderer, const HdSceneTables **found,
                             HdError *error) {
     const int lanes = hd_renderer_lanes(renderer);
@@ -73,7 +73,7 @@ static void free_tables(Run *run) {
         hd_scene_tables_free(&run->tables[run->table_count - 1]);
 }
 
-/* The tables are freed after the last renderer. */
+/* Frees the tables after the last renderer. */
 static HdStatus upload(Run *run, int number, HdError *error) {
     const HdSequence *sequence = run->sequence;
     HdRenderer *renderer = renderer_of(run, number);
@@ -92,7 +92,7 @@ static HdStatus upload(Run *run, int number, HdError *error) {
     return status;
 }
 
-/* Beside GPUs a CPU may be so slow that its first frame would keep them all waiting. */
+/* Next to GPUs a CPU may be so slow that its first frame would delay them all. */
 static HdStatus estimate_pace(Run *run, int number, HdError *error) {
     const HdSequence *sequence = run->sequence;
     const HdFrameList *missing = &sequence->resume->missing;
@@ -115,18 +115,18 @@ static HdStatus estimate_pace(Run *run, int number, HdError *error) {
     return HD_OK;
 }
 
-/* Several devices get the scene while frames are traced; one alone has it already. */
+/* Several devices get the scene while others trace; a single one has it already. */
 static HdStatus prepare(Run *run, int number, HdError *error) {
     if (run->sequence->team->count > 1)
         HD_TRY(upload(run, number, error));
     return estimate_pace(run, number, error);
 }
 
-/* ---- a device traces frames ---- */
+/* ---- tracing on a device ---- */
 
-/* A frame that the renderer works on. */
+/* A frame in flight on the renderer. */
 typedef struct InFlight {
-    int place; /* in the list */
+    int place; /* index in the list */
     HdFrameInFlight frame;
     HdSpan prepare; /* since the start of the run */
 } InFlight;
@@ -135,10 +135,10 @@ typedef struct Worker {
     Run *run;
     int number;
     HdFrameMaker maker;
-    int begun, ended; /* frames so far */
+    int begun, ended; /* numbers of frames so far */
     InFlight in_flight[HD_FRAMES_IN_FLIGHT];
-    double traced;   /* when the last frame's tracing was over */
-    double finished; /* when the last frame was */
+    double traced;   /* time when the last frame's tracing ended */
+    double finished; /* time when the last frame ended */
 } Worker;
 
 static double seconds_since_start(const Worker *worker) {
@@ -153,9 +153,9 @@ static int count_in_flight(const Worker *worker) {
     return worker->begun - worker->ended;
 }
 
-/* Frames are traced one after the other. One that was waited for as long as its tracing took was
-   traced then; another one as soon as the device could. What a device says by its own clock may not
-   agree with ours to the last digit. */
+/* Derives a frame's times; frames are traced one after the other. If the wait was at least as long
+   as tracing, tracing began with the wait; otherwise as soon as the device was free. The device's
+   clock may differ slightly from the host's. */
 static void note_times(Worker *worker, const InFlight *in_flight, double waited_from,
                        double trace_seconds, HdFrameTimes *times) {
     double now = seconds_since_start(worker);
@@ -170,7 +170,7 @@ static void note_times(Worker *worker, const InFlight *in_flight, double waited_
     times->copy = (HdSpan){rest_from, now - rest_from};
 }
 
-/* Fills the oldest frame under way, which it stays. */
+/* Fills the oldest frame in flight, which stays in flight. */
 static HdStatus fill_oldest(Worker *worker, HdError *error) {
     InFlight *in_flight = in_flight_of(worker, worker->ended);
     HdFrameTimes *times;
@@ -185,16 +185,16 @@ static HdStatus fill_oldest(Worker *worker, HdError *error) {
     return HD_OK;
 }
 
-static void give_oldest(Worker *worker) {
+static void submit_oldest(Worker *worker) {
     const InFlight *in_flight = in_flight_of(worker, worker->ended++);
     double now = seconds_since_start(worker);
-    double taken = now - fmax(in_flight->prepare.began, worker->finished);
+    double seconds = now - fmax(in_flight->prepare.began, worker->finished);
     worker->finished = now;
-    hd_scheduler_ended(&worker->run->scheduler, worker->number, taken, hd_monotonic_seconds());
+    hd_scheduler_ended(&worker->run->scheduler, worker->number, seconds, hd_monotonic_seconds());
     hd_stages_submit(worker->run->stages, in_flight->place);
 }
 
-static void give_all_back(Worker *worker) {
+static void release_all(Worker *worker) {
     hd_renderer_drop(worker->maker.renderer);
     for (; worker->ended < worker->begun; worker->ended++) {
         InFlight *in_flight = in_flight_of(worker, worker->ended);
@@ -204,28 +204,28 @@ static void give_all_back(Worker *worker) {
     }
 }
 
-/* Whether the store is told of what failed, for no device would do better. */
-static bool is_reported(Worker *worker, int place, HdStatus status, const HdError *error) {
+/* Reports the failure to the store and returns true, unless another device may do better. */
+static bool report_failure(Worker *worker, int place, HdStatus status, const HdError *error) {
     if (status == HD_INTERRUPTED || hd_renderer_has_failed(worker->maker.renderer))
         return false;
     hd_stages_fail(worker->run->stages, place, error);
     return true;
 }
 
-/* Once the store wants the oldest frame no more, another tracer may still fail at an earlier one,
-   which is then to be taken. */
+/* If the store no longer wants the oldest frame, another worker may still fail at an earlier one,
+   so this worker must be free to claim that. */
 static HdStatus finish_oldest(Worker *worker, HdError *error) {
     int place = in_flight_of(worker, worker->ended)->place;
     if (hd_stages_wait(worker->run->stages, place)) {
         HdStatus status = fill_oldest(worker, error);
         if (status == HD_OK) {
-            give_oldest(worker);
+            submit_oldest(worker);
             return HD_OK;
         }
-        if (!is_reported(worker, place, status, error))
+        if (!report_failure(worker, place, status, error))
             return status;
     }
-    give_all_back(worker);
+    release_all(worker);
     return HD_OK;
 }
 
@@ -235,10 +235,10 @@ static bool wants(void *context, int left) {
                               hd_monotonic_seconds());
 }
 
-/* Negative: none now. A tracer alone begins frames before there is room for them. One of several
-   may be given an earlier frame than those it has begun, which others wait for: it begins what it
-   can finish. */
-static int take_frame(Worker *worker) {
+/* Claims a frame, or returns a negative number. A single worker claims ahead of the capacity. One
+   of several may get an earlier frame than those it has begun, which others wait for, so it claims
+   only frames that it can finish. */
+static int claim_frame(Worker *worker) {
     const HdClaimer claimer = {
         .wants = wants,
         .context = worker,
@@ -249,8 +249,8 @@ static int take_frame(Worker *worker) {
     return hd_stages_claim(worker->run->stages, &claimer, count_in_flight(worker) == 0);
 }
 
-/* On failure the frame is not begun; the earlier ones are still under way. */
-static HdStatus begin(Worker *worker, int place, HdError *error) {
+/* On failure the frame is not begun; earlier ones stay in flight. */
+static HdStatus begin_frame(Worker *worker, int place, HdError *error) {
     const HdSequence *sequence = worker->run->sequence;
     InFlight *in_flight = in_flight_of(worker, worker->begun);
     double now = seconds_since_start(worker);
@@ -268,36 +268,35 @@ static HdStatus begin(Worker *worker, int place, HdError *error) {
         hd_scheduler_begun(&worker->run->scheduler, worker->number, hd_monotonic_seconds());
         return HD_OK;
     }
-    if (is_reported(worker, place, status, error))
+    if (report_failure(worker, place, status, error))
         return HD_OK;
     hd_stages_release(worker->run->stages, place);
     return status;
 }
 
-/* Where the device takes no more, it may still finish what it has. */
+/* If the device accepts no more frames, it may still finish those in flight. */
 static HdStatus trace(Worker *worker, HdError *error) {
     HdStatus status = HD_OK, beginning = HD_OK;
     HdError of_beginning;
     while (status == HD_OK) {
-        int place = beginning == HD_OK ? take_frame(worker) : -1;
+        int place = beginning == HD_OK ? claim_frame(worker) : -1;
         if (place >= 0)
-            beginning = begin(worker, place, &of_beginning);
+            beginning = begin_frame(worker, place, &of_beginning);
         else if (count_in_flight(worker) > 0)
             status = finish_oldest(worker, error);
         else
             break;
     }
-    give_all_back(worker);
+    release_all(worker);
     if (status != HD_OK || beginning == HD_OK)
         return status;
     *error = of_beginning;
     return beginning;
 }
 
-/* Traces frames until the store has none left. What a frame itself is to blame for, the store is
-   told. Fails where the device fails (hd_renderer_has_failed), which is its fault, as is all that
-   fails before the first frame, and with HD_INTERRUPTED after a signal: what was under way is then
-   given back to the store. */
+/* Traces frames until the store has none left. Reports failures of frames to the store. Fails if
+   the device fails (hd_renderer_has_failed) or before the first frame, which is the device's fault,
+   and with HD_INTERRUPTED after a signal; then releases the frames in flight. */
 static HdStatus trace_frames(const Member *member, bool *is_fault_of_device, HdError *error) {
     const HdSequence *sequence = member->run->sequence;
     HdRenderer *renderer = renderer_of(member->run, member->number);
@@ -325,9 +324,9 @@ static void drop_device(Run *run, int number, HdStatus status, const HdError *er
                               error->message);
 }
 
-/* The words of one alone are the run's. */
-static void leave(const Member *member, HdStatus status, const HdError *error,
-                  bool is_fault_of_device) {
+/* With one device, its error message is used unchanged. */
+static void finish_member(const Member *member, HdStatus status, const HdError *error,
+                          bool is_fault_of_device) {
     Run *run = member->run;
     pthread_mutex_lock(&run->mutex);
     if (status != HD_OK && is_fault_of_device && run->sequence->team->count > 1) {
@@ -346,7 +345,7 @@ static void leave(const Member *member, HdStatus status, const HdError *error,
 
 /* ---- threads ---- */
 
-static void *work(void *argument) {
+static void *run_member(void *argument) {
     const Member *member = argument;
     Run *run = member->run;
     HdError error;
@@ -354,22 +353,22 @@ static void *work(void *argument) {
     HdStatus status = prepare(run, member->number, &error);
     if (status == HD_OK)
         status = trace_frames(member, &is_fault_of_device, &error);
-    leave(member, status, &error, is_fault_of_device && status != HD_INTERRUPTED);
+    finish_member(member, status, &error, is_fault_of_device && status != HD_INTERRUPTED);
     return NULL;
 }
 
 static void start_member(Member *member) {
     HdError error;
-    int reason = hd_start_thread(&member->thread, work, member);
+    int reason = hd_start_thread(&member->thread, run_member, member);
     member->has_thread = reason == 0;
     if (reason == 0)
         return;
     HdStatus status =
         hd_fail(&error, HD_FAILED, "cannot start a thread for the device: %s", strerror(reason));
-    leave(member, status, &error, true);
+    finish_member(member, status, &error, true);
 }
 
-/* One alone needs no thread of its own. */
+/* A single device needs no thread of its own. */
 static HdStatus trace_all(Run *run, HdError *error) {
     const int count = run->sequence->team->count;
     for (int i = 0; i < count; i++) {
@@ -377,7 +376,7 @@ static HdStatus trace_all(Run *run, HdError *error) {
         if (count > 1)
             start_member(&run->members[i]);
         else
-            work(&run->members[i]);
+            run_member(&run->members[i]);
     }
     for (int i = 0; i < count; i++)
         if (run->members[i].has_thread)
@@ -406,7 +405,7 @@ static HdStatus start_store(Run *run, HdError *error) {
     return HD_OK;
 }
 
-/* One device alone gets the scene before there are outputs. */
+/* A single device gets the scene before the outputs are made. */
 HdStatus hd_sequence_render(const HdSequence *sequence, HdError *error) {
     Run run = {
         .sequence = sequence,
@@ -419,7 +418,7 @@ HdStatus hd_sequence_render(const HdSequence *sequence, HdError *error) {
     pthread_mutex_init(&run.scheduler.mutex, NULL);
     for (int i = 0; i < run.scheduler.count; i++)
         run.scheduler.list[i].is_cpu = sequence->team->list[i].device.is_cpu;
-    hd_known_folders_forget(); /* what was there before another sequence may rightly be gone */
+    hd_known_folders_forget(); /* folders of an earlier sequence may since have been removed */
     HdStatus status = sequence->team->count == 1 ? upload(&run, 0, error) : HD_OK;
     if (status == HD_OK)
         status = start_store(&run, error);

@@ -9,28 +9,26 @@
 
 typedef struct HdSequence {
     const HdScene *scene;
-    HdResume *resume;            /* which frames there are, and which of them are finished */
+    HdResume *resume;            /* frames of the run and their state */
     const HdOutputPlan *outputs; /* settled */
-    const HdDeviceTeam *team;    /* open; may be empty where nothing is missing */
-    /* Called once the scene is on the renderer of that number, before its first frame, for one
-       renderer at a time. With several both this and the next function are called on other threads.
-     */
+    const HdDeviceTeam *team;    /* open; may be empty if no frame is missing */
+    /* Reports that renderer `number` has the scene, before its first frame, for one renderer at a
+       time. With several renderers this and the next function are called on other threads. */
     void (*uploaded)(void *context, int number, const HdSceneTables *tables);
-    /* One of several renderers failed: others make its frames. */
+    /* Reports that one of several renderers failed; others render its frames. */
     void (*dropped)(void *context, int number, const HdError *error);
-    /* Called after each frame is stored, in their order, but on another thread, while later frames
-       are rendered. Must return HD_OK to go on. */
+    /* Reports each stored frame, in order, on another thread, while later frames are rendered.
+       Returns HD_OK to continue. */
     HdStatus (*stored)(void *context, const HdStoredFrame *stored, HdError *error);
     void *context;
-    HdWatch *watch; /* counts the frames as they are traced; NULL: nobody looks */
+    HdWatch *watch; /* counts traced frames; NULL: none */
 } HdSequence;
 
-/* Renders what is missing with one renderer, or with several together, and makes films of all:
-   which renderer makes a frame makes no difference to its bytes. A renderer that fails ends the
-   sequence only if it is the last one. The error is that of the first frame that failed; the frames
-   before it are stored, those after it are not, though they may have been rendered. HD_INTERRUPTED
-   after SIGINT, SIGTERM or SIGHUP: pictures that were finished stay, and so do films that were; the
-   others are dropped. */
+/* Renders the missing frames with one or several renderers and completes all films; the choice of
+   renderer does not affect a frame's bytes. A renderer's failure ends the sequence only if it is
+   the last one. Returns the error of the first failed frame; frames before it are stored, later
+   ones are not. Returns HD_INTERRUPTED after SIGINT, SIGTERM or SIGHUP: finished pictures and films
+   stay, others are discarded. */
 HdStatus hd_sequence_render(const HdSequence *sequence, HdError *error);
 
 #endif

@@ -10,7 +10,7 @@ static double path_time(int frame, int frame_count) {
     return 2.0 * HD_PI * ((double)frame / (double)frame_count);
 }
 
-/* The horizontal unit vector away from the z axis at the path's angle phi. */
+/* Returns the horizontal unit vector away from the z axis at the path's angle phi. */
 static HdVec3 outward_on_cylinder(const HdCylinderPath *path, double t) {
     HdVec3 outward = {0.0, 0.0, 0.0};
     hd_sine_cosine(path->phi0 + path->phi_frequency * t, &outward.y, &outward.x);
@@ -43,10 +43,10 @@ static bool is_finite(HdVec3 a) {
     return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
 }
 
-/* `path` supplies phi where the view is vertical and the picture could be turned any way. */
+/* Sets the view basis; `path` supplies phi if the view is vertical, which leaves the roll open. */
 static void set_basis(HdCamera *camera, HdVec3 view, const HdPath *path, double t) {
     static const double vertical = 1e-9;
-    /* Brought near 1 first, so that the squares neither overflow nor vanish. */
+    /* Scaled to about 1 first, so that the squares neither overflow nor vanish. */
     const double size = hd_largest(view);
     camera->forward = hd_normalize(hd_vec3(view.x / size, view.y / size, view.z / size));
     const HdVec3 sideways = hd_cross(camera->forward, hd_vec3(0.0, 0.0, 1.0));
@@ -62,14 +62,14 @@ static void set_basis(HdCamera *camera, HdVec3 view, const HdPath *path, double 
 }
 
 HdStatus hd_camera_at(HdCamera *camera, const HdScene *scene, int frame, HdError *error) {
-    /* Eye and target closer than this, compared with their coordinates, differ by rounding only. */
+    /* An eye and a target closer than this part of their coordinates differ by rounding only. */
     static const double same_place = 1e-13;
     const HdVec3 eye = hd_path_point(&scene->eye, frame, scene->frame_count);
     const HdVec3 target = hd_path_point(&scene->target, frame, scene->frame_count);
     const HdVec3 view = hd_sub(target, eye);
     if (!is_finite(eye) || !is_finite(target) || !is_finite(view))
         return hd_fail(error, HD_BAD_INPUT,
-                       "frame %d: the eye or the target is too far away for a number", frame);
+                       "frame %d: the coordinates of the eye or the target are too large", frame);
     const double scale = fmax(hd_largest(eye), hd_largest(target));
     if (hd_largest(view) <= same_place * scale)
         return hd_fail(error, HD_BAD_INPUT,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The camera's flight: from a frame number to an eye and an orthonormal view basis. */
+/* The camera path: from a frame number to an eye and an orthonormal view basis. */
 #ifndef HD_SCENE_CAMERA_H
 #define HD_SCENE_CAMERA_H
 
@@ -9,16 +9,16 @@
 typedef struct HdCamera {
     HdVec3 eye;
     HdVec3 right, up, forward;  /* orthonormal, right-handed: right x up = -forward */
-    double tangent_of_half_fov; /* horizontal */
+    double tangent_of_half_fov; /* tangent of half the horizontal field of view */
 } HdCamera;
 
-/* The point of the path at t = 2 pi * frame / frame_count, in world space. */
+/* Returns the path's point at t = 2 pi * frame / frame_count, in world space. */
 HdVec3 hd_path_point(const HdPath *path, int frame, int frame_count);
 
-/* The camera of one frame. Where it looks straight up or down, the picture's up is the horizontal
-   direction in which that view would be left by tilting: towards the z axis (looking down) or away
-   from it (looking up) at the eye's angle phi, which is that of a fixed eye's place, 0 on the axis.
-   Fails with HD_BAD_INPUT when the eye is at the target. */
+/* Computes the camera of one frame. If it looks straight up or down, the picture's up points away
+   from the z axis (looking up) or towards it (looking down), at the eye's angle phi. A fixed eye's
+   phi is that of its position, 0 on the axis. Fails with HD_BAD_INPUT if the eye is at the target.
+   */
 HdStatus hd_camera_at(HdCamera *camera, const HdScene *scene, int frame, HdError *error);
 
 #endif

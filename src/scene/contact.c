@@ -5,14 +5,13 @@
 
 /* ---- depth ---- */
 
-/* The separating axis theorem: two convex bodies lie apart exactly if their shadows do on the
-   normal of some face, or on the cross product of an edge of the one and an edge of the other. See
-   S. Gottschalk, M. C. Lin, D. Manocha, OBBTree: A Hierarchical Structure for Rapid Interference
-   Detection, SIGGRAPH 1996, section 5. The shortest of the overlaps of shadows is the shortest way
-   out. */
+/* The separating axis theorem: two convex bodies are separate exactly if their projections are, on
+   a face's normal or on the cross product of an edge of each. See S. Gottschalk, M. C. Lin, D.
+   Manocha, OBBTree: A Hierarchical Structure for Rapid Interference Detection, SIGGRAPH 1996,
+   section 5. The smallest overlap of projections is the penetration depth. */
 
-/* Sines of angles below this are those of parallel lines. An axis left out for it costs nothing:
-   its neighbours find the overlap to about that angle. */
+/* Sine of the angle below which lines count as parallel. An axis omitted for it costs nothing: its
+   neighbours find the overlap to about that angle. */
 static const double parallel = 1e-12;
 
 typedef struct Axes {
@@ -23,9 +22,9 @@ typedef struct Axes {
 /* A convex polyhedron, or a flat convex polygon. */
 typedef struct Body {
     HdVec3 centre;
-    double radius; /* of the sphere about the centre that holds all of it */
+    double radius; /* radius of the bounding sphere about the centre */
     int point_count;
-    HdVec3 point[HD_MAX_VERTICES]; /* from the centre */
+    HdVec3 point[HD_MAX_VERTICES]; /* relative to the centre */
     Axes normals, edges;
 } Body;
 
@@ -67,32 +66,32 @@ static void body_of_floor(Body *body, const HdFloor *floor) {
         add_axis(&body->edges, hd_normalize(hd_sub(body->point[(i + 1) % 4], body->point[i])));
 }
 
-typedef struct Shadow {
+typedef struct Projection {
     double low, high;
-} Shadow;
+} Projection;
 
-static Shadow shadow_of(const Body *body, HdVec3 axis) {
-    Shadow shadow = {(double)INFINITY, -(double)INFINITY};
+static Projection project(const Body *body, HdVec3 axis) {
+    Projection projection = {(double)INFINITY, -(double)INFINITY};
     for (int i = 0; i < body->point_count; i++) {
         const double along = hd_dot(body->point[i], axis);
-        shadow.low = along < shadow.low ? along : shadow.low;
-        shadow.high = along > shadow.high ? along : shadow.high;
+        projection.low = along < projection.low ? along : projection.low;
+        projection.high = along > projection.high ? along : projection.high;
     }
-    return shadow;
+    return projection;
 }
 
-/* Two bodies, and the shortest way out of each other found so far. */
+/* Two bodies and the smallest overlap found so far. */
 typedef struct Pair {
     const Body *a, *b;
-    HdVec3 offset; /* of b's centre from a's */
-    double touch;  /* what counts as touching */
+    HdVec3 offset; /* vector from a's centre to b's */
+    double touch;  /* depth that still counts as touching */
     double depth;
 } Pair;
 
-/* False where the axis shows that the bodies do not overlap. */
+/* Returns false if the axis separates the bodies. */
 static bool try_axis(Pair *pair, HdVec3 axis) {
     const double offset = hd_dot(pair->offset, axis);
-    const Shadow a = shadow_of(pair->a, axis), b = shadow_of(pair->b, axis);
+    const Projection a = project(pair->a, axis), b = project(pair->b, axis);
     pair->depth = fmin(pair->depth, fmin(a.high - b.low - offset, b.high - a.low + offset));
     return pair->depth > pair->touch;
 }
@@ -148,7 +147,7 @@ double hd_floor_depth(const HdSolid *solid, const HdFloor *floor, double least) 
     return depth_of(&body_a, &body_b, least);
 }
 
-/* What counts as touching still. */
+/* Returns the depth that still counts as touching. */
 static double touch_of(HdVec3 centre_a, double radius_a, HdVec3 centre_b, double radius_b) {
     static const double touch = 1e-9;
     static const double rounding = 1e-15;
@@ -172,17 +171,17 @@ double hd_floor_overlap(const HdSolid *solid, const HdFloor *floor) {
 
 /* ---- contact ---- */
 
-/* Of the radii and the distance of two solids: by how much they are drawn apart, and from which
-   distance on they count as apart already. Half a step is twice what the float kernels need to tell
-   faces apart. */
+/* Step by which solids are separated, and distance from which they count as separate, as parts of
+   their radii and distance. Half a step is twice what the float kernels need to tell faces apart.
+   */
 static const double step_share = 0x1p-20, near_share = 0x1p-21;
-static const double max_inset_share = 0x1p-10; /* of the inradius */
+static const double max_inset_share = 0x1p-10; /* part of the inradius */
 
 static double scale_of(const HdSolid *a, HdVec3 b_centre, double b_radius) {
     return fmax(hd_length(hd_sub(a->centre, b_centre)), fmax(a->circumradius, b_radius));
 }
 
-/* Of the circle about a face. */
+/* Returns the circumradius of a face. */
 static double face_radius(const HdSolid *solid, const HdPlatonic *shape) {
     return solid->circumradius * sqrt(1.0 - shape->inradius * shape->inradius);
 }
@@ -192,7 +191,7 @@ static HdVec3 middle_of_face(const HdSolid *solid, const HdPlatonic *shape, int 
                   hd_scale(shape->face_normal[face], shape->inradius * solid->circumradius));
 }
 
-/* Whether the face lies in the plane, which may be turned over. */
+/* Returns whether the face lies in the plane, of either orientation. */
 static bool is_in_plane(const HdSolid *solid, const HdPlatonic *shape, int face, HdVec3 point,
                         HdVec3 normal, double near) {
     const HdVec3 middle = middle_of_face(solid, shape, face);
@@ -201,8 +200,7 @@ static bool is_in_plane(const HdSolid *solid, const HdPlatonic *shape, int face,
            tilt * face_radius(solid, shape) <= near;
 }
 
-/* By the circles about the faces: some that only lie beside each other count too, which costs a
-   step and nothing else. */
+/* Compares the circles about the faces. Some adjacent faces count too, which costs only a step. */
 static bool faces_coincide(const HdSolid *a, const HdSolid *b, double near) {
     const HdPlatonic shape_a = hd_solid_shape(a), shape_b = hd_solid_shape(b);
     const double reach = face_radius(a, &shape_a) + face_radius(b, &shape_b);
@@ -226,7 +224,7 @@ HdContact hd_solids_contact(const HdSolid *a, const HdSolid *b) {
     return faces_coincide(a, b, near) ? HD_CONTACT_SHARES : HD_CONTACT_OVERLAPS;
 }
 
-/* A flat floor that a solid lies in shares no face with it. */
+/* A solid that overlaps a flat floor shares no face with it. */
 HdContact hd_floor_contact(const HdSolid *solid, const HdFloor *floor) {
     const double near = near_share * scale_of(solid, hd_floor_centre(floor), 0.0);
     const double depth = hd_floor_depth(solid, floor, -near);
@@ -258,72 +256,73 @@ bool hd_contact_coincides(HdContact contact) {
     return contact == HD_CONTACT_TOUCHES || contact == HD_CONTACT_SHARES;
 }
 
-/* ---- drawing apart ---- */
+/* ---- separation ---- */
 
-typedef struct Parting {
+typedef struct Separation {
     const HdScene *scene;
-    int level[HD_MAX_SOLIDS];   /* steps that a solid shrinks by */
-    double step[HD_MAX_SOLIDS]; /* the greatest of all that touch each other, in turn */
-    int group[HD_MAX_SOLIDS];   /* those have one number */
-} Parting;
+    int level[HD_MAX_SOLIDS];   /* shrink of each solid, in steps */
+    double step[HD_MAX_SOLIDS]; /* size of a step, the same for all solids of a group */
+    int group[HD_MAX_SOLIDS];   /* number of the group of solids that touch, directly or through
+                                   others */
+} Separation;
 
-static void join_groups(Parting *parting, int count, int from, int to) {
-    const double step = fmax(parting->step[from], parting->step[to]);
-    const int old = parting->group[from], joined = parting->group[to];
+static void join_groups(Separation *separation, int count, int from, int to) {
+    const double step = fmax(separation->step[from], separation->step[to]);
+    const int old = separation->group[from], joined = separation->group[to];
     for (int i = 0; i < count; i++) {
-        if (parting->group[i] == old)
-            parting->group[i] = joined;
-        if (parting->group[i] == joined)
-            parting->step[i] = fmax(parting->step[i], step);
+        if (separation->group[i] == old)
+            separation->group[i] = joined;
+        if (separation->group[i] == joined)
+            separation->step[i] = fmax(separation->step[i], step);
     }
 }
 
-static void raise_step(Parting *parting, int solid, double scale) {
-    parting->step[solid] = fmax(parting->step[solid], step_share * scale);
+static void raise_step(Separation *separation, int solid, double scale) {
+    separation->step[solid] = fmax(separation->step[solid], step_share * scale);
 }
 
-/* What does not move touches it: 0 is taken. */
-static bool touches_fixed(Parting *parting, int index) {
-    const HdScene *scene = parting->scene;
+/* Returns whether the floor or a light touches the solid, so that level 0 is taken. */
+static bool touches_fixed(Separation *separation, int index) {
+    const HdScene *scene = separation->scene;
     const HdFloor *floor = &scene->floor;
     const HdSolid *solid = &scene->solids[index];
     int first;
     const bool at_floor = floor->present && hd_contact_coincides(hd_floor_contact(solid, floor));
     const bool at_light = hd_touching_lights(solid, scene->lights, scene->light_count, &first) > 0;
     if (at_floor)
-        raise_step(parting, index, scale_of(solid, hd_floor_centre(floor), 0.0));
+        raise_step(separation, index, scale_of(solid, hd_floor_centre(floor), 0.0));
     if (at_light)
-        raise_step(parting, index, solid->circumradius);
+        raise_step(separation, index, solid->circumradius);
     return at_floor || at_light;
 }
 
-static void place_solid(Parting *parting, int index) {
-    const HdSolid *solids = parting->scene->solids;
+static void choose_level(Separation *separation, int index) {
+    const HdSolid *solids = separation->scene->solids;
     bool taken[HD_MAX_SOLIDS + 1] = {false};
-    parting->group[index] = index;
-    taken[0] = touches_fixed(parting, index);
+    separation->group[index] = index;
+    taken[0] = touches_fixed(separation, index);
     for (int i = 0; i < index; i++) {
         if (!hd_contact_coincides(hd_solids_contact(&solids[i], &solids[index])))
             continue;
-        taken[parting->level[i]] = true;
-        raise_step(parting, index,
+        taken[separation->level[i]] = true;
+        raise_step(separation, index,
                    scale_of(&solids[index], solids[i].centre, solids[i].circumradius));
-        join_groups(parting, index + 1, i, index);
+        join_groups(separation, index + 1, i, index);
     }
-    while (taken[parting->level[index]])
-        parting->level[index]++;
+    while (taken[separation->level[index]])
+        separation->level[index]++;
 }
 
-void hd_scene_part_contacts(HdScene *scene) {
-    Parting parting = {.scene = scene};
+void hd_scene_separate_contacts(HdScene *scene) {
+    Separation separation = {.scene = scene};
     for (int i = 0; i < scene->solid_count; i++)
-        place_solid(&parting, i);
+        choose_level(&separation, i);
     for (int i = 0; i < scene->solid_count; i++) {
         HdSolid *solid = &scene->solids[i];
         HdPlatonic shape;
         hd_platonic(solid->kind, &shape);
         const double share =
-            parting.level[i] * parting.step[i] / (shape.inradius * solid->circumradius);
+            separation.level[i] * separation.step[i] / (shape.inradius * solid->circumradius);
         if (share <= max_inset_share)
             solid->circumradius *= 1.0 - share;
     }

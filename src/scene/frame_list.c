@@ -15,7 +15,7 @@
 /* Characters of a range with its comma, and of what stands for those that have no room. */
 enum { MAX_RANGE_TEXT = 28 };
 
-/* Both ends belong to it. */
+/* Frames from `first` to `last`, both included. */
 typedef struct Range {
     int first, last;
 } Range;
@@ -30,7 +30,8 @@ static HdStatus fail_item(const char *item, size_t length, const char *what, int
                    (int)(length < 1000 ? length : 1000), item, what, expected);
 }
 
-/* Moves `*text` past the digits; a number beyond int stays at INT_MAX, which no sequence holds. */
+/* Moves `*text` past the digits. A number beyond int becomes INT_MAX, which no sequence contains.
+ */
 static bool read_number(const char **text, const char *end, int *number) {
     const char *start = *text;
     *number = 0;
@@ -70,7 +71,7 @@ static int compare_ranges(const void *a, const void *b) {
     return (left->first > right->first) - (left->first < right->first);
 }
 
-/* Leaves ascending ranges that share no frame and returns how many there are. */
+/* Sorts and merges the ranges so that they share no frame; returns their number. */
 static int merge_ranges(Range *ranges, int count) {
     int kept = 1;
     qsort(ranges, (size_t)count, sizeof *ranges, compare_ranges);
@@ -85,7 +86,7 @@ static int merge_ranges(Range *ranges, int count) {
 }
 
 static HdStatus fill_list(HdFrameList *list, const Range *ranges, int count, HdError *error) {
-    int total = 0; /* at most the frames of the sequence, hence an int */
+    int total = 0; /* sum, at most the frames of the sequence, so an int */
     for (int i = 0; i < count; i++)
         total += ranges[i].last - ranges[i].first + 1;
     list->frames = malloc((size_t)total * sizeof *list->frames);

@@ -9,11 +9,11 @@
 
 typedef struct HdFrameList {
     int count;
-    int *frames; /* owned; ascending, each once */
+    int *frames; /* owned; ascending, without repetition */
 } HdFrameList;
 
-/* Parses `text` (numbers and ascending ranges, separated by commas; overlaps are merged) against a
-   sequence of `frame_count` frames, at least one; NULL stands for all of them. */
+/* Parses numbers and ascending ranges, separated by commas, and merges overlaps. Frames are
+   numbered from 0 to frame_count - 1; NULL stands for all of them. */
 HdStatus hd_frame_list_parse(HdFrameList *list, const char *text, int frame_count, HdError *error);
 
 /* Writes the frames whose mark is `wanted`, one mark for each of the list, as the parser takes

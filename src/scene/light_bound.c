@@ -6,7 +6,7 @@
 
 #include "scene/contact.h"
 
-/* More than all roundings, those of highlights' powers and of weights over many levels included. */
+/* Covers all roundings, also those of highlights' powers and of weights at great ray depths. */
 #define MARGIN 1.02
 
 static HdVec3 times(HdVec3 a, HdVec3 b) {
@@ -31,7 +31,7 @@ HdVec3 hd_light_bound(const HdScene *scene) {
     return hd_scale(sum, MARGIN);
 }
 
-/* Called for each material of the scene, with what its surface emits. */
+/* Visits a material of the scene and its surface's emission. */
 typedef void Visit(void *context, const HdMaterial *material, HdVec3 emission);
 
 static void visit_mesh(const HdScene *scene, const HdInstance *instance, Visit *visit,
@@ -57,7 +57,7 @@ static void visit_materials(const HdScene *scene, Visit *visit, void *context) {
         visit_mesh(scene, &scene->instances[i], visit, context);
 }
 
-/* What goes on from one side of what its two rays see; total reflection mirrors what would have
+/* Returns what one side sends on of what its two rays see. Total reflection mirrors what would have
    passed. */
 static HdVec3 sent_on(const HdMaterial *material, double reflection, double transmission,
                       HdVec3 mirrored, HdVec3 passing) {
@@ -80,12 +80,12 @@ static HdVec3 sent_inside(const HdMaterial *material, HdVec3 mirrored, HdVec3 pa
                    passing);
 }
 
-/* Of the side where it is greater. */
+/* Returns the greater of both sides. */
 static HdVec3 sent_by_either(const HdMaterial *material, HdVec3 seen) {
     return hd_maximum(sent_outside(material, seen, seen), sent_inside(material, seen, seen));
 }
 
-/* The most that a surface shows by itself, under `light`. */
+/* Returns the most that a surface shows by itself under `light`. */
 static HdVec3 own_radiance(const HdMaterial *material, HdVec3 emission, HdVec3 light) {
     double sides = material->lit_from_behind
                        ? 1.0 + fmax(material->transmission, material->inner_transmission)
@@ -97,9 +97,9 @@ static HdVec3 own_radiance(const HdMaterial *material, HdVec3 emission, HdVec3 l
 }
 
 typedef struct Bounding {
-    HdVec3 light;   /* the sum of all */
-    HdVec3 own;     /* the most that a surface shows by itself */
-    HdVec3 endless; /* the most that one shows which sees its like without end */
+    HdVec3 light;   /* sum of all lights */
+    HdVec3 own;     /* most that a surface shows by itself */
+    HdVec3 endless; /* most that a surface shows that sees its like without end */
 } Bounding;
 
 static double endless(double own, double share) {
@@ -125,7 +125,7 @@ static HdVec3 disc_bound(const HdSolid *solid) {
     return hd_scale(most, solid->lights.disc_radiance);
 }
 
-/* `last`: what ends a ray's way shows. */
+/* `last` is the most that the end of a ray's path shows. */
 static double bound_of_channel(double last, double own, double without_end) {
     double all_levels = last + own * (HD_MAX_DEPTH + 1.0);
     double endless_too = fmax(last, without_end);
@@ -153,19 +153,19 @@ HdVec3 hd_radiance_bound(const HdScene *scene) {
                     MARGIN);
 }
 
-/* ---- what is seen from where a ray leaves ---- */
+/* ---- bounds by object ---- */
 
-/* Objects: the solids, the floor, all meshes. */
+/* Objects: the solids, the floor, all meshes together. */
 enum { MAX_OBJECTS = HD_MAX_SOLIDS + 2, MAX_ROUNDS = 256 };
 
-/* Solids that are further apart than this part of their sizes have no point in common, however
-   coordinates are rounded. */
+/* Solids farther from each other than this part of their sizes have no point in common, despite
+   rounding. */
 #define NEAR 1e-3
 
-/* Where less changes, another round is of no use. */
+/* A round that changes less is the last one. */
 #define SETTLED 0.999
 
-/* What the two sides of an object's surface show at most. */
+/* Bounds of what the two sides of an object's surface show. */
 typedef struct Shown {
     HdVec3 outer, inner;
 } Shown;
@@ -231,8 +231,8 @@ static HdVec3 either_side(const Shown *shown) {
     return hd_maximum(shown->outer, shown->inner);
 }
 
-/* Within a solid: its inner side, and what reaches into it. */
-static HdVec3 seen_within(const Views *views, int solid) {
+/* Returns the bound inside a solid: of its inner side and of objects that reach into it. */
+static HdVec3 seen_inside(const Views *views, int solid) {
     HdVec3 most = views->shown[solid].inner;
     for (int i = 0; i < views->scene->solid_count + 2; i++)
         if (i != solid && views->near[solid][i])
@@ -240,9 +240,9 @@ static HdVec3 seen_within(const Views *views, int solid) {
     return most;
 }
 
-/* From the outer side of `object`, which is not met again: the inner side of a solid only if the
-   two may have points in common. */
-static HdVec3 seen_around(const Views *views, int object) {
+/* Returns the bound outside `object`, which is not met again. Solids add their inner side only if
+   they may have points in common with it. */
+static HdVec3 seen_outside(const Views *views, int object) {
     const int solids = views->scene->solid_count;
     HdVec3 most = views->scene->background;
     for (int i = 0; i < solids; i++) {
@@ -256,23 +256,23 @@ static HdVec3 seen_around(const Views *views, int object) {
     return hd_maximum(most, either_side(&views->shown[solids + 1]));
 }
 
-static bool take_view(HdVec3 *seen, HdVec3 most) {
+static bool tighten(HdVec3 *seen, HdVec3 most) {
     HdVec3 before = *seen;
     *seen = hd_minimum(before, most);
     return seen->x < SETTLED * before.x || seen->y < SETTLED * before.y ||
            seen->z < SETTLED * before.z;
 }
 
-/* False where hardly anything became less. */
-static bool look_around(Views *views) {
+/* Runs one round; returns false if hardly any bound shrank. */
+static bool update_bounds(Views *views) {
     const int solids = views->scene->solid_count;
     bool changed = false;
     show_surfaces(views);
     for (int i = 0; i < solids + 2; i++) {
-        HdVec3 around = seen_around(views, i);
-        HdVec3 within = i < solids ? seen_within(views, i) : around;
-        bool less_outside = take_view(&views->seen[i].outside, around);
-        bool less_inside = take_view(&views->seen[i].inside, within);
+        HdVec3 around = seen_outside(views, i);
+        HdVec3 within = i < solids ? seen_inside(views, i) : around;
+        bool less_outside = tighten(&views->seen[i].outside, around);
+        bool less_inside = tighten(&views->seen[i].inside, within);
         changed = changed || less_outside || less_inside;
     }
     return changed;
@@ -284,7 +284,7 @@ void hd_seen_bounds(const HdScene *scene, HdSeen *seen) {
     find_neighbours(&views);
     for (int i = 0; i < scene->solid_count + 2; i++)
         seen[i] = (HdSeen){most, most};
-    for (int round = 0; round < MAX_ROUNDS && look_around(&views); round++)
+    for (int round = 0; round < MAX_ROUNDS && update_bounds(&views); round++)
         ;
     for (int i = 0; i < scene->solid_count + 2; i++) {
         seen[i].outside = hd_minimum(most, hd_scale(seen[i].outside, MARGIN));

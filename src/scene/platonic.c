@@ -16,7 +16,7 @@ static void add_point(Points *points, double x, double y, double z) {
     points->point[points->count++] = hd_normalize(hd_vec3(x, y, z));
 }
 
-/* The even corners of the cube, or their opposites. */
+/* Adds the even corners of the cube, or their opposites. */
 static void add_tetrahedron(Points *points, double sign) {
     add_point(points, sign, sign, sign);
     add_point(points, sign, -sign, -sign);
@@ -38,7 +38,7 @@ static void add_axes(Points *points) {
     }
 }
 
-/* (0, +-a, +-b) and its cyclic permutations. */
+/* Adds (0, +-a, +-b) and its cyclic permutations. */
 static void add_rectangles(Points *points, double a, double b) {
     for (int i = 0; i < 4; i++) {
         const double p = (i & 2) ? -a : a;
@@ -58,7 +58,7 @@ static void list_vertices(HdSolidKind kind, Points *points) {
         add_axes(points);
     if (kind == HD_HEXAHEDRON || kind == HD_DODECAHEDRON)
         add_cube(points);
-    if (kind == HD_DODECAHEDRON) /* of the two this is the dual of the icosahedron below */
+    if (kind == HD_DODECAHEDRON) /* of both orientations the dual of the icosahedron below */
         add_rectangles(points, phi, 1.0 / phi);
     if (kind == HD_ICOSAHEDRON)
         add_rectangles(points, 1.0, phi);
@@ -68,7 +68,7 @@ static bool is_opposite(HdVec3 a, HdVec3 b) {
     return a.x == -b.x && a.y == -b.y && a.z == -b.z;
 }
 
-/* Puts opposite points side by side; of each pair the first stays before all later pairs. */
+/* Puts opposite points next to each other; the first of each pair keeps its order. */
 static void pair_opposites(Points *points) {
     for (int i = 0; i < points->count; i += 2) {
         int other = i + 1;
@@ -87,7 +87,7 @@ static void list_normals(HdSolidKind kind, Points *points) {
                                                                [HD_OCTAHEDRON] = HD_HEXAHEDRON,
                                                                [HD_DODECAHEDRON] = HD_ICOSAHEDRON,
                                                                [HD_ICOSAHEDRON] = HD_DODECAHEDRON};
-    if (kind == HD_TETRAHEDRON) { /* its own dual, turned round */
+    if (kind == HD_TETRAHEDRON) { /* its own dual, inverted */
         points->count = 0;
         add_tetrahedron(points, -1.0);
     } else {
@@ -96,7 +96,7 @@ static void list_normals(HdSolidKind kind, Points *points) {
     }
 }
 
-/* One bit for every face that the vertex lies on. */
+/* Returns a bit for each face that the vertex lies on. */
 static uint32_t faces_at(const HdPlatonic *solid, int vertex) {
     uint32_t faces = 0;
     for (int i = 0; i < solid->face_count; i++) {
@@ -144,7 +144,7 @@ void hd_platonic(HdSolidKind kind, HdPlatonic *solid) {
         hd_length(hd_cross(solid->face_normal[first.face[0]], solid->face_normal[first.face[1]]));
 }
 
-/* Turns about the axis that follows `u` and `v` in the cyclic order x, y, z. */
+/* Rotates about the axis that follows `u` and `v` in the cyclic order x, y, z. */
 static void rotate_plane(double *u, double *v, double sine, double cosine) {
     const double turned = cosine * *u - sine * *v;
     *v = sine * *u + cosine * *v;

@@ -11,7 +11,7 @@
 
 #include "base/vector.h"
 
-/* Each kind, and its name in scene files. */
+/* X(kind, name in scene files). */
 #define HD_SOLID_KINDS(X)                                                                          \
     X(HD_TETRAHEDRON, "tetrahedron")                                                               \
     X(HD_HEXAHEDRON, "cube")                                                                       \
@@ -32,13 +32,13 @@ typedef struct HdPlatonicEdge {
 typedef struct HdPlatonic {
     int face_count, vertex_count, edge_count;
     HdVec3 vertex[HD_MAX_VERTICES];
-    HdVec3 face_normal[HD_MAX_FACES]; /* unit, outward; but in a tetrahedron, which has no opposite
-                                         faces, face 2i + 1 is opposite to face 2i: its normal is
-                                         the other's, negated bit by bit */
+    HdVec3 face_normal[HD_MAX_FACES]; /* unit, outward. Faces 2i and 2i + 1 are opposite, their
+                                         normals exact negatives; not so in a tetrahedron, which has
+                                         no opposite faces */
     HdPlatonicEdge edge[HD_MAX_EDGES];
-    double inradius;         /* of the circumradius 1 */
-    double edge_length;      /* likewise */
-    double sine_of_dihedral; /* sine of the angle between two neighbouring faces */
+    double inradius;         /* inradius at circumradius 1 */
+    double edge_length;      /* length at circumradius 1 */
+    double sine_of_dihedral; /* sine of the angle between two adjacent faces */
 } HdPlatonic;
 
 const char *hd_solid_kind_name(HdSolidKind kind);
@@ -46,11 +46,11 @@ const char *hd_solid_kind_name(HdSolidKind kind);
 /* Fills `solid`. Every value follows from square roots alone, so it is the same on every system. */
 void hd_platonic(HdSolidKind kind, HdPlatonic *solid);
 
-/* Turns points about the x axis, then the y axis, then the z axis, counterclockwise as seen from
-   the axis's tip. Angles of 0 leave every bit as it is. */
+/* Rotates points about the x, then the y, then the z axis, counterclockwise as seen from the axis's
+   tip. Angles of 0 preserve every bit. */
 void hd_rotate_points(HdVec3 *points, int count, HdVec3 degrees);
 
-/* Turns the solid likewise. */
+/* Rotates the solid in the same way. */
 void hd_platonic_rotate(HdPlatonic *solid, HdVec3 degrees);
 
 #endif

@@ -13,7 +13,7 @@ bool hd_scene_has_error_bound(const HdScene *scene) {
 
 bool hd_scene_has_deep_trees(const HdScene *scene) {
     enum { FEW_LEVELS = 64 };
-    const double small_cutoff = 1e-4; /* that does not end trees long before */
+    const double small_cutoff = 1e-4; /* too small to end trees early */
     return scene->depth > FEW_LEVELS && (scene->max_error > 0.0 || scene->cutoff <= small_cutoff);
 }
 

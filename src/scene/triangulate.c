@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A solid's surface is cut into convex facets. Two facets that meet have one side in common, with
-   the same two points, whatever is cut: there are no gaps. */
+/* Cuts a solid's surface into convex facets. Adjacent facets always share a whole side with the
+   same two points, so cuts leave no gaps. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "scene/triangulate.h"
@@ -13,48 +13,48 @@
 #include "base/growth.h"
 #include "base/trigonometry.h"
 
-/* In circumradii: the least rim and the least side of a disc or of what a rim leaves of a face.
-   Smaller ones could hardly be told from points that are one. */
+/* Least width of a rim and least side of a disc or of the face inside a rim, in circumradii. Points
+   closer together would merge by rounding. */
 static const double min_length = 1e-8;
 
-/* Points that are no farther from a border lie on it; in circumradii. */
+/* Distance from a border, in circumradii, within which points lie on it. */
 static const double same_place = 1e-9;
 
-/* A side of a facet, which lies to its left as seen from outside. */
+/* A directed side; its facet is to its left as seen from outside. */
 typedef struct Side {
-    int32_t from;       /* the point where it begins; it ends where the next one does */
-    int32_t next, twin; /* of the same facet; of the facet beyond it, the other way round */
+    int32_t from;       /* start point; the end is the next side's start */
+    int32_t next, twin; /* next side of the same facet; reversed side of the adjacent facet */
 } Side;
 
 typedef struct Facet {
     int32_t side; /* one of its sides */
     int face, material;
-    HdVec3 corner; /* one of its points; none is farther from it than `reach` */
+    HdVec3 corner; /* one of its points; all others are within `reach` */
     double reach;
 } Facet;
 
-/* The points for which direction . point >= offset; the direction is unit. */
+/* The points with direction . point >= offset; the direction is unit. */
 typedef struct HalfSpace {
     HdVec3 direction;
     double offset;
 } HalfSpace;
 
-/* A solid on the way, in units of its circumradius. */
+/* A solid in progress, in units of its circumradius. */
 typedef struct Work {
     const HdSolid *solid;
-    HdPlatonic shape;   /* turned as it is in the scene */
+    HdPlatonic shape;   /* rotated as in the scene */
     double rim_width;   /* 0: no rim */
     double disc_radius; /* 0: no discs */
     int disc_sides;
-    double widening;                    /* from a disc's radius to that of its polygon's corners */
-    double flatness;                    /* from that to the radius of the middles of its sides */
-    HdVec2 outwards[HD_MAX_DISC_SIDES]; /* the directions to the middles of its sides */
+    double widening; /* ratio of the polygon's circumradius to the disc's radius */
+    double flatness; /* ratio of the polygon's inradius to its circumradius */
+    HdVec2 outwards[HD_MAX_DISC_SIDES]; /* directions to the middles of the polygon's sides */
     int point_count, side_count, facet_count, border_count;
     int point_capacity, side_capacity, facet_capacity;
     HdVec3 *points;
     Side *sides;
     Facet *facets;
-    HalfSpace borders[HD_MAX_DISC_SIDES + 6]; /* of what is cut out */
+    HalfSpace borders[HD_MAX_DISC_SIDES + 6]; /* borders of the region to cut out */
 } Work;
 
 static HdStatus no_memory(HdError *error) {
@@ -82,7 +82,7 @@ static int end_of(const Work *work, int side) {
     return work->sides[work->sides[side].twin].from;
 }
 
-static void measure(Work *work, int number) {
+static void update_reach(Work *work, int number) {
     Facet *facet = &work->facets[number];
     int side = facet->side;
     facet->corner = work->points[work->sides[side].from];
@@ -94,8 +94,8 @@ static void measure(Work *work, int number) {
     } while (side != facet->side);
 }
 
-/* Makes a facet of each face. Sides 2e and 2e + 1 are those of edge e. */
-static bool start(Work *work, int material) {
+/* Makes a facet of each face. Sides 2e and 2e + 1 belong to edge e. */
+static bool start_facets(Work *work, int material) {
     const HdPlatonic *shape = &work->shape;
     int face_of[2 * HD_MAX_EDGES] = {0};
     bool is_done = true;
@@ -118,24 +118,24 @@ static bool start(Work *work, int material) {
                 work->sides[s].next = t;
     }
     for (int f = 0; f < shape->face_count && is_done; f++)
-        measure(work, f);
+        update_reach(work, f);
     return is_done;
 }
 
 /* Cutting */
 
-/* How far a point is inside of the border. */
+/* Returns the point's signed distance from the border, positive inside. */
 static double depth_of(const Work *work, int point, const HalfSpace *border) {
     return hd_dot(border->direction, work->points[point]) - border->offset;
 }
 
-/* 1: inside of the border, -1: outside, 0: on it. */
+/* Returns 1 inside the border, -1 outside, 0 on it. */
 static int place_of(const Work *work, int point, const HalfSpace *border) {
     const double depth = depth_of(work, point, border);
     return (depth > same_place) - (depth < -same_place);
 }
 
-/* Whether one of the facet's points is inside of the border (1), or outside (-1). */
+/* Returns whether a point of the facet is inside the border (1) or outside (-1). */
 static bool has_point(const Work *work, int facet, const HalfSpace *border, int place) {
     const int first = work->facets[facet].side;
     int side = first;
@@ -147,8 +147,7 @@ static bool has_point(const Work *work, int facet, const HalfSpace *border, int 
     return false;
 }
 
-/* Puts a point on a side, which then ends there, and another side behind it; in the facet beyond
-   likewise. */
+/* Splits a side and its twin at a new point. */
 static bool divide_side(Work *work, int side, double share) {
     const int twin = work->sides[side].twin, point = work->point_count, rest = work->side_count;
     const HdVec3 from = work->points[work->sides[side].from];
@@ -164,7 +163,7 @@ static bool divide_side(Work *work, int side, double share) {
     return true;
 }
 
-/* Puts points where the border crosses the sides of a facet. */
+/* Splits the sides of a facet that cross the border. */
 static bool divide_sides(Work *work, int facet, const HalfSpace *border) {
     const int first = work->facets[facet].side;
     int side = first;
@@ -188,8 +187,8 @@ static int side_before(const Work *work, int side) {
     return before;
 }
 
-/* Cuts a facet with points on both sides of the border in two: it stays inside, and a new one is
-   what lies outside. */
+/* Cuts a facet that has points on both sides of the border: it keeps the inside, a new one the
+   outside. */
 static bool cut(Work *work, int facet, const HalfSpace *border) {
     if (!divide_sides(work, facet, border))
         return false;
@@ -198,10 +197,10 @@ static bool cut(Work *work, int facet, const HalfSpace *border) {
         side = work->sides[side].next;
     while (place_of(work, end_of(work, side), border) >= 0)
         side = work->sides[side].next;
-    const int out = side; /* begins on the border and leads outside */
+    const int out = side; /* starts on the border, leads outside */
     while (place_of(work, end_of(work, side), border) <= 0)
         side = work->sides[side].next;
-    const int in = side; /* begins on the border and leads back */
+    const int in = side; /* starts on the border, leads back */
     const int before_out = side_before(work, out), before_in = side_before(work, in);
     const int outer = work->side_count, inner = outer + 1;
     if (!add_side(work, work->sides[in].from, out, inner) ||
@@ -211,8 +210,8 @@ static bool cut(Work *work, int facet, const HalfSpace *border) {
     work->sides[before_out].next = inner;
     work->facets[facet].side = inner;
     work->facets[work->facet_count - 1].side = outer;
-    measure(work, facet);
-    measure(work, work->facet_count - 1);
+    update_reach(work, facet);
+    update_reach(work, work->facet_count - 1);
     return true;
 }
 
@@ -232,9 +231,9 @@ static bool carve_facet(Work *work, int facet, int material) {
     return true;
 }
 
-/* Cuts the facets of a face, which are its own one and those from number `first` on, along the
-   borders of what lies inside of all of them, which is within a ball, and gives what does the
-   material; on the facets of an odd material, the next one. */
+/* Cuts the facets of a face (its own and those from `first` on) along all borders, whose common
+   inside lies in a ball, and gives that inside the material. Facets of an odd material get the next
+   material. */
 static bool carve(Work *work, int face, int first, HdVec3 centre, double radius, int material) {
     const int end = work->facet_count;
     bool is_done = carve_facet(work, face, material);
@@ -248,8 +247,7 @@ static bool carve(Work *work, int face, int first, HdVec3 centre, double radius,
 
 /* Rims and discs */
 
-/* Adds the border of what is beyond a point in some direction, and as far before it as
-   `distance`. */
+/* Adds the half space in a direction from `distance` before a point. */
 static void add_border(Work *work, HdVec3 point, HdVec3 direction, double distance) {
     work->borders[work->border_count++] =
         (HalfSpace){direction, hd_dot(direction, point) - distance};
@@ -269,7 +267,7 @@ static bool face_has_edge(const Work *work, int face, int edge) {
     return faces[0] == face || faces[1] == face;
 }
 
-/* The whole face is rim at first; what the rim leaves becomes the face. */
+/* The face starts as rim; the region inside the rim becomes the face. */
 static bool carve_rim(Work *work, int face, int first) {
     const HdVec3 middle = middle_of_face(work, face);
     work->border_count = 0;
@@ -290,13 +288,13 @@ static HdVec3 direction_of(const Work *work, int edge) {
     return hd_normalize(hd_sub(work->shape.vertex[ends[1]], work->shape.vertex[ends[0]]));
 }
 
-/* Light k of an edge is at k + 1/2, and nearest from k to k + 1. */
+/* Light k of an edge is at k + 1/2, and is the nearest from k to k + 1. */
 static HdVec3 point_of_edge(const Work *work, int edge, double k) {
-    const double place = work->shape.edge_length * (k / work->solid->lights.per_edge - 0.5);
-    return hd_add(middle_of_edge(work, edge), hd_scale(direction_of(work, edge), place));
+    const double along = work->shape.edge_length * (k / work->solid->lights.per_edge - 0.5);
+    return hd_add(middle_of_edge(work, edge), hd_scale(direction_of(work, edge), along));
 }
 
-/* A unit vector in the face that is along a direction as far as it can be. */
+/* Returns the unit vector in the face nearest to a direction. */
 static HdVec3 along_face(const Work *work, int face, HdVec3 direction) {
     const HdVec3 normal = work->shape.face_normal[face];
     const HdVec3 along = hd_sub(direction, hd_scale(normal, hd_dot(direction, normal)));
@@ -306,9 +304,9 @@ static HdVec3 along_face(const Work *work, int face, HdVec3 direction) {
     return hd_normalize(hd_cross(normal, axis));
 }
 
-/* Adds the sides of the polygon that stands for what a disc, seen as a ball, has of a face's plane,
-   in which the unit vectors lie. Two borders that only touch it come first, then the sides that are
-   steepest on the edge: they end where those are, so that no cut leaves the disc's surroundings. */
+/* Adds the sides of the polygon for a disc: the section of its ball by a face's plane, which the
+   unit vectors span. Two borders that only touch it come first, then the sides steepest to the
+   edge. They end at those two borders, so no cut leaves the disc's surroundings. */
 static void add_disc_sides(Work *work, HdVec3 centre, HdVec3 along, HdVec3 across, double radius) {
     const int half = work->disc_sides / 2;
     for (int sign = -1; sign <= 1; sign += 2)
@@ -324,20 +322,19 @@ static void add_disc_sides(Work *work, HdVec3 centre, HdVec3 along, HdVec3 acros
     }
 }
 
-/* Cuts out what the ball about a light has of the face, as far as the light is the nearest of its
-   edge. Of overlapping discs the last edge's shows, as in the kernels. These ask of a disc's points
-   that they be near a side, too: all are, for no edge is nearer to a point of a face than the
-   face's nearest side. */
+/* Cuts out the section of the light's ball by the face, as far as the light is its edge's nearest.
+   Of overlapping discs the last edge's shows, as in the kernels. The kernels also require a disc's
+   points to be near a side; all are, for a face's own sides are the nearest edges. */
 static bool carve_disc(Work *work, int face, int first, int edge, int light) {
     const HdVec3 normal = work->shape.face_normal[face], direction = direction_of(work, edge);
-    const HdVec3 place = point_of_edge(work, edge, light + 0.5);
+    const HdVec3 point = point_of_edge(work, edge, light + 0.5);
     double height = 0.0;
     if (!face_has_edge(work, face, edge))
-        height = hd_dot(hd_sub(place, middle_of_face(work, face)), normal);
+        height = hd_dot(hd_sub(point, middle_of_face(work, face)), normal);
     const double squared = work->disc_radius * work->disc_radius - height * height;
     if (!(squared > 0.0))
         return true;
-    const HdVec3 centre = hd_sub(place, hd_scale(normal, height));
+    const HdVec3 centre = hd_sub(point, hd_scale(normal, height));
     const HdVec3 along = along_face(work, face, direction);
     const double radius = work->widening * sqrt(squared);
     work->border_count = 0;
@@ -383,7 +380,7 @@ static void prepare(Work *work, const HdSolid *solid, int disc_sides) {
 
 /* Triangles */
 
-/* Lists the points of a facet and returns how many there are. */
+/* Lists the points of a facet and returns their number. */
 static int list_points(const Work *work, int facet, int32_t *loop) {
     const int first = work->facets[facet].side;
     int side = first, count = 0;
@@ -394,15 +391,14 @@ static int list_points(const Work *work, int facet, int32_t *loop) {
     return count;
 }
 
-/* The least height of a triangle. */
+/* Returns the least height of a triangle. */
 static double height_of(HdVec3 a, HdVec3 b, HdVec3 c, HdVec3 normal) {
     const HdVec3 ab = hd_sub(b, a), bc = hd_sub(c, b), ca = hd_sub(a, c);
     const double longest = fmax(hd_length(ab), fmax(hd_length(bc), hd_length(ca)));
     return hd_dot(hd_cross(ca, ab), normal) / longest;
 }
 
-/* The same for the flattest triangle of the fan about a corner, as far as that is above `enough`.
- */
+/* Returns the least height in the fan about a corner; stops once it is at most `enough`. */
 static double min_height(const HdVec3 *points, const int32_t *loop, int count, int corner,
                          HdVec3 normal, double enough) {
     double least = HUGE_VAL;
@@ -414,8 +410,7 @@ static double min_height(const HdVec3 *points, const int32_t *loop, int count, i
     return least;
 }
 
-/* The corner of the fan whose flattest triangle is the least flat; -1 where points on one line
-   leave none. */
+/* Returns the corner whose fan has the greatest least height; -1 if all points are on one line. */
 static int best_corner(const HdVec3 *points, const int32_t *loop, int count, HdVec3 normal) {
     double best_height = 1e-2 * same_place;
     int best = count == 3 ? 0 : -1;
@@ -478,7 +473,7 @@ static HdStatus add_material(HdMesh *mesh, const char *name, const HdMeshMateria
     return added->name != NULL ? HD_OK : no_memory(error);
 }
 
-/* A disc shows its own radiance and nothing else. */
+/* A disc shows only its own radiance. */
 static HdStatus add_materials(HdMesh *mesh, const HdSolid *solid, bool has_discs, HdError *error) {
     const int discs = has_discs ? 2 * solid->lights.colour_count : 0;
     mesh->materials = calloc(HD_SOLID_MATERIAL_DISCS + (size_t)discs, sizeof *mesh->materials);
@@ -502,7 +497,7 @@ static HdStatus add_materials(HdMesh *mesh, const HdSolid *solid, bool has_discs
 static HdStatus make_solid(Work *work, HdMesh *mesh, int divisions, HdError *error) {
     HD_TRY(add_materials(mesh, work->solid, work->disc_radius > 0.0, error));
     bool is_done =
-        start(work, work->rim_width > 0.0 ? HD_SOLID_MATERIAL_RIM : HD_SOLID_MATERIAL_FACE);
+        start_facets(work, work->rim_width > 0.0 ? HD_SOLID_MATERIAL_RIM : HD_SOLID_MATERIAL_FACE);
     for (int f = 0; f < work->shape.face_count && is_done; f++)
         is_done = carve_face(work, f);
     if (!is_done || !fill_mesh(work, mesh))
@@ -533,7 +528,8 @@ HdStatus hd_triangulate_solid(HdMesh *mesh, const HdSolid *solid, int disc_sides
 
 /* The floor */
 
-/* The floor's point at a share of the way from corner 0 to 1 and from there towards 3 and 2. */
+/* Returns the floor's point at share `s` from corner 0 to 1 and share `t` from there towards 3 and
+   2. */
 static HdVec3 floor_point(const HdVec3 corner[4], double s, double t) {
     HdVec3 upper = hd_add(hd_scale(corner[0], 1.0 - s), hd_scale(corner[1], s));
     HdVec3 lower = hd_add(hd_scale(corner[3], 1.0 - s), hd_scale(corner[2], s));
@@ -595,16 +591,16 @@ HdStatus hd_triangulate_floor(HdMesh *mesh, const HdFloor *floor, int divisions,
 
 /* The scene */
 
-/* In `made` is what the scene gets in front of its own meshes and instances, and behind its
-   pictures, in arrays that have room for those too. */
+/* `made` holds the new objects, which come before the scene's own meshes and instances and after
+   its pictures; its arrays have space for both. */
 
-/* Gives the mesh that was made last its place. */
-static void place(HdScene *made, HdVec3 position) {
+/* Places the newest mesh. */
+static void add_instance(HdScene *made, HdVec3 position) {
     made->instances[made->instance_count++] = (HdInstance){
         .mesh = made->mesh_count++, .position = position, .scale = hd_vec3(1.0, 1.0, 1.0)};
 }
 
-/* It goes on at its border instead of repeating. */
+/* Copies the texture as one that clamps at its border instead of repeating. */
 static HdStatus copy_texture(HdPicture *picture, const HdTexture *texture, HdError *error) {
     size_t bytes = (size_t)texture->width * (size_t)texture->height * 3 * sizeof *texture->texels;
     *picture = (HdPicture){.texture = *texture, .is_clamped = true};
@@ -619,7 +615,7 @@ static HdStatus make_floor(HdScene *made, const HdScene *scene, int divisions, H
     const HdFloor *floor = &scene->floor;
     HdMesh *mesh = &made->meshes[made->mesh_count];
     HD_TRY(hd_triangulate_floor(mesh, floor, divisions, error));
-    place(made, hd_floor_centre(floor));
+    add_instance(made, hd_floor_centre(floor));
     mesh->materials[0].is_opaque_to_shadows = true;
     if (floor->texture.width == 0)
         return HD_OK;
@@ -628,8 +624,8 @@ static HdStatus make_floor(HdScene *made, const HdScene *scene, int divisions, H
     return copy_texture(&made->pictures[scene->picture_count], &floor->texture, error);
 }
 
-static HdStatus make(HdScene *made, const HdScene *scene, int disc_sides, int divisions,
-                     HdError *error) {
+static HdStatus build_meshes(HdScene *made, const HdScene *scene, int disc_sides, int divisions,
+                             HdError *error) {
     size_t own = (size_t)scene->solid_count + 1;
     made->meshes = calloc(own + (size_t)scene->mesh_count, sizeof *made->meshes);
     made->instances = calloc(own + (size_t)scene->instance_count, sizeof *made->instances);
@@ -639,14 +635,14 @@ static HdStatus make(HdScene *made, const HdScene *scene, int disc_sides, int di
     for (int s = 0; s < scene->solid_count; s++) {
         const HdSolid *solid = &scene->solids[s];
         HD_TRY(hd_triangulate_solid(&made->meshes[s], solid, disc_sides, divisions, error));
-        place(made, solid->centre);
+        add_instance(made, solid->centre);
     }
     if (scene->floor.present)
         HD_TRY(make_floor(made, scene, divisions, error));
     return hd_scene_build_meshes(made, error);
 }
 
-static void take(HdScene *scene, const HdScene *made) {
+static void install(HdScene *scene, const HdScene *made) {
     const int count = made->mesh_count;
     for (int i = 0; i < scene->mesh_count; i++)
         made->meshes[count + i] = scene->meshes[i];
@@ -670,9 +666,9 @@ static void take(HdScene *scene, const HdScene *made) {
 
 HdStatus hd_scene_triangulate(HdScene *scene, int disc_sides, int divisions, HdError *error) {
     HdScene made = {0};
-    HdStatus status = make(&made, scene, disc_sides, divisions, error);
+    HdStatus status = build_meshes(&made, scene, disc_sides, divisions, error);
     if (status == HD_OK)
-        take(scene, &made);
+        install(scene, &made);
     else
         hd_scene_drop_meshes(&made);
     return status;

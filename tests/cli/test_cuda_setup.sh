@@ -18,14 +18,14 @@ cannot_start=(env FAKE_CUDA_FAILS=cuInit FAKE_CUDA_FAILS_AT=1)
 expect_refusal 3 "${cannot_start[@]}" FAKE_CUDA_ERROR=999 "${render[@]}"
 expect_stderr_contains 'cuInit failed with CUDA_ERROR_UNKNOWN (999); after suspend, run: '
 
-# ---- where any device will do, a GPU that is passed over is told in one line, with what would help
+# ---- where any device will do, one line reports an unused GPU and a remedy
 any=("$hedron" render --size 320x240 --samples 2 --frames 0-1 --threads 1 --lanes 1 -o any/%d.data)
 too_new=(env FAKE_NVRTC_MAJOR=13)
 expect_exit 0 "${too_new[@]}" "${any[@]}"
-expect_stderr_contains 'hedron: cuda:0 (Fake device 0) is passed over: no NVRTC library here compiles for Fake device 0 (sm_61); to install one that does: '
+expect_stderr_contains 'hedron: cuda:0 (Fake device 0) is not used: no NVRTC library here compiles for Fake device 0 (sm_61); to install one that does: '
 expect_stderr_contains '; tracing with c on '
 expect_exit 0 "${cannot_start[@]}" FAKE_CUDA_ERROR=100 "${any[@]}" # no card is there
-! grep -q '^hedron: ' "$logs/stderr" || fail "a card that is not there is told to be passed over"
+! grep -q '^hedron: ' "$logs/stderr" || fail "a missing card is reported as unused"
 rm -r any
 
 # ---- an NVRTC that does not know the card, and a driver that does not load what it makes: which one to install

@@ -142,7 +142,7 @@ expect_as_c "$work/many.json" --size 32x24 --samples 1 --frames 0
 export FAKE_CUDA_SKIPS=1 # it could not be the fastest that renders here
 for when in '' ', measured earlier'; do
     expect_exit 0 "$hedron" render --size 1920x1080 --samples 9 --threads 1 --frames 0 --math fast --verbose -o picture.data
-    grep -q -x -E "device +cuda 0, .*: the fastest of 2 on this kind of scene$when, [0-9.e-]+ ms against [0-9.e+-]+ ms \(c 0\); passed over: opencl: .*" \
+    grep -q -x -E "device +cuda 0, .*: the fastest of 2 on this kind of scene$when, [0-9.e-]+ ms against [0-9.e+-]+ ms \(c 0\); not used: opencl: .*" \
         "$logs/stderr" || fail "it is not told that the fastest was taken$when"
 done
 

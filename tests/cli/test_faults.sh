@@ -68,7 +68,7 @@ expect_stuck() {
         -o film.mkv -o '%d.data'
     rm "$work/tools/$1"
     expect_sentence
-    expect_stderr_contains "${1/ffmpeg/FFmpeg} stood still for 1 s"
+    expect_stderr_contains "${1/ffmpeg/FFmpeg} was idle for 1 s"
     expect_stderr_contains 'HEDRON_FFMPEG_PATIENCE'
     rm -f ./*.data
     expect_files . film.mkv

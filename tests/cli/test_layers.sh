@@ -161,7 +161,7 @@ expect_stderr_contains "--layers has 'colour', expected some of depth, normal, o
 expect_refusal 2 "${render[@]}" --layers depth,object,depth -o a.exr
 expect_stderr_contains '--layers has depth twice'
 expect_refusal 2 "${render[@]}" --layers depth,bound -o a.exr
-expect_stderr_contains 'bound, which is known with --max-error, --aa adaptive or --reference alone'
+expect_stderr_contains 'bound, expected --max-error, --aa adaptive or --reference with it'
 expect_refusal 2 "${render[@]}" --layers= -o a.exr
 
 rm -f ./*.exr plain.pfm lines.jsonl

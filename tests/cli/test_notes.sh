@@ -69,9 +69,9 @@ rm ./*.data ./*.png
 expect_exit 0 "$hedron" render "${small[@]}" --verbose --frames 0 -o a.data
 expect_note 'device +c 0, .*: it needs about [0-9.e-]+ s, less than other devices take to start'
 expect_exit 0 "${nothing[@]}" "$hedron" render --size 320x180 --samples 6 --threads 1 --verbose --frames 0 -o a.data
-expect_note 'device +c 0, .*: no GPU can do this; passed over: cuda: .*; opencl: .*'
+expect_note 'device +c 0, .*: no GPU can do this; not used: cuda: .*; opencl: .*'
 expect_exit 0 "${nothing[@]}" "$hedron" render "${small[@]}" --verbose --frames 0 -o a.data --device 0
-expect_note 'device +c 0, .*: named by --device; passed over: .*'
+expect_note 'device +c 0, .*: named by --device; not used: .*'
 # why a picture is black
 expect_exit 0 "${render[@]}" --verbose --frames 1 -o a.data --set image.exposure=1e-6
 expect_note 'hedron: all that is in view in frame 1 is nearly black: image.exposure is 1e-06, and with .*'

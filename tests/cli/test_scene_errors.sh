@@ -106,9 +106,9 @@ expect_files . floor.data
 # ---- nothing is told of what is in a file that is no scene
 echo 'root:secret:0:0' >secrets
 expect_refusal 2 "$hedron" check secrets
-expect_stderr_contains 'secrets is no scene: neither has it the ending .json nor does it begin with {'
+expect_stderr_contains 'secrets is not a scene: expected the ending .json or text that begins with {'
 ! grep -q -e root -e secret: "$logs/stderr" || fail 'words of the file are told'
 printf 'solid teapot' >teapot.stl
 expect_refusal 2 "$hedron" render teapot.stl
-expect_stderr_contains 'teapot.stl is no scene by its name'
+expect_stderr_contains 'teapot.stl is a mesh by its ending'
 finish

@@ -210,7 +210,7 @@ TEST(names_are_numbers_and_parts_of_names) {
     add(FAR, "Giga 30", 9);
     expect_opened("near:0", .device = "turbo");
     assert_string_equal(team.why,
-                        "named by --device; passed over: far: no device of that number or name");
+                        "named by --device; not used: far: no device of that number or name");
     for (size_t i = 0; i < sizeof found / sizeof *found; i++)
         expect_opened(found[i][1], .device = found[i][0], .backend = found[i][2]);
     for (size_t i = 0; i < sizeof none / sizeof *none; i++)
@@ -241,8 +241,8 @@ TEST(a_small_job_asks_no_driver_and_a_large_one_compares_devices) {
 }
 
 TEST(a_gpu_that_is_passed_over_is_told) {
-    static const char passed[] =
-        "near:0 (Broken) is passed over: no compiler is here; far:0 (Wrong) is passed over: it "
+    static const char unused_gpus[] =
+        "near:0 (Broken) is not used: no compiler is here; far:0 (Wrong) is not used: it "
         "computes wrongly: 1 + 1; --math fast would take it, for other bytes";
     HdDevice *broken = add(NEAR, "Broken", 9);
     snprintf(broken->unusable, sizeof broken->unusable, "no compiler is here");
@@ -250,28 +250,28 @@ TEST(a_gpu_that_is_passed_over_is_told) {
     there[C].list[0].is_cpu = true;
     job.frame_count = 1 << 24;
     expect_found("c:0", .kind = HD_WANT_ANY);
-    assert_string_equal(candidates.passed, passed);
+    assert_string_equal(candidates.unused_gpus, unused_gpus);
     assert_string_equal(candidates.reasons,
                         "Broken: no compiler is here; Wrong: it computes wrongly: 1 + 1");
     expect_opened("c:0", .kind = HD_PREFER_GPU);
-    assert_memory_equal(team.note, passed, sizeof passed - 1);
-    assert_string_equal(team.note + sizeof passed - 1,
+    assert_memory_equal(team.note, unused_gpus, sizeof unused_gpus - 1);
+    assert_string_equal(team.note + sizeof unused_gpus - 1,
                         "; no suitable GPU was found; tracing with c on Processor");
-    expect_contains(team.why, "no GPU can do this; passed over: Broken: no compiler is here; ");
+    expect_contains(team.why, "no GPU can do this; not used: Broken: no compiler is here; ");
     /* Whose own wish rules them out need not be told. */
     options.lanes = 4;
     expect_found("c:0", .kind = HD_WANT_ANY);
-    assert_string_equal(candidates.passed, "");
+    assert_string_equal(candidates.unused_gpus, "");
     options.lanes = 1;
     assert_string_equal(found_by((HdDeviceSelection){.backend = "far"}, HD_UNAVAILABLE),
                         "no device can do this: Wrong: it computes wrongly: 1 + 1");
-    assert_string_equal(candidates.passed, "");
+    assert_string_equal(candidates.unused_gpus, "");
     there[FAR].status = HD_FAILED;
     expect_found("c:0", .kind = HD_WANT_ANY);
-    expect_contains(candidates.passed, "; far is passed over: its driver is ill");
+    expect_contains(candidates.unused_gpus, "; far is not used: its driver is ill");
     there[FAR].status = HD_UNAVAILABLE;
     expect_found("c:0", .kind = HD_WANT_ANY);
-    assert_null(strstr(candidates.passed, "far"));
+    assert_null(strstr(candidates.unused_gpus, "far"));
     expect_contains(candidates.reasons, "; far: its driver is ill");
 }
 
@@ -282,7 +282,7 @@ TEST(a_list_names_each_once) {
         {"near:1,giga", "--device is 'near:1,giga', which names near:1 (Giga) twice"},
         {"near:1,,c:0", "'near:1,,c:0', which has an empty part"},
         {"near:1,", "which has an empty part"},
-        {"c:0,all", "--device is 'c:0,all', but 'all' stands alone"}};
+        {"c:0,all", "--device is 'c:0,all', expected 'all' without others"}};
     static const char *const several[] = {"near:0,c:0", "all"};
     add(NEAR, "Turbo", 9);
     add(NEAR, "Giga", 9);

@@ -364,6 +364,6 @@ TEST(test_wrong_texts) {
     expect_bytes_rejected("10\0", 3, "standard input:1: number of frames holds a zero byte");
     snprintf(text, sizeof text, "%s\n 17 18", official);
     expect_bytes_rejected(text, strlen(text),
-                          "standard input:15: what follows the last value is '17', expected the "
+                          "standard input:15: the text after the last value is '17', expected the "
                           "end of the input");
 }

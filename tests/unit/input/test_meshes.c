@@ -128,8 +128,8 @@ TEST(test_textures) {
     expect_loaded(
         SCENE("{\"file\": \"t/t.obj\"}, {\"file\": \"t/t.obj\", \"normals\": \"smooth\"}"));
     assert_string_equal(notes.text, "cannot read the texture t/none.png: No such file or "
-                                    "directory; materials with this texture keep their colour "
-                                    "alone\n");
+                                    "directory; materials with this texture use their colour "
+                                    "only\n");
     assert_int_equal(file.scene.picture_count, 1);
     assert_false(file.scene.pictures[0].is_clamped);
     assert_in_range(file.scene.pictures[0].texture.texels[0], 14100, 14200); /* on sRGB's curve */

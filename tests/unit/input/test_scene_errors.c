@@ -111,7 +111,8 @@ static const struct {
     {"solids[1].edge_lights.colours", "[]", "has 0 elements, expected 1 to 30 elements"},
     {"floor.corners", "[[0,0,0],[1,0,0],[1,1,0]]", "has 3 elements, expected 4 elements"},
     {"floor.texture.x", "1", "is an unknown key, expected \"file\" or \"curve\""},
-    {"lights[0].falloff_end", "3", "is given beside \"falloff_distance\", expected only one"},
+    {"lights[0].falloff_end", "3",
+     "is given together with \"falloff_distance\", expected only one"},
     {"meshes", "[{}]", "[0].file is missing, expected a string that is not empty"},
     {"image", "{\"$comment\": 1}", "[\"$comment\"] is 1, expected a string"},
     /* a default that stands in for a wrong value makes nothing else look wrong */
@@ -226,7 +227,7 @@ static const struct {
      "object\n"},
     {" 10\nout/%d.data 640 480", NULL,
      ": this looks like a classic input, which 'hedron convert "
-     "FILE -o scene.json' makes a scene of"},
+     "FILE -o scene.json' converts to a scene"},
     {least_text, "floor.material=a",
      ": --set floor.material=a: floor is missing, expected it in "
      "the scene"},

@@ -259,8 +259,8 @@ TEST(the_patience_is_whole_seconds) {
     fake("ffmpeg", "exec sleep 1000");
     setenv("HEDRON_FFMPEG_PATIENCE", "1", 1);
     check_failure(16, 1, HD_FAILED,
-                  "FFmpeg stood still for 1 s after the last frame of out/film.mp4 and was ended");
-    check_failure(600, 2, HD_FAILED, "FFmpeg stood still for 1 s at frame 0 of out/film.mp4");
+                  "FFmpeg was idle for 1 s after the last frame of out/film.mp4 and was stopped");
+    check_failure(600, 2, HD_FAILED, "FFmpeg was idle for 1 s at frame 0 of out/film.mp4");
     unsetenv("HEDRON_FFMPEG_PATIENCE");
 }
 
@@ -272,7 +272,7 @@ TEST(failures_of_the_programs_are_told) {
         const char *why;
     } cases[] = {
         {"echo first >&2; echo last >&2; exit 3", "exit 0", LARGE,
-         "FFmpeg ended early (exit code 3) while it was given frame 0 of out/film.mp4; it said: "
+         "FFmpeg ended early (exit code 3) at frame 0 of out/film.mp4; it said: "
          "first\nlast"},
         {"exit 0", "exit 0", LARGE, "ended early (exit code 0)"},
         {"head -c 2000000 >/dev/null; exit 4", "exit 0", LARGE,

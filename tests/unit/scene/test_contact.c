@@ -187,7 +187,7 @@ static void expect_parted(HdScene *scene) {
     double before[8];
     for (int i = 0; i < scene->solid_count; i++)
         before[i] = scene->solids[i].circumradius;
-    hd_scene_part_contacts(scene);
+    hd_scene_separate_contacts(scene);
     for (int i = 0; i < scene->solid_count; i++) {
         const HdSolid *solid = &scene->solids[i];
         assert_true(solid->circumradius <= before[i]);
@@ -221,10 +221,10 @@ TEST(everything_is_parted) {
     HdSolid two[] = {cube_at(0.0, 0.0, 1.5, 2.0), cube_at(0.5, 0.25, 2.75, 2.0)};
     const double radius = two[0].circumradius;
     scene = (HdScene){.solid_count = 2, .solids = two, .floor = floor_at(0.0, 9.0)};
-    hd_scene_part_contacts(&scene);
+    hd_scene_separate_contacts(&scene);
     assert_true(two[0].circumradius == radius && two[1].circumradius == radius);
     two[1].centre.z = 3.5;
-    hd_scene_part_contacts(&scene);
+    hd_scene_separate_contacts(&scene);
     assert_true(two[0].circumradius == radius && two[1].circumradius < radius);
 }
 
@@ -235,7 +235,7 @@ TEST(what_touches_in_turn_is_parted_by_equal_steps) {
                         cube_at(5.5, 0.0, 4.0, 1.0), cube_at(5.0, 0.0, 4.75, 0.5)};
     const double before = solids[1].circumradius, small = solids[3].circumradius;
     HdScene scene = {.solid_count = 4, .solids = solids};
-    hd_scene_part_contacts(&scene);
+    hd_scene_separate_contacts(&scene);
     const double step = before - solids[1].circumradius;
     assert_true(step > 0.0);
     assert_true(solids[2].circumradius == before);
