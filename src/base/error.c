@@ -22,7 +22,7 @@ void hd_error_prefix(HdError *error, const char *name) {
     hd_fail(error, error->status, "%s: %s", name, error->message);
 }
 
-/* With the break; a problem names a place, a value and what was expected. */
+/* shortest possible line of a problem, line break included */
 enum { SHORTEST_LINE = 16 };
 
 void hd_problem(HdProblems *problems, const char *format, ...) {

@@ -11,10 +11,11 @@
 
 #include "base/minmax.h"
 
-/* The longest of \u001b, \x9b and a character of UTF-8. */
+/* bytes of the longest of \u001b, \x9b and a UTF-8 character */
 enum { LONGEST_PIECE = 6 };
 
-/* The bytes of the character that `text` begins with, and its number; 0: that is no UTF-8. */
+/* Returns the length in bytes of the first character of `text` and sets its code point; 0 if it is
+   not UTF-8. */
 static size_t read_character(const char *text, unsigned *number) {
     const unsigned char first = (unsigned char)text[0];
     const size_t size = first < 0x80 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
@@ -42,7 +43,7 @@ size_t hd_control_bytes(const char *text) {
     return size > 0 && is_control(number) ? size : 0;
 }
 
-/* Writes what stands for the next character and returns how many bytes of `text` that takes. */
+/* Writes the escaped form of the next character; returns the bytes of `text` it stands for. */
 static size_t make_piece(const char *text, const char *kept, char piece[LONGEST_PIECE + 1]) {
     unsigned number;
     const size_t size = read_character(text, &number);
@@ -84,7 +85,7 @@ void hd_exact_number(double value, char out[HD_NUMBER_SIZE]) {
         if (strtod(out, NULL) == value)
             break;
     }
-    if (value == 0.0 && signbit(value)) /* as an integer, -0 is 0 */
+    if (value == 0.0 && signbit(value)) /* printed as an integer, -0 would become 0 */
         snprintf(out, HD_NUMBER_SIZE, "-0.0");
 }
 
@@ -121,10 +122,9 @@ void hd_add_text(char *text, size_t size, const char *separator, const char *for
 
 enum { MAX_LETTERS = 31 };
 
-/* How many letters must be put in, taken away, replaced or swapped with their neighbour to make one
-   word of the other (R. A. Wagner and M. J. Fischer, The string-to-string correction problem,
-   1974): a table of distances between the beginnings of both words. Longer words count as far from
-   all. */
+/* Returns the edit distance of two words: letters inserted, deleted, replaced or swapped with a
+   neighbour (R. A. Wagner and M. J. Fischer, The string-to-string correction problem, 1974). The
+   table holds the distances of their prefixes. Longer words are far from all others. */
 static int edit_distance(const char *a, const char *b) {
     size_t a_length = strlen(a), b_length = strlen(b);
     int table[MAX_LETTERS + 1][MAX_LETTERS + 1];

@@ -36,8 +36,8 @@ void hd_obj_release(HdObjMemory *memory, void *array, size_t bytes) {
 
 enum {
     MAX_SHOWN = 80,
-    LONGEST_NUMBER = 64, /* longer ones might leave the range of double on their way */
-    MAX_POWER = 19       /* of ten, either way */
+    LONGEST_NUMBER = 64, /* longer ones might overflow a double on the way */
+    MAX_POWER = 19       /* of ten, in either direction */
 };
 
 static const double powers_of_ten[2 * MAX_POWER + 1] = {
@@ -89,7 +89,7 @@ static const char *skip_sign(const char *at, const char *end) {
     return at < end && (*at == '-' || *at == '+') ? at + 1 : at;
 }
 
-/* Reads "e-12" and the like, or nothing. NULL: something else. */
+/* Reads an exponent such as "e-12", or nothing. Returns NULL for anything else. */
 static const char *read_power(const char *at, const char *end, int *power) {
     *power = 0;
     if (at == end || (*at != 'e' && *at != 'E'))
@@ -105,8 +105,8 @@ static const char *read_power(const char *at, const char *end, int *power) {
     return at;
 }
 
-/* Reads digits with a point among them, those on either side of it as a whole number. NULL: there
-   are no digits. */
+/* Reads digits with an optional point; each side is read as an integer. Returns NULL without
+   digits. */
 static const char *read_mantissa(const char *at, const char *end, double *mantissa) {
     double whole = 0.0, fraction = 0.0, scale = 1.0;
     bool has_digits = false;

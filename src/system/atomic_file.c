@@ -19,13 +19,14 @@
 
 enum { MAX_ATTEMPTS = 1000 };
 
-/* Permissions of a file, from its first instant on, less what the umask takes. */
+/* permissions of a new file, before the umask */
 enum { MODE_USUAL = 0666, MODE_PRIVATE = 0600 };
 
-/* Between the name and the numbers. */
+/* separator of the final name and the numbers */
 #define MARK ".tmp-"
 
-/* The folder of `path`, without its last slashes but for the root's; the current one is ".". */
+/* Returns the folder of `path` without trailing slashes: "." for the current one, "/" for the
+   root. */
 static const char *folder_of(const char *path, char folder[HD_MAX_PATH]) {
     size_t length = hd_folder_length(path);
     while (length > 1 && path[length - 1] == '/')
@@ -36,29 +37,27 @@ static const char *folder_of(const char *path, char folder[HD_MAX_PATH]) {
 
 /* ---- folders of the run ---- */
 
-/* As many as a run has outputs, with those above them, and more. A sequence whose folders are
-   numbered has countless ones, but it asks for each but once. */
+/* Holds more folders than a run's outputs need, parents included. A sequence with numbered folders
+   has arbitrarily many, but looks up each only once. */
 enum { MAX_FOLDERS = 64 };
 
-/* SYNCED: and so are those above it. */
+/* SYNCED: the folders above it are synced too */
 typedef enum Knowledge { UNKNOWN, THERE, SYNCED } Knowledge;
 
-/* A folder that this run wrote to: where it goes away it is missed, instead of made anew without
-   what was in it. */
+/* A folder that this run wrote to. If it disappears, with its contents, the run fails. */
 typedef struct Folder {
-    uint64_t hash; /* of its name */
+    uint64_t hash; /* hash of its name */
     Knowledge knowledge;
 } Folder;
 
-/* Beyond the room the oldest are forgotten. */
+/* ring buffer: a new folder replaces the oldest */
 static struct {
     pthread_mutex_t mutex;
     unsigned next;
     Folder list[MAX_FOLDERS];
 } known = {.mutex = PTHREAD_MUTEX_INITIALIZER};
 
-/* Returns what was known of the folder of the file `path`, and keeps `more` where that says more.
- */
+/* Returns what is known about the folder of the file `path`, and raises it to `more`. */
 static Knowledge learn_folder(const char *path, Knowledge more) {
     const uint64_t hash = hd_hash_bytes(HD_HASH_START, path, hd_folder_length(path));
     unsigned i = 0;
@@ -82,7 +81,8 @@ void hd_known_folders_forget(void) {
 
 #define CANNOT_SYNC "cannot write %s to the disk: %s"
 
-/* Neither pipes nor the folders of some file systems can be synced. */
+/* Returns whether a failed sync matters: pipes and the folders of some file systems cannot be
+   synced. */
 static bool has_disk(int reason) {
     return reason != EINVAL && reason != ENOTSUP && reason != ENOSYS && reason != EROFS;
 }
@@ -140,7 +140,7 @@ static HdStatus check_target(const char *path, HdError *error) {
     return HD_OK;
 }
 
-/* The name is cut because many file systems end at 255 bytes, and the suffix must fit as well. */
+/* Cuts the name because many file systems allow 255 bytes, suffix included. */
 static HdStatus temporary_name(const char *path, int attempt, char temporary[HD_MAX_PATH],
                                HdError *error) {
     int folder = (int)hd_folder_length(path);
@@ -153,8 +153,7 @@ static HdStatus temporary_name(const char *path, int attempt, char temporary[HD_
     return HD_OK;
 }
 
-/* The temporary name is cut to fit, so that the final one would be found too long only at the end.
- */
+/* Checks the final name early: the temporary one is cut, so only renaming would fail. */
 static HdStatus check_length(const char *path, HdError *error) {
     const size_t length = strlen(path + hd_folder_length(path));
     char folder[HD_MAX_PATH];
@@ -177,9 +176,9 @@ size_t hd_temporary_name_length(const char *name) {
     return found[end] == '\0' ? (size_t)(found - name) : 0;
 }
 
-/* ---- what killed programs left ---- */
+/* ---- stale files of killed programs ---- */
 
-/* Whether the process that the name tells is gone, as far as this machine knows. */
+/* Returns whether the process in the file name has ended, as far as this machine knows. */
 static bool writer_is_gone(const char *temporary) {
     const char *numbers = temporary + hd_folder_length(temporary);
     numbers += hd_temporary_name_length(numbers) + strlen(MARK);
@@ -195,7 +194,7 @@ bool hd_temporary_remove_stale(const char *temporary) {
     const bool is_file = fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode);
     if (is_file && flock(descriptor, LOCK_EX | LOCK_NB) != 0)
         is_done = errno != EWOULDBLOCK || !writer_is_gone(temporary);
-    /* Another process may have removed it and given its name to a file of its own meanwhile. */
+    /* Another process may have removed the file and reused its name. */
     else if (is_file && lstat(temporary, &named) == 0 && named.st_dev == found.st_dev &&
              named.st_ino == found.st_ino)
         unlink(temporary);
@@ -205,7 +204,7 @@ bool hd_temporary_remove_stale(const char *temporary) {
 
 /* ---- a file ---- */
 
-/* The folder, which was there, or the temporary file is gone. */
+/* Reports that the folder, which existed earlier, or the temporary file is missing. */
 static HdStatus fail_without(const HdAtomicFile *file, HdError *error) {
     char folder[HD_MAX_PATH];
     const int length = (int)hd_folder_length(file->path);
@@ -218,8 +217,8 @@ static HdStatus fail_without(const HdAtomicFile *file, HdError *error) {
                    file->temporary);
 }
 
-/* Between its making and its locking the file looks like one that was left behind. Where a file
-   system has no locks, none can be held, and nothing is removed. */
+/* Locks the file. False if it was removed as stale before. Without locks in the file system nobody
+   holds one, and nothing is removed. */
 static bool lock(int descriptor) {
     struct stat found;
     if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
@@ -227,8 +226,8 @@ static bool lock(int descriptor) {
     return fstat(descriptor, &found) != 0 || found.st_nlink > 0;
 }
 
-/* Under the first temporary name that is free. A process id comes back after a crash, and
-   containers that share a folder repeat them. */
+/* Creates the file under the first free name. A process id is reused after a crash and by
+   containers that share a folder. */
 static HdStatus create(HdAtomicFile *file, unsigned mode, HdError *error) {
     for (int attempt = 0; attempt < MAX_ATTEMPTS; attempt++) {
         HD_TRY(temporary_name(file->path, attempt, file->temporary, error));
@@ -294,7 +293,7 @@ HdStatus hd_atomic_file_check(const HdAtomicFile *file, HdError *error) {
     return HD_OK;
 }
 
-/* The temporary name is gone. */
+/* Unlocks the file and forgets its temporary name, which no longer exists. */
 static void leave(HdAtomicFile *file) {
     hd_cleanup_forget_file(file->temporary);
     if (file->lock >= 0)
@@ -311,7 +310,8 @@ HdStatus hd_atomic_file_close(HdAtomicFile *file, HdError *error) {
     if (file->stream == NULL)
         return HD_OK;
     int reason = 0;
-    /* The stream remembers a write that failed, but not why: one more byte mostly tells. */
+    /* The stream remembers a failed write without its reason; writing one more byte usually shows
+       it. */
     if (ferror(file->stream))
         reason = write(fileno(file->stream), "", 1) < 0 ? errno : EIO;
     file->lock = fcntl(fileno(file->stream), F_DUPFD_CLOEXEC, 0);
@@ -326,7 +326,7 @@ HdStatus hd_atomic_file_close(HdAtomicFile *file, HdError *error) {
     return hd_fail(error, HD_FAILED, "cannot write %s: %s", file->path, strerror(reason));
 }
 
-/* By its name, for another program may have put a file of its own in the place of ours. */
+/* Syncs by name: another program may have replaced the file. */
 static HdStatus sync_named(const HdAtomicFile *file, HdError *error) {
     const int descriptor = open(file->temporary, O_RDONLY | O_CLOEXEC);
     if (descriptor < 0 && errno == ENOENT)

@@ -17,11 +17,11 @@
 #include "base/hash.h"
 #include "system/atomic_file.h"
 
-/* An entry's file: the checksum of what follows it, the key with its zero byte, the payload. Where
-   the format changes, or on a machine of another byte order, the checksum is wrong. */
+/* A file holds a checksum of the rest, the key with its terminator, and the payload. If the format
+   or the byte order differs, the checksum is wrong. */
 enum { CHECKSUM_BYTES = sizeof(uint64_t) };
 
-/* Entries' names end so. */
+/* file name extension of entries */
 #define ENDING ".entry"
 
 /* ---- names ---- */
@@ -68,8 +68,8 @@ static HdStatus entry_path(char path[HD_MAX_PATH], char folder[HD_MAX_PATH], con
 
 /* ---- reading ---- */
 
-/* Why a file or folder is not this user's alone to write, in words that follow its name; NULL: it
- * is. */
+/* Returns why others could write to a file or folder, as a phrase after its name; NULL if only this
+   user may. */
 static const char *find_owner_fault(const struct stat *found) {
     if (found->st_uid != geteuid())
         return "it belongs to another user";
@@ -78,8 +78,8 @@ static const char *find_owner_fault(const struct stat *found) {
     return NULL;
 }
 
-/* HD_UNAVAILABLE where there is no such folder, HD_FAILED and the reason where others may write to
- * it. */
+/* Returns HD_UNAVAILABLE if the folder is missing, and HD_FAILED with the reason if others may
+   write to it. */
 static HdStatus check_folder(const char *folder, HdError *error) {
     struct stat found;
     if (stat(folder, &found) != 0)
@@ -90,7 +90,7 @@ static HdStatus check_folder(const char *folder, HdError *error) {
                          : hd_fail(error, HD_FAILED, "cannot use the folder %s: %s", folder, fault);
 }
 
-/* Returns what is wrong, or NULL; `*file` is the caller's to free in any case. */
+/* Returns the fault, or NULL. The caller frees `*file`, also after a fault. */
 static const char *read_file(int descriptor, unsigned char **file, size_t *size) {
     struct stat found;
     if (fstat(descriptor, &found) != 0)
@@ -110,7 +110,7 @@ static const char *read_file(int descriptor, unsigned char **file, size_t *size)
     return done == (ssize_t)*size ? NULL : "it cannot be read";
 }
 
-/* Moves the payload to the front. Returns what is wrong, or NULL. */
+/* Moves the payload to the front. Returns the fault, or NULL. */
 static const char *keep_payload(unsigned char *file, size_t *size, const char *key) {
     const size_t key_bytes = strlen(key) + 1;
     const unsigned char *content = file + CHECKSUM_BYTES;
@@ -142,7 +142,7 @@ HdStatus hd_cache_get(const char *kind, const char *key, unsigned char **bytes, 
     if (fault == NULL)
         fault = keep_payload(*bytes, size, key);
     if (fault == NULL)
-        futimens(descriptor, NULL); /* it was used just now */
+        futimens(descriptor, NULL); /* marks it as used */
     close(descriptor);
     if (fault == NULL)
         return HD_OK;
@@ -155,8 +155,8 @@ HdStatus hd_cache_get(const char *kind, const char *key, unsigned char **bytes, 
 
 enum { STALE_SECONDS = 3600 };
 
-/* All entries together, and the one that has not been used for the longest time, of those that were
-   used after `stuck`, which cannot be removed. */
+/* The total size of all entries, and the least recently used one. Entries up to the time `stuck`
+   cannot be removed. */
 typedef struct Usage {
     int64_t bytes;
     char oldest[256];
@@ -222,7 +222,7 @@ static HdStatus write_entry(const char *path, const char *key, const void *bytes
         hd_hash_bytes(hd_hash_bytes(HD_HASH_START, key, key_bytes), bytes, size);
     HdAtomicFile file;
     HD_TRY(hd_atomic_file_open_private(&file, path, error));
-    fwrite(&checksum, 1, CHECKSUM_BYTES, file.stream); /* committing finds what fails */
+    fwrite(&checksum, 1, CHECKSUM_BYTES, file.stream); /* errors show when committing */
     fwrite(key, 1, key_bytes, file.stream);
     fwrite(bytes, 1, size, file.stream);
     return hd_atomic_file_commit(&file, HD_FLEETING, error);

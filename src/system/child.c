@@ -23,10 +23,10 @@
 
 extern char **environ;
 
-/* Where nothing tells that something happened, glances are shorter. */
+/* The interval is shorter where no descriptor reports the event. */
 enum { GLANCE_MS = 200, SHORT_GLANCE_MS = 10 };
 
-/* Real-time ones included; where there are fewer, nothing is known of the rest. */
+/* highest signal number, real-time signals included; systems with fewer reject the rest */
 enum { LAST_SIGNAL = 64 };
 
 HdStatus hd_child_find(const char *name, char out[HD_MAX_PATH], HdError *error) {
@@ -36,7 +36,7 @@ HdStatus hd_child_find(const char *name, char out[HD_MAX_PATH], HdError *error) 
         folders = "/usr/local/bin:/usr/bin:/bin";
     for (const char *folder = folders;; folder++) {
         int length = (int)strcspn(folder, ":");
-        /* An empty item stands for the current folder. */
+        /* An empty item of PATH is the current folder. */
         int used = length == 0 ? snprintf(out, HD_MAX_PATH, "./%s", name)
                                : snprintf(out, HD_MAX_PATH, "%.*s/%s", length, folder, name);
         if (used < HD_MAX_PATH && stat(out, &found) == 0 && S_ISREG(found.st_mode) &&
@@ -56,8 +56,8 @@ static void close_descriptor(int *descriptor) {
     *descriptor = -1;
 }
 
-/* Sockets, because writing to a pipe without a reader raises a signal and writing to a socket need
-   not. ends[0] is ours. */
+/* Opens a pair of sockets: writing to one without a reader need not raise a signal, as a pipe does.
+   The parent keeps ends[0]. */
 static bool open_channel(int ends[2]) {
     return socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0;
 }
@@ -67,18 +67,19 @@ typedef struct Order {
     const char *const *arguments;
     int input, output;
     int lock;   /* kept open; -1: none */
-    int reason; /* negative: not carried out yet */
+    int reason; /* errno of the result; negative: pending */
 } Order;
 
-/* ---- in the child, before it is another program: no memory is asked for, no lock taken ---- */
+/* ---- in the child, before it executes the other program: no allocation, no locks ---- */
 
-/* Not closed on the way into the other program, as `from` may be. */
+/* Copies a descriptor to `to` so that it survives execve. */
 static bool move_descriptor(int from, int to) {
     return from == to ? fcntl(to, F_SETFD, 0) == 0 : dup2(from, to) >= 0;
 }
 
-/* Where our own standard streams are closed, the channels have their numbers. Nothing is
-   overwritten before it is used even then: `output` comes after another end and is never 0. */
+/* If the parent's standard streams are closed, the channels may have their numbers. Even then
+   nothing is overwritten before its use: `output` was opened after another end, so it is never
+   0. */
 static bool set_streams(int input, int output) {
     if (input < 0)
         input = open("/dev/null", O_RDONLY);
@@ -86,8 +87,8 @@ static bool set_streams(int input, int output) {
            move_descriptor(output, STDOUT_FILENO) && move_descriptor(output, STDERR_FILENO);
 }
 
-/* All are blocked until now. Handlers would do our work a second time, the other program must not
-   inherit that signals are blocked, and ours ignores lost readers. */
+/* Resets and unblocks signals, which were blocked before the fork. The child must not run this
+   program's handlers, and must not inherit blocked signals or the ignored SIGPIPE. */
 static bool set_signals(void) {
     const struct sigaction usual = {.sa_handler = SIG_DFL};
     struct sigaction now;
@@ -102,16 +103,16 @@ static bool set_signals(void) {
 
 static _Noreturn void become(const Order *order, int report, pid_t parent) {
 #ifdef __linux__
-    /* Where the system cannot do so, the lock tells that the program lives. */
+    /* On other systems the lock shows that the program lives. */
     prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
-    if (getppid() != parent) /* whose end came before that */
+    if (getppid() != parent) /* the parent ended before prctl */
         _exit(1);
-    /* The lock gets a number that no standard stream takes. */
+    /* F_DUPFD gives the lock a number above the standard streams. */
     if (setpgid(0, 0) == 0 &&
         (order->lock < 0 || fcntl(order->lock, F_DUPFD, STDERR_FILENO + 1) >= 0) &&
         set_streams(order->input, order->output) && set_signals())
-        /* the words are not changed, whatever the prototype says */
+        /* execve does not change the arguments, despite its prototype */
         execve(order->arguments[0], (char *const *)order->arguments, environ);
     const int reason = errno;
     while (write(report, &reason, sizeof reason) < 0 && errno == EINTR)
@@ -121,7 +122,7 @@ static _Noreturn void become(const Order *order, int report, pid_t parent) {
 
 /* ---- */
 
-/* The channel closes by itself once the child is another program; else it tells why it is not. */
+/* Returns 0 when the channel closes, as on execve; otherwise the errno sent by the child. */
 static int read_report(int report, pid_t child) {
     int reason = 0;
     if (hd_read_fully(report, &reason, sizeof reason) != (ssize_t)sizeof reason)
@@ -131,7 +132,7 @@ static int read_report(int report, pid_t child) {
     return reason;
 }
 
-/* Returns 0 or what went wrong, as errno would. */
+/* Returns 0 or an errno. */
 static int spawn_here(const Order *order) {
     const pid_t parent = getpid();
     pid_t *pid = order->pid;
@@ -158,8 +159,7 @@ static int spawn_here(const Order *order) {
     return reason;
 }
 
-/* ---- a child dies with the thread that started it: one thread, which never ends, starts all ----
- */
+/* ---- a child dies with the thread that started it, so one permanent thread starts all ---- */
 
 static struct {
     pthread_mutex_t mutex;
@@ -181,7 +181,7 @@ static void *launch(void *unused) {
     return NULL;
 }
 
-/* In a copy of this program, which has none of its threads and may find the lock held. */
+/* Resets the launcher after a fork: the child has none of the threads, and the lock may be held. */
 static void forget_launcher(void) {
     launcher.mutex = (pthread_mutex_t)PTHREAD_MUTEX_INITIALIZER;
     launcher.changed = (pthread_cond_t)PTHREAD_COND_INITIALIZER;
@@ -189,7 +189,7 @@ static void forget_launcher(void) {
     launcher.order = NULL;
 }
 
-/* Signals are for other threads. */
+/* Starts the thread with all signals blocked; other threads handle them. */
 static bool start_launcher(void) {
     pthread_t thread;
     sigset_t all, before;
@@ -207,7 +207,7 @@ static bool start_launcher(void) {
     return launcher.has_thread;
 }
 
-/* As spawn_here. */
+/* Runs spawn_here on the launcher's thread. */
 static int spawn(Order *order) {
     pthread_mutex_lock(&launcher.mutex);
     if (!start_launcher())
@@ -235,7 +235,7 @@ static void remember(HdChild *child, const char *text, size_t length) {
     child->said[child->said_length] = '\0';
 }
 
-/* Call only where poll() reported the output; closes it at its end. */
+/* Reads output that poll() reported, and closes it at its end. */
 static void take_output(HdChild *child) {
     char text[1024];
     ssize_t count = read(child->output, text, sizeof text);
@@ -247,9 +247,9 @@ static void take_output(HdChild *child) {
 
 /* ---- waiting ---- */
 
-/* Waits for one of the channels { input, output }, and takes in output. False after an interrupt,
-   or where the child is stuck: `still_ms` counts glances in vain, and no clock, for the whole
-   system may have slept or this program been stopped. */
+/* Waits for one of the channels { input, output }, and reads output. Returns false after an
+   interrupt or if the child is stuck. `still_ms` counts intervals without an event instead of clock
+   time, because the system may have slept or this program been stopped. */
 static bool poll_interval(HdChild *child, struct pollfd ready[2], int poll_interval_ms,
                           int timeout_ms, int *still_ms) {
     const int count = hd_interrupt_signal() == 0 ? poll(ready, 2, poll_interval_ms) : 0;
@@ -268,7 +268,7 @@ static bool has_ended(const HdChild *child) {
     return code != 0 ? errno != EINTR : state.si_pid != 0;
 }
 
-/* Takes in output until its end, then waits for the child's. False where it is to be killed. */
+/* Reads output until its end, then waits for the child. Returns false if it must be killed. */
 static bool wait_for_end(HdChild *child, int timeout_ms) {
     int still_ms = 0;
     while (child->output >= 0 || !has_ended(child)) {
@@ -302,12 +302,12 @@ bool hd_child_send(HdChild *child, const uint8_t *bytes, size_t size, int timeou
 
 /* ---- ends ---- */
 
-/* Waits for as long as it takes, and describes how the child ended. */
+/* Blocks until the child has ended, and describes how in `how`. */
 static bool reap(HdChild *child, char how[64]) {
     int state = 0;
     pid_t ended;
     siginfo_t unused;
-    /* Its number is free for another process only once it was waited for. */
+    /* Its process id is reused only after waitpid. */
     while (waitid(P_PID, (id_t)child->pid, &unused, WEXITED | WNOWAIT) != 0 && errno == EINTR)
         continue;
     hd_cleanup_forget_group(child->pid);

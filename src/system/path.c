@@ -50,7 +50,7 @@ HdStatus hd_path_expand_home(const char *path, char out[HD_MAX_PATH], HdError *e
     return join(home, path + 1, out, error);
 }
 
-/* Making first and looking second leaves no gap for another process that makes the same folder. */
+/* Creates first and checks second: another process may create the same folder meanwhile. */
 static HdStatus make_folder(const char *folder, unsigned mode, const char *path, HdError *error) {
     struct stat found;
     if (mkdir(folder, mode) == 0)
@@ -105,7 +105,7 @@ HdStatus hd_path_make_parents(const char *path, unsigned mode, HdError *error) {
     return HD_OK;
 }
 
-/* One step down or up from `path`, "" being the root; links are followed as far as they lead. */
+/* Moves one step down or up from `path` ("" is the root), and follows links as far as they lead. */
 static bool walk(char path[HD_MAX_PATH], const char *part, size_t length) {
     size_t used = strlen(path);
     if (length == 0 || (length == 1 && part[0] == '.'))
@@ -125,7 +125,7 @@ static bool walk(char path[HD_MAX_PATH], const char *part, size_t length) {
     return fits;
 }
 
-/* The one name that stands for the file, made of what exists and what would be made. */
+/* Finds the one canonical name of a file from folders that exist or would be created. */
 static bool resolve(const char *path, char out[HD_MAX_PATH]) {
     out[0] = '\0';
     if (path[0] != '/' && (getcwd(out, HD_MAX_PATH) == NULL || strcmp(out, "/") == 0))
@@ -149,12 +149,12 @@ bool hd_path_is_same(const char *first, const char *second) {
            strcmp(first_name, second_name) == 0;
 }
 
-/* A pattern's parts; a percent sign stands for itself. */
+/* a part of a pattern; "%%" is a character */
 typedef enum Part { PART_CHARACTER, PART_NUMBER, PART_WRONG } Part;
 
 enum { MAX_DIGITS = 9 };
 
-/* `*text` stands at a percent sign and is moved past the directive if it is one. */
+/* Moves `*text`, which starts with a percent sign, past the directive if it is valid. */
 static Part read_directive(const char **text, int *digits) {
     const char *p = *text + 1;
     if (p[0] == '%') {
@@ -171,7 +171,7 @@ static Part read_directive(const char **text, int *digits) {
     return PART_NUMBER;
 }
 
-/* Moves `*text` past the next part unless that is wrong; `*digits` is a number's least. */
+/* Moves `*text` past the next part unless it is wrong; sets the least `*digits` of a number. */
 static Part read_part(const char **text, bool takes_marks, int *digits) {
     size_t marks = takes_marks ? strspn(*text, "#") : 0;
     *digits = 1;
@@ -202,10 +202,10 @@ bool hd_pattern_has_number(const char *path) {
     return has_number(path, true);
 }
 
-/* Also counts the numbers that it has. */
+/* Expands the pattern and counts its frame numbers. */
 static HdStatus expand(const char *pattern, int frame, char out[HD_MAX_PATH], int *numbers,
                        HdError *error) {
-    /* With "%d" or "%0Nd" a '#' is a character like any other. */
+    /* If the pattern has "%d" or "%0Nd", a '#' is an ordinary character. */
     const bool takes_marks = !has_number(pattern, false);
     size_t length = 0;
     int digits;
