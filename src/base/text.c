@@ -12,14 +12,14 @@
 #include "base/minmax.h"
 
 /* bytes of the longest of \u001b, \x9b and a UTF-8 character */
-enum { LONGEST_PIECE = 6 };
+enum { MAX_PIECE_BYTES = 6 };
 
 /* Returns the length in bytes of the first character of `text` and sets its code point; 0 if it is
    not UTF-8. */
 static size_t read_character(const char *text, unsigned *number) {
     const unsigned char first = (unsigned char)text[0];
     const size_t size = first < 0x80 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
-    static const unsigned least[] = {0, 0, 0x80, 0x800, 0x10000};
+    static const unsigned min_code_points[] = {0, 0, 0x80, 0x800, 0x10000};
     if ((first >= 0x80 && first < 0xc2) || first > 0xf4)
         return 0;
     *number = size == 1 ? first : first & (0xffu >> (size + 1));
@@ -29,7 +29,7 @@ static size_t read_character(const char *text, unsigned *number) {
         *number = *number << 6 | ((unsigned char)text[i] & 0x3f);
     }
     const bool is_surrogate = *number >= 0xd800 && *number < 0xe000;
-    return *number < least[size] || *number > 0x10ffff || is_surrogate ? 0 : size;
+    return *number < min_code_points[size] || *number > 0x10ffff || is_surrogate ? 0 : size;
 }
 
 static bool is_control(unsigned number) {
@@ -44,23 +44,24 @@ size_t hd_control_bytes(const char *text) {
 }
 
 /* Writes the escaped form of the next character; returns the bytes of `text` it stands for. */
-static size_t make_piece(const char *text, const char *kept, char piece[LONGEST_PIECE + 1]) {
+static size_t escape_character(const char *text, const char *kept,
+                               char piece[MAX_PIECE_BYTES + 1]) {
     unsigned number;
     const size_t size = read_character(text, &number);
     if (size == 0)
-        snprintf(piece, LONGEST_PIECE + 1, "\\x%02x", (unsigned)(unsigned char)*text);
+        snprintf(piece, MAX_PIECE_BYTES + 1, "\\x%02x", (unsigned)(unsigned char)*text);
     else if (is_control(number) && strchr(kept, *text) == NULL)
-        snprintf(piece, LONGEST_PIECE + 1, "\\u%04x", number & 0xffff);
+        snprintf(piece, MAX_PIECE_BYTES + 1, "\\u%04x", number & 0xffff);
     else
-        snprintf(piece, LONGEST_PIECE + 1, "%.*s", (int)size, text);
+        snprintf(piece, MAX_PIECE_BYTES + 1, "%.*s", (int)size, text);
     return size > 0 ? size : 1;
 }
 
 static size_t escape(const char *text, const char *kept, char *out, size_t size) {
     size_t taken = 0, used = 0;
     while (text[taken] != '\0') {
-        char piece[LONGEST_PIECE + 1];
-        const size_t bytes = make_piece(text + taken, kept, piece), length = strlen(piece);
+        char piece[MAX_PIECE_BYTES + 1];
+        const size_t bytes = escape_character(text + taken, kept, piece), length = strlen(piece);
         if (used + length >= size)
             break;
         memcpy(out + used, piece, length);

@@ -12,7 +12,7 @@
 #define TWO_OVER_PI (2.0 / HD_PI)
 
 /* Above this bound k could reach 2^20 = 1.04e6. */
-static const double largest_reduced = 1e6;
+static const double max_reduced = 1e6;
 
 /* Taylor series; the first omitted term is below 1e-19 on [-pi/4, pi/4]. All factorials up to 18!
    are exact in double. */
@@ -43,7 +43,7 @@ void hd_sine_cosine(double x, double *sine, double *cosine) {
     }
     /* Working on |x| makes the sine exactly odd and the cosine exactly even. */
     double rest = fabs(x);
-    if (rest > largest_reduced)
+    if (rest > max_reduced)
         rest = fmod(rest, 2.0 * HD_PI); /* exact for the double 2 pi, which itself is rounded */
     const double quotient = floor(rest * TWO_OVER_PI + 0.5);
     rest = ((rest - quotient * HALF_PI_1) - quotient * HALF_PI_2) - quotient * HALF_PI_3;

@@ -13,8 +13,8 @@
 
 /* Zero-initialise. */
 typedef struct HdWatch {
-    _Atomic uint64_t done;   /* finished work; never falls, even if work is lost */
-    atomic_bool is_unwanted; /* cancels frames in flight, as after a signal */
+    _Atomic uint64_t done;    /* finished work; never falls, even if work is lost */
+    atomic_bool is_cancelled; /* cancels frames in flight, as after a signal */
 } HdWatch;
 
 /* A piece of work and the watch that observes it. */
@@ -24,10 +24,10 @@ typedef struct HdWatched {
 } HdWatched;
 
 /* Splits off a share, 0..1, of the remaining work. */
-static inline HdWatched hd_watched_take(HdWatched *left, double share) {
-    const HdWatched taken = {left->watch, (uint64_t)((double)left->weight * share)};
-    left->weight -= taken.weight;
-    return taken;
+static inline HdWatched hd_watched_split(HdWatched *left, double share) {
+    const HdWatched part = {left->watch, (uint64_t)((double)left->weight * share)};
+    left->weight -= part.weight;
+    return part;
 }
 
 /* Counts items first .. end - 1 of `count` as done, each once, in any order. All items together
@@ -39,8 +39,8 @@ static inline void hd_watched_add(const HdWatched *watched, int first, int end, 
         atomic_fetch_add_explicit(&watched->watch->done, weight, memory_order_relaxed);
 }
 
-static inline bool hd_watched_is_unwanted(const HdWatched *watched) {
-    return watched->watch != NULL && atomic_load(&watched->watch->is_unwanted);
+static inline bool hd_watched_is_cancelled(const HdWatched *watched) {
+    return watched->watch != NULL && atomic_load(&watched->watch->is_cancelled);
 }
 
 /* Returns the finished work in frames. */

@@ -101,10 +101,10 @@ static void fill_search8(void) {
     unsigned code = 0;
     fill_thresholds(thresholds, 255);
     for (uint32_t i = 0; i <= BUCKETS_8; i++) {
-        const uint32_t least = LOWEST_BITS(LOWEST_POWER_8) + (i << ENTRY_BITS);
-        while (float_of(least) >= thresholds[code + 1])
+        const uint32_t lowest = LOWEST_BITS(LOWEST_POWER_8) + (i << ENTRY_BITS);
+        while (float_of(lowest) >= thresholds[code + 1])
             code++;
-        const uint32_t place = bits_of(thresholds[code + 1]) - least;
+        const uint32_t place = bits_of(thresholds[code + 1]) - lowest;
         const uint32_t missing = place >> ENTRY_BITS == 0 ? (1u << ENTRY_BITS) - place : 0;
         entries8[i] = (code << ENTRY_BITS) + missing;
     }
@@ -114,20 +114,20 @@ static void fill_search16(void) {
     unsigned code = 0;
     fill_thresholds(thresholds16, 65535);
     for (uint32_t i = 0; i <= BUCKETS_16; i++) {
-        const float least = float_of(LOWEST_BITS(LOWEST_POWER_16) + (i << SHIFT_16));
-        while (least >= thresholds16[code + 1])
+        const float lowest = float_of(LOWEST_BITS(LOWEST_POWER_16) + (i << SHIFT_16));
+        while (lowest >= thresholds16[code + 1])
             code++;
         const double from = (double)thresholds16[code];
         const double step = (double)thresholds16[code + 1] - from;
-        const double position = code + ((double)least - from) / step;
+        const double position = code + ((double)lowest - from) / step;
         const uint32_t rounded = (uint32_t)(position * (1 << POSITION_BITS));
         buckets16[i] = rounded > POSITION_MARGIN ? rounded - POSITION_MARGIN : 0;
     }
 }
 
 /* Maps NaN to the least value too. */
-static inline float clamp(float value, float least) {
-    const float raised = value > least ? value : least;
+static inline float clamp(float value, float lowest) {
+    const float raised = value > lowest ? value : lowest;
     return raised < 1.0f ? raised : 1.0f;
 }
 

@@ -70,9 +70,9 @@ void hd_quantile_free(HdQuantile *quantile);
 /* Adds a finite number that is at least 0. */
 void hd_quantile_add(HdQuantile *quantile, double value);
 
-/* Returns the least number that at most one in `out_of` exceeds, or one larger by at most a factor
-   of 1/2048 (from 2^-60 to 2^130). It is exact for multiples of a step, below 2048 steps. Without
-   numbers it is NaN. */
+/* Returns the least number that at most one in `out_of` exceeds, or one larger by at most 1/2048 of
+   it (from 2^-60 to 2^130). It is exact for multiples of a step, below 2048 steps. Without numbers
+   it is NaN. */
 double hd_quantile_above(const HdQuantile *quantile, uint64_t out_of);
 
 /* Heat maps: a logarithmic scale, black below 1/4 of 1/255, then one colour for each doubling. It

@@ -58,7 +58,7 @@ struct HdFormat {
     /* Films: FFmpeg's arguments, NULL-terminated, which also tag the file with the curve. Small
        films have a side below HD_SLICED_SIDE; NULL: the same arguments. */
     const char *const *film_arguments[HD_CURVES], *const *small_film_arguments[HD_CURVES];
-    bool is_srgb_alone;                /* cannot tag another curve */
+    bool is_srgb_only;                 /* cannot tag another curve */
     const HdFormat *segment_format;    /* format of segments */
     const char *const *join_arguments; /* to join segments; NULL: film_arguments */
 
@@ -66,8 +66,8 @@ struct HdFormat {
     HdStatus (*write)(const HdFrame *frame, const HdPictureStyle *style,
                       const HdPictureLabel *label, FILE *stream, const char *path, HdError *error);
     bool has_layers;      /* holds alpha and the frame's layers */
-    int max_encoded_bits; /* styles with more bits need the frame's radiance; others accept an
-                             encoded frame on the style's curve */
+    int max_encoded_bits; /* most bits of a style that an encoded frame on its curve suffices for;
+                             more need the radiance */
 
     /* Pictures with fingerprints: reads one with 8 bits and the frame's size back into `rgba`, and
        sets is_encoded. */

@@ -319,14 +319,14 @@ static bool find_channels(ExrRows *rows, const exr_attr_chlist_t *list, int *bit
     for (int i = 0; i < list->num_channels; i++) {
         const exr_attr_chlist_entry_t *channel = &list->entries[i];
         const bool is_light = place_of(rows, channel->name.str) >= 0;
-        const bool is_taken = channel->pixel_type != EXR_PIXEL_UINT && channel->x_sampling == 1 &&
-                              channel->y_sampling == 1;
-        if (is_light && !is_taken)
+        const bool is_readable = channel->pixel_type != EXR_PIXEL_UINT &&
+                                 channel->x_sampling == 1 && channel->y_sampling == 1;
+        if (is_light && !is_readable)
             return false;
         if (is_light && channel->pixel_type == EXR_PIXEL_FLOAT)
             *bits = 32;
         found += is_light;
-        if (!is_light && is_taken && rows->channels < CHANNELS + HD_MAX_FURTHER)
+        if (!is_light && is_readable && rows->channels < CHANNELS + HD_MAX_FURTHER)
             rows->names[rows->channels++ - CHANNELS] = channel->name.str;
     }
     return found == CHANNELS;
@@ -357,7 +357,8 @@ static HdStatus check_head(ExrRows *rows, HdPictureFacts *facts, HdError *error)
         return fail_reading(rows, result, error);
     if (head.parts != 1 || head.storage != EXR_STORAGE_SCANLINE)
         return hd_fail(error, HD_BAD_INPUT,
-                       "%s is an OpenEXR of several parts, tiles or depths, expected one of lines",
+                       "%s is an OpenEXR of several parts, tiles or deep data, expected one part "
+                       "of scan lines",
                        path);
     if (!find_channels(rows, head.list, &facts->bits))
         return hd_fail(error, HD_BAD_INPUT,

@@ -60,6 +60,6 @@ const HdFormat hd_format_mkv = {
 const HdFormat hd_format_gif = {
     .name = "GIF",
     .film_arguments = {gif_arguments, gif_arguments},
-    .is_srgb_alone = true,
+    .is_srgb_only = true,
     .segment_format = &hd_format_mkv,
 };

@@ -19,7 +19,7 @@
 enum { MAX_CHUNK_BYTES = 8 * 1024 * 1024, MAX_KEPT_CHUNKS = 128 };
 
 /* Bytes of a file beyond twice those of its pixels: far more than texts and profiles take. */
-enum { MAX_BESIDES = 16 * 1024 * 1024 };
+enum { MAX_EXTRA_BYTES = 16 * 1024 * 1024 };
 
 enum { MESSAGE_SIZE = 256, SIGNATURE_SIZE = 8 };
 
@@ -136,8 +136,8 @@ static PngReader *open_reader(FILE *file, const char *name, HdError *error) {
         hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
         return NULL;
     }
-    *reader =
-        (PngReader){.file = file, .allowed = MAX_BESIDES, .name = name, .message = "out of memory"};
+    *reader = (PngReader){
+        .file = file, .allowed = MAX_EXTRA_BYTES, .name = name, .message = "out of memory"};
     reader->png =
         png_create_read_struct(PNG_LIBPNG_VER_STRING, reader->message, on_error, on_warning);
     if (reader->png != NULL)
@@ -415,7 +415,7 @@ static HdStatus open_rows(void **rows, FILE *file, const char *path, HdPictureFa
     if (reader->is_interlaced) {
         close_reader(reader);
         return hd_fail(error, HD_BAD_INPUT,
-                       "%s is an interlaced PNG, expected one whose rows follow each other", path);
+                       "%s is an interlaced PNG, expected one without interlacing", path);
     }
     *rows = reader;
     *facts = reader->facts;

@@ -35,13 +35,13 @@ typedef struct HdFrameRequest {
 /* Floats of a pixel; HD_BOUNDED_FLOATS for scenes with an error bound. */
 enum { HD_RADIANCE_FLOATS = 3, HD_BOUNDED_FLOATS = 4 };
 
-/* Indices into HdFrame.first: alpha alone, or all properties of the first hit in this order. */
+/* Indices into HdFrame.first: alpha alone, or all properties of the first hit in this order,
+   which are 0 without a hit. */
 enum {
     HD_FIRST_ALPHA,  /* share of the pixel's samples whose primary ray hits an object */
     HD_FIRST_DEPTH,  /* distance along the ray through the pixel's centre */
     HD_FIRST_NORMAL, /* unit normal there, towards the viewer */
-    HD_FIRST_OBJECT =
-        HD_FIRST_NORMAL + 3, /* number from 1: solids, floor, meshes; all are 0 without a hit */
+    HD_FIRST_OBJECT = HD_FIRST_NORMAL + 3, /* solids, floor, meshes, from 1 */
     HD_MAX_FIRST_FLOATS
 };
 

@@ -30,11 +30,12 @@ bool hd_format_is_film(const HdFormat *format) {
 
 HdStatus hd_format_check_style(const char *path, const HdPictureStyle *style, HdError *error) {
     const HdFormat *format = hd_format_of(path);
-    if (format != NULL && format->is_srgb_alone && style->curve != HD_CURVE_SRGB)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "%s cannot be linear, for a %s has no way to say so: expected output.curve "
-                       "\"srgb\", or another film",
-                       path, format->name);
+    if (format != NULL && format->is_srgb_only && style->curve != HD_CURVE_SRGB)
+        return hd_fail(
+            error, HD_BAD_INPUT,
+            "%s cannot be linear, because %s files cannot state it: expected output.curve "
+            "\"srgb\", or another film",
+            path, format->name);
     if (format == &hd_format_png && style->bits > 16)
         return hd_fail(error, HD_BAD_INPUT,
                        "%s cannot have %d bits a channel: expected output.bits 8 or 16, or another "

@@ -14,7 +14,7 @@
    partition is stable. Nor does it depend on the caller's floating-point environment, because the
    threads do all rounding. */
 enum {
-    MAX_PIECES = 256, /* of a level, about */
+    MAX_PIECES = 256, /* pieces of a level, about */
     MIN_PIECE = 4096,
     MAX_TASKS = MAX_PIECES * HD_MAX_HIERARCHY_DEPTH + 1,
     MAX_CHUNKS = 2 * MAX_PIECES
@@ -56,10 +56,10 @@ typedef struct Chunk {
 typedef struct Top {
     TopNode nodes[MAX_TASKS];
     Task tasks[MAX_TASKS];
-    Task *turns[MAX_TASKS];    /* the tasks in the order of processing */
-    Open opens[2][MAX_PIECES]; /* of this level and the next, alternating */
+    Task *ordered_tasks[MAX_TASKS]; /* the tasks in the order of processing */
+    Open opens[2][MAX_PIECES];      /* open nodes of this level and the next, alternating */
     Chunk chunks[MAX_CHUNKS];
-    HdBins bins[MAX_CHUNKS]; /* of each chunk */
+    HdBins bins[MAX_CHUNKS]; /* bins of each chunk */
 } Top;
 
 typedef struct Build {
@@ -136,7 +136,7 @@ static HdLanes find_unit(const HdBounds *box) {
     return (HdLanes){unit, unit, unit, 0.0F};
 }
 
-static void cut(Build *build, int first, int count, const Open *open) {
+static void add_chunks(Build *build, int first, int count, const Open *open) {
     const int pieces = (count + build->piece - 1) / build->piece;
     for (int i = 0; i < pieces; i++) {
         Chunk *chunk = &build->top->chunks[build->chunk_count++];
@@ -153,7 +153,7 @@ static void add_task(Build *build, const HdGroup *group, HdItem *items, HdItem *
 }
 
 /* Makes a task or an open node of a group that lies in `others` until the next swap. */
-static void hand_on(Build *build, const HdGroup *group, int *link) {
+static void add_group(Build *build, const HdGroup *group, int *link) {
     if (group->count > build->piece)
         build->next_opens[build->next_open_count++] = (Open){.group = *group, .link = link};
     else
@@ -172,7 +172,7 @@ static void swap(Build *build) {
 }
 
 static HdStatus load(Build *build) {
-    cut(build, 0, build->count, NULL);
+    add_chunks(build, 0, build->count, NULL);
     HD_TRY(run(build, build->chunk_count, load_chunk));
     HdGroup root = {.first = 0, .count = build->count, .depth = 1};
     root.box = root.centres = hd_bounds_empty();
@@ -182,9 +182,9 @@ static HdStatus load(Build *build) {
     HD_TRY(run(build, build->chunk_count, bound_centres));
     for (int i = 0; i < build->chunk_count; i++)
         hd_bounds_merge(&root.centres, &build->top->chunks[i].centres[0]);
-    /* `hand_on` expects the items in `others`. */
+    /* `add_group` expects the items in `others`. */
     swap(build);
-    hand_on(build, &root, &build->root);
+    add_group(build, &root, &build->root);
     swap(build);
     return HD_OK;
 }
@@ -262,7 +262,7 @@ static void divide(Build *build, const Open *open) {
         top->box[side] = sides[side].box;
         for (int i = open->first_chunk; i < open->first_chunk + open->chunk_count; i++)
             hd_bounds_merge(&sides[side].centres, &build->top->chunks[i].centres[side]);
-        hand_on(build, &sides[side], &top->child[side]);
+        add_group(build, &sides[side], &top->child[side]);
     }
 }
 
@@ -271,7 +271,7 @@ static HdStatus divide_level(Build *build) {
     for (int i = 0; i < build->open_count; i++) {
         Open *open = &build->opens[i];
         open->first_chunk = build->chunk_count;
-        cut(build, open->group.first, open->group.count, open);
+        add_chunks(build, open->group.first, open->group.count, open);
         open->chunk_count = build->chunk_count - open->first_chunk;
     }
     HD_TRY(run(build, build->chunk_count, bin_chunk));
@@ -291,7 +291,7 @@ static HdStatus divide_level(Build *build) {
 static void build_task(void *context, int thread, int number) {
     (void)thread;
     const Build *build = context;
-    Task *task = build->top->turns[number];
+    Task *task = build->top->ordered_tasks[number];
     const int first = task->group.first, end = first + task->group.count;
     HdSubtree subtree = {build->options, build->unit,          task->items,
                          task->spare,    build->nodes + first, 0};
@@ -308,15 +308,15 @@ static int larger_first(const void *a, const void *b) {
 
 static HdStatus build_subtrees(Build *build) {
     for (int i = 0; i < build->task_count; i++)
-        build->top->turns[i] = &build->top->tasks[i];
-    qsort(build->top->turns, (size_t)build->task_count, sizeof(void *), larger_first);
+        build->top->ordered_tasks[i] = &build->top->tasks[i];
+    qsort(build->top->ordered_tasks, (size_t)build->task_count, sizeof(void *), larger_first);
     return run(build, build->task_count, build_task);
 }
 
 static void copy_task(void *context, int thread, int number) {
     (void)thread;
     const Build *build = context;
-    const Task *task = build->top->turns[number];
+    const Task *task = build->top->ordered_tasks[number];
     const HdBuildNode *from = build->nodes + task->group.first;
     HdBuildNode *to = build->result + task->first_node;
     for (int i = 0; i < task->node_count; i++) {
@@ -367,9 +367,9 @@ static HdStatus assemble(Build *build, HdHierarchy *hierarchy) {
         return HD_OK;
     }
     const HdStatus status = run(build, build->task_count, copy_task);
-    HdBuildNode *less = realloc(hierarchy->nodes, (size_t)count * sizeof *less);
-    if (less != NULL)
-        hierarchy->nodes = less;
+    HdBuildNode *shrunk = realloc(hierarchy->nodes, (size_t)count * sizeof *shrunk);
+    if (shrunk != NULL)
+        hierarchy->nodes = shrunk;
     return status;
 }
 

@@ -42,12 +42,12 @@ typedef struct HdGroup {
 } HdGroup;
 
 /* Returns b if either is NaN, so that it compiles to one instruction. */
-static inline HdLanes hd_lesser(HdLanes a, HdLanes b) {
+static inline HdLanes hd_min_lanes(HdLanes a, HdLanes b) {
     return (HdLanes){a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1],
                      a[2] < b[2] ? a[2] : b[2], a[3] < b[3] ? a[3] : b[3]};
 }
 
-static inline HdLanes hd_greater(HdLanes a, HdLanes b) {
+static inline HdLanes hd_max_lanes(HdLanes a, HdLanes b) {
     return (HdLanes){a[0] > b[0] ? a[0] : b[0], a[1] > b[1] ? a[1] : b[1],
                      a[2] > b[2] ? a[2] : b[2], a[3] > b[3] ? a[3] : b[3]};
 }
@@ -58,8 +58,8 @@ static inline HdBounds hd_bounds_empty(void) {
 }
 
 static inline void hd_bounds_add(HdBounds *bounds, HdLanes lower, HdLanes upper) {
-    bounds->lower = hd_lesser(lower, bounds->lower);
-    bounds->upper = hd_greater(upper, bounds->upper);
+    bounds->lower = hd_min_lanes(lower, bounds->lower);
+    bounds->upper = hd_max_lanes(upper, bounds->upper);
 }
 
 static inline void hd_bounds_merge(HdBounds *bounds, const HdBounds *other) {
@@ -103,17 +103,17 @@ static inline HdBest hd_best_none(void) {
 /* NaN is never cheaper. */
 static inline void hd_best_offer(HdBest *best, HdLanes cost, int place) {
     const HdIntLanes cheaper = cost < best->cost;
-    best->cost = hd_lesser(cost, best->cost);
+    best->cost = hd_min_lanes(cost, best->cost);
     best->place = (cheaper & place) | (~cheaper & best->place);
 }
 
 /* Returns the cheapest axis; -1: none. */
 static inline int hd_best_axis(const HdBest *best) {
-    int least = best->cost[0] < INFINITY ? 0 : -1;
+    int cheapest = best->cost[0] < INFINITY ? 0 : -1;
     for (int axis = 1; axis < 3; axis++)
-        if (best->cost[axis] < (least < 0 ? INFINITY : best->cost[least]))
-            least = axis;
-    return least;
+        if (best->cost[axis] < (cheapest < 0 ? INFINITY : best->cost[cheapest]))
+            cheapest = axis;
+    return cheapest;
 }
 
 static inline HdBox hd_bounds_box(const HdBounds *bounds) {

@@ -120,19 +120,19 @@ static void fill_node(HdWideHierarchy *wide, const HdHierarchy *hierarchy, int n
 }
 
 static bool widen(HdWideHierarchy *wide, const HdHierarchy *hierarchy) {
-    const size_t width = (size_t)wide->width, most = (size_t)hierarchy->node_count;
-    wide->root_of = hd_large_allocate(most * sizeof *wide->root_of);
+    const size_t width = (size_t)wide->width, max_nodes = (size_t)hierarchy->node_count;
+    wide->root_of = hd_large_allocate(max_nodes * sizeof *wide->root_of);
     /* A few times as many nodes as needed; untouched memory costs nothing. */
-    wide->child = hd_large_allocate(most * width * sizeof *wide->child);
+    wide->child = hd_large_allocate(max_nodes * width * sizeof *wide->child);
     if (wide->root_of == NULL || wide->child == NULL)
         return false;
     for (int i = 0; i < hierarchy->node_count; i++)
         wide->root_of[i] = -1;
     merge(wide, hierarchy);
     const size_t count = (size_t)wide->node_count;
-    int32_t *less = realloc(wide->child, count * width * sizeof *less);
-    if (less != NULL)
-        wide->child = less;
+    int32_t *shrunk = realloc(wide->child, count * width * sizeof *shrunk);
+    if (shrunk != NULL)
+        wide->child = shrunk;
     wide->bounds = hd_large_allocate(count * 6 * width * sizeof *wide->bounds);
     if (wide->bounds == NULL)
         return false;

@@ -122,7 +122,7 @@ enum { HD_OBJ_MAX_LINE = 65000 };
 
 /* Reads the file at `path` and the MTL files that it names, in the same folder or below. Cuts
    polygons into triangles. Converts materials by the table in docs/reference/files.md. `texture`
-   begins with the folder of `path` or with "./"; nobody has checked that the picture exists.
+   begins with the folder of `path` or with "./"; the existence of the picture is not checked.
    Materials without triangles may remain. Drops and counts triangles without an area. Reports what
    is not used in `notes`, in sentences that begin with a path: missing libraries, wrong lines of
    libraries, other kinds of maps, values made legal. HD_BAD_INPUT, with the file and, if known, the

@@ -32,14 +32,14 @@ typedef struct Definition {
 } Definition;
 
 typedef struct Libraries {
-    const char *path; /* of the mesh */
+    const char *path; /* path of the mesh */
     HdObjMemory *memory;
     HdProblems *notes;
-    const HdNameTable *materials; /* named by the mesh */
-    Definition *definitions;      /* of each */
+    const HdNameTable *materials; /* names used by the mesh */
+    Definition *definitions;      /* one for each material */
     int32_t *order;               /* numbers of the defined ones, in the order of the libraries */
     int defined_count;
-    const char *names[MAX_LIBRARIES]; /* of requested libraries */
+    const char *names[MAX_LIBRARIES]; /* names of the libraries requested */
     int count;
 } Libraries;
 
@@ -64,7 +64,8 @@ typedef struct Notes {
     HdProblems *problems;
 } Notes;
 
-static double within(const Notes *notes, const char *name, double value, double low, double high) {
+static double clamp_noted(const Notes *notes, const char *name, double value, double low,
+                          double high) {
     const double legal = value < low ? low : value > high ? high : value;
     if (legal != value)
         hd_problem(notes->problems, "%s: %s is %.9g, expected %.15g to %.15g, and becomes %.15g",
@@ -73,9 +74,9 @@ static double within(const Notes *notes, const char *name, double value, double 
 }
 
 static HdVec3 colour(const Notes *notes, const char *name, const float from[3], double high) {
-    return hd_vec3(within(notes, name, (double)from[0], 0.0, high),
-                   within(notes, name, (double)from[1], 0.0, high),
-                   within(notes, name, (double)from[2], 0.0, high));
+    return hd_vec3(clamp_noted(notes, name, (double)from[0], 0.0, high),
+                   clamp_noted(notes, name, (double)from[1], 0.0, high),
+                   clamp_noted(notes, name, (double)from[2], 0.0, high));
 }
 
 static double largest(HdVec3 a) {
@@ -97,7 +98,7 @@ static bool refracts(int illum) {
 
 /* Returns the transmitted share: 1 - d, or Tf if light is refracted and d is 1. */
 static double transmission_of(const Notes *notes, const Parameters *from, HdVec3 filter) {
-    const double passing = 1.0 - within(notes, "d", (double)from->d, 0.0, 1.0);
+    const double passing = 1.0 - clamp_noted(notes, "d", (double)from->d, 0.0, 1.0);
     return passing > 0.0 || !refracts(from->illum) ? passing : largest(filter);
 }
 
@@ -107,7 +108,7 @@ static void limit_shares(const Notes *notes, HdMaterial *material) {
     if (sum <= 1.0)
         return;
     hd_problem(notes->problems,
-               "%s: Ks makes it reflect %.6g and d or Tf lets %.6g pass, expected at most 1 "
+               "%s: Ks reflects %.6g and d or Tf transmits %.6g, expected at most 1 "
                "together, and both are divided by %.6g",
                notes->place, material->reflection, material->transmission, sum);
     material->reflection /= sum;
@@ -117,15 +118,15 @@ static void limit_shares(const Notes *notes, HdMaterial *material) {
 static int shininess_of(const Notes *notes, const Parameters *from, double specular) {
     if (specular == 0.0)
         return (int)(fmin(fmax((double)from->Ns, 1.0), HD_MAX_SHININESS) + 0.5);
-    return (int)(within(notes, "Ns", (double)from->Ns, 1.0, HD_MAX_SHININESS) + 0.5);
+    return (int)(clamp_noted(notes, "Ns", (double)from->Ns, 1.0, HD_MAX_SHININESS) + 0.5);
 }
 
 /* Returns Ni if light may be refracted, otherwise 1. */
 static double index_of(const Notes *notes, const Parameters *from, double transmission) {
     if (transmission == 0.0 || !(refracts(from->illum) || from->illum == NO_ILLUM))
         return 1.0;
-    return within(notes, "Ni", (double)from->Ni, HD_MIN_INDEX_OF_REFRACTION,
-                  HD_MAX_INDEX_OF_REFRACTION);
+    return clamp_noted(notes, "Ni", (double)from->Ni, HD_MIN_INDEX_OF_REFRACTION,
+                       HD_MAX_INDEX_OF_REFRACTION);
 }
 
 /* Fills `material`, except name and texture, by the table in docs/reference/files.md, and notes
@@ -170,7 +171,7 @@ static const char *file_name_fault(HdSpan name) {
     if (hd_name_fault(name) != NULL)
         return hd_name_fault(name);
     if (is_separator(*name.begin) || (name.end - name.begin > 1 && name.begin[1] == ':'))
-        return "a name that counts from this file's folder";
+        return "a name relative to this file's folder";
     for (const char *at = name.begin; at < name.end;) {
         const char *end = at;
         while (end < name.end && !is_separator(*end))
@@ -270,7 +271,7 @@ static void keep_transparency(Reader *reader, HdSpan keyword, HdSpan line) {
     const double opacity = value < 0.0 ? 1.0 : value > 1.0 ? 0.0 : 1.0 - value;
     reader->material->parameters.d = (float)((int)(opacity * 1e6 + 0.5) / 1e6);
     if (value < 0.0 || value > 1.0)
-        note(reader, "Tr is %.9g, expected 0 to 1, and is taken for the nearer of them", value);
+        note(reader, "Tr is %.9g, expected 0 to 1; the nearer of them is used", value);
 }
 
 static void keep_illum(Reader *reader, HdSpan line) {
@@ -309,7 +310,7 @@ static void keep_texture(Reader *reader, HdSpan line) {
         set_texture(reader, name);
 }
 
-static void leave_out(Reader *reader, HdSpan keyword) {
+static void note_unused(Reader *reader, HdSpan keyword) {
     const size_t size = hd_span_size(keyword);
     for (int i = 0; i < reader->noted_count; i++)
         if (hd_span_size(reader->noted[i]) == size &&
@@ -324,7 +325,7 @@ static void leave_out(Reader *reader, HdSpan keyword) {
         note(reader, "%s", "it has no statement of a material library");
 }
 
-static void take_statement(Reader *reader, HdSpan keyword, HdSpan line) {
+static void read_statement(Reader *reader, HdSpan keyword, HdSpan line) {
     Parameters *to = &reader->material->parameters;
     const struct {
         const char *keyword;
@@ -344,7 +345,7 @@ static void take_statement(Reader *reader, HdSpan keyword, HdSpan line) {
     else if (hd_span_is(keyword, "map_Kd"))
         keep_texture(reader, line);
     else
-        leave_out(reader, keyword);
+        note_unused(reader, keyword);
 }
 
 static void take_line(Reader *reader, HdSpan line) {
@@ -354,11 +355,11 @@ static void take_line(Reader *reader, HdSpan line) {
     if (hd_span_is(keyword, "newmtl"))
         start_material(reader, line);
     else if (reader->is_in_material)
-        take_statement(reader, keyword, line);
+        read_statement(reader, keyword, line);
 }
 
 /* Takes a line up to "\n", "\r\n", "\r" or the end of the text. */
-static HdSpan take_next_line(HdSpan *text) {
+static HdSpan next_line(HdSpan *text) {
     const char *at = text->begin;
     while (at < text->end && *at != '\n' && *at != '\r')
         at++;
@@ -373,18 +374,18 @@ static HdSpan take_next_line(HdSpan *text) {
    `defaults`, and Tr becomes d. Notes each kind of unused statement once. */
 static void read_definitions(Reader *reader, HdSpan text) {
     if (memchr(text.begin, '\0', (size_t)(text.end - text.begin)) != NULL) {
-        hd_problem(reader->libraries->notes, "%s: it has bytes 0, so this is no material library",
+        hd_problem(reader->libraries->notes, "%s: it has a NUL byte, so it is no material library",
                    reader->path);
         return;
     }
     for (; text.begin < text.end; reader->line++)
-        take_line(reader, take_next_line(&text));
+        take_line(reader, next_line(&text));
 }
 
 /* ---- libraries ---- */
 
 /* Returns whether to read the library; true only once for each. */
-static bool admit(Libraries *libraries, const char *name) {
+static bool should_read(Libraries *libraries, const char *name) {
     const HdSpan span = hd_span_of(name);
     const char *fault = file_name_fault(span);
     for (int i = 0; i < libraries->count; i++)
@@ -406,7 +407,7 @@ static void read_file(Libraries *libraries, const char *path, const char *name) 
     size_t size;
     HdError problem;
     HdObjMemory *memory = libraries->memory;
-    const size_t capacity = memory->most - memory->used;
+    const size_t capacity = memory->max_bytes - memory->used;
     const int64_t most = capacity < INT32_MAX ? (int64_t)capacity : INT32_MAX;
     if (hd_file_read(path, "material library", most, &bytes, &size, &problem) != HD_OK) {
         hd_problem(libraries->notes, "%s: %s", libraries->path, problem.message);
@@ -424,7 +425,7 @@ static void read_libraries(Libraries *libraries, char *names, size_t size) {
     for (size_t next = 0; next < size; next += strlen(names + next) + 1) {
         char *name = names + next;
         fix_separators(name);
-        if (!admit(libraries, name))
+        if (!should_read(libraries, name))
             continue;
         char *path = join(libraries->memory, (const HdSpan[3]){folder_of(libraries->path),
                                                                hd_span_of(name), hd_span_of("")});
@@ -463,7 +464,7 @@ static void note_undefined(const Libraries *libraries, const HdMesh *mesh) {
     if (mesh->material_count == 1 && strcmp(name, HD_OBJ_NO_MATERIAL) == 0)
         return; /* the file names no material */
     hd_problem(libraries->notes,
-               "%s: no material library has '%.80s'%s, so the default look is taken: white, opaque",
+               "%s: no material library defines '%.80s'%s, so the default applies: white, opaque",
                libraries->path, name, count > 1 ? " and others that faces name" : "");
 }
 

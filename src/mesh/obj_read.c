@@ -44,15 +44,15 @@ typedef struct Text {
 
     Elements elements[KIND_COUNT];
     Row faces;
-    Row corners; /* one face after the other */
+    Row corners; /* corners of the faces, in order */
     int64_t triangle_count;
-    int32_t max_corners; /* of a face */
-    HdNameTable names;   /* of materials */
+    int32_t max_corners; /* maximum of a face */
+    HdNameTable names;   /* names of materials */
     Row libraries;       /* zero-terminated names, as in the file */
 
-    HdStatus status;  /* of reading so far */
+    HdStatus status;  /* result of reading so far */
     int32_t material; /* -1: none named yet */
-    bool has_left_out;
+    bool has_noted_unused;
     FILE *file;
     char *buffer; /* bytes of the file not yet read; */
     const char *next, *end;
@@ -68,8 +68,8 @@ enum { BUFFER_SIZE = 1 << 17, TEXT_SIZE = 2 * HD_OBJ_MAX_LINE + 1 };
 static HdStatus fail_memory(const Text *text) {
     if (text->memory->is_over)
         return hd_fail(text->error, HD_BAD_INPUT,
-                       "%s: reading it takes more than the %zu bytes of memory that it may take",
-                       text->path, text->memory->most);
+                       "%s: reading it needs more than the %zu bytes of memory allowed", text->path,
+                       text->memory->max_bytes);
     return hd_fail(text->error, HD_FAILED, "out of memory: no room to read the mesh %s",
                    text->path);
 }
@@ -158,7 +158,7 @@ static bool is_comment(const char *line, size_t length) {
 }
 
 /* Copies the bytes of a line, at most one more than allowed, to `line`; returns how many. */
-static size_t take_bytes(Text *text, char *line) {
+static size_t copy_line_bytes(Text *text, char *line) {
     size_t length = 0;
     const char *at;
     do {
@@ -177,7 +177,7 @@ static size_t take_bytes(Text *text, char *line) {
 static bool join_line(Text *text, size_t *used) {
     const bool is_there = has_next(text);
     text->lines_read += is_there;
-    size_t length = take_bytes(text, text->line + *used);
+    size_t length = copy_line_bytes(text, text->line + *used);
     if (ferror(text->file))
         return fail_reading(text, strerror(errno));
     if (is_comment(text->line + *used, length))
@@ -186,11 +186,11 @@ static bool join_line(Text *text, size_t *used) {
     if (length > HD_OBJ_MAX_LINE)
         return fail_at(text, text->lines_read, "it is longer than %d bytes", HD_OBJ_MAX_LINE);
     if (*used > HD_OBJ_MAX_LINE)
-        return fail_at(text, text->line_number,
-                       "with those that continue it, it is longer than %d bytes", HD_OBJ_MAX_LINE);
+        return fail_at(text, text->line_number, "with its continuations it is longer than %d bytes",
+                       HD_OBJ_MAX_LINE);
     const char end = has_next(text) ? *text->next++ : '\n';
     if (end == '\0')
-        return fail_at(text, text->lines_read, "it has a byte 0, so this is no OBJ file");
+        return fail_at(text, text->lines_read, "it has a NUL byte, so it is no OBJ file");
     if (end == '\r' && has_next(text) && *text->next == '\n')
         text->next++;
     return is_there;
@@ -214,12 +214,12 @@ static bool next_line(Text *text, HdSpan *line) {
 
 enum {
     MAX_DIGITS = 9,                  /* of an element's number; ten might overflow int32_t */
-    MAX_ELEMENTS = 322 * 1000 * 1000 /* of a kind */
+    MAX_ELEMENTS = 322 * 1000 * 1000 /* maximum of a kind */
 };
 
 static const struct {
     const char *name, *plural;
-    int least, most; /* numbers of an element */
+    int min_numbers, max_numbers; /* numbers of an element */
 } kinds[KIND_COUNT] = {{"vertex", "vertices", 3, 3},
                        {"texture coordinate", "texture coordinates", 1, 2},
                        {"normal", "normals", 3, 3}};
@@ -247,9 +247,9 @@ static bool is_statement_end(HdSpan word) {
 /* Ignores further numbers; optional numbers that are missing are 0. */
 static bool keep_numbers(Text *text, Kind kind, HdSpan line) {
     double numbers[3] = {0.0, 0.0, 0.0};
-    for (int i = 0; i < kinds[kind].most; i++) {
+    for (int i = 0; i < kinds[kind].max_numbers; i++) {
         const HdSpan word = hd_next_word(&line);
-        if (i >= kinds[kind].least && is_statement_end(word))
+        if (i >= kinds[kind].min_numbers && is_statement_end(word))
             break;
         const char *fault = hd_number_fault(word, &numbers[i]);
         if (fault != NULL)
@@ -260,7 +260,7 @@ static bool keep_numbers(Text *text, Kind kind, HdSpan line) {
     Row *row = &text->elements[kind].row;
     if (row->count == MAX_ELEMENTS)
         return fail_line(text, "there are more than %d %s", (int)MAX_ELEMENTS, kinds[kind].plural);
-    return append(text, row, (size_t)kinds[kind].most * sizeof *numbers, 1, numbers);
+    return append(text, row, (size_t)kinds[kind].max_numbers * sizeof *numbers, 1, numbers);
 }
 
 /* Reads "-12" or "12"; without digits, `*number` is 0. Returns NULL if there are too many
@@ -373,19 +373,19 @@ static bool keep_name(Text *text, HdSpan line, const char *what, bool is_library
 }
 
 /* Notes the first unused statement. Files of other kinds seldom begin with a word. */
-static bool leave_out(Text *text, HdSpan word) {
+static bool note_unused(Text *text, HdSpan word) {
     for (const char *at = word.begin; at < word.end; at++)
         if (*at <= ' ' || *at > '~')
-            return fail_line(text, "it begins with byte 0x%02x, so this is no OBJ file",
+            return fail_line(text, "it begins with byte 0x%02x, so it is no OBJ file",
                              (unsigned)(unsigned char)*at);
     for (size_t i = 0; i < sizeof harmless / sizeof *harmless; i++)
         if (hd_span_is(word, harmless[i]))
             return true;
-    if (!text->has_left_out)
+    if (!text->has_noted_unused)
         hd_problem(text->notes,
                    "%s: line %zu: statements such as '%.*s' are not used, only faces (f) are",
                    text->path, text->line_number, shown(text, word));
-    text->has_left_out = true;
+    text->has_noted_unused = true;
     return true;
 }
 
@@ -405,7 +405,7 @@ static bool take_line(Text *text, HdSpan line) {
         return keep_name(text, line, "material", false);
     if (hd_span_is(word, "mtllib"))
         return keep_name(text, line, "material library", true);
-    return leave_out(text, word);
+    return note_unused(text, word);
 }
 
 /* Checks the whole file: whether it has faces, and the elements that they name. */
@@ -437,9 +437,9 @@ static HdStatus read_text(Text *text) {
 }
 
 /* Returns the elements as an array of exact size; free() releases it. */
-static void *take_numbers(Text *text, Kind kind) {
+static void *release_numbers(Text *text, Kind kind) {
     Row *row = &text->elements[kind].row;
-    const size_t size = (size_t)kinds[kind].most * sizeof(double);
+    const size_t size = (size_t)kinds[kind].max_numbers * sizeof(double);
     void *fitting = hd_obj_resize(text->memory, row->data, size, row->capacity, row->count);
     void *numbers = fitting != NULL ? fitting : row->data;
     row->data = NULL;
@@ -458,16 +458,16 @@ static void free_text(Text *text) {
 /* ---- from the text to the mesh ---- */
 
 /* Moves the elements to the mesh; drops texture coordinates and normals that no corner names. */
-static void take_elements(Text *text, HdMesh *mesh) {
+static void move_elements(Text *text, HdMesh *mesh) {
     const Elements *elements = text->elements;
-    mesh->vertices = take_numbers(text, VERTEX);
+    mesh->vertices = release_numbers(text, VERTEX);
     mesh->vertex_count = (int)elements[VERTEX].row.count;
     if (elements[NORMAL].highest > 0) {
-        mesh->normals = take_numbers(text, NORMAL);
+        mesh->normals = release_numbers(text, NORMAL);
         mesh->normal_count = (int)elements[NORMAL].row.count;
     }
     if (elements[UV].highest > 0) {
-        mesh->uvs = take_numbers(text, UV);
+        mesh->uvs = release_numbers(text, UV);
         mesh->uv_count = (int)elements[UV].row.count;
     }
 }
@@ -558,7 +558,7 @@ static HdStatus take_faces(const Text *text, HdMesh *mesh) {
 }
 
 static HdStatus take_mesh(Text *text, HdMesh *mesh) {
-    take_elements(text, mesh);
+    move_elements(text, mesh);
     if (!hd_obj_read_materials(mesh, text->path, &text->names, text->libraries.data,
                                text->libraries.count, text->memory, text->notes))
         return fail_memory(text);
@@ -573,7 +573,7 @@ static HdStatus take_mesh(Text *text, HdMesh *mesh) {
 
 HdStatus hd_mesh_read_obj(HdMesh *mesh, const char *path, size_t max_bytes, HdProblems *notes,
                           HdError *error) {
-    HdObjMemory memory = {.most = max_bytes};
+    HdObjMemory memory = {.max_bytes = max_bytes};
     Text text = {.path = path, .memory = &memory, .notes = notes, .error = error};
     *mesh = (HdMesh){0};
     HdStatus status = read_text(&text);

@@ -13,7 +13,7 @@
 
 /* Zero-initialise, except `most`. */
 typedef struct HdObjMemory {
-    size_t most; /* bytes in use at once */
+    size_t max_bytes; /* bytes in use at once */
     size_t used;
     bool is_over;     /* an allocation exceeded `most`, */
     bool has_refused; /* or failed for any reason */

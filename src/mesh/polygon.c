@@ -20,7 +20,7 @@ static HdVec3 normal_of(const HdVec3 *corners, int count) {
     return sum;
 }
 
-/* Drops the coordinate with the longest component of the normal, and mirrors clockwise polygons. */
+/* Drops the coordinate with the longest normal component, and mirrors clockwise polygons. */
 static HdVec2 project(HdVec3 corner, HdVec3 normal) {
     const double x = fabs(normal.x), y = fabs(normal.y), z = fabs(normal.z);
     double sign = normal.z;
@@ -38,7 +38,7 @@ static HdVec2 project(HdVec3 corner, HdVec3 normal) {
 }
 
 /* Returns twice the signed area, positive if a, b, c run counterclockwise. */
-static double turn(HdVec2 a, HdVec2 b, HdVec2 c) {
+static double twice_area(HdVec2 a, HdVec2 b, HdVec2 c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
@@ -46,7 +46,7 @@ static double turn(HdVec2 a, HdVec2 b, HdVec2 c) {
 static bool is_fan(const HdVec3 *corners, int count, HdVec3 normal) {
     const HdVec2 tip = project(corners[0], normal);
     for (int i = 1; i + 1 < count; i++)
-        if (!(turn(tip, project(corners[i], normal), project(corners[i + 1], normal)) > 0.0))
+        if (!(twice_area(tip, project(corners[i], normal), project(corners[i + 1], normal)) > 0.0))
             return false;
     return true;
 }
@@ -70,7 +70,7 @@ static bool has_inside(const Ring *ring, int last, int corner, int next) {
         const HdVec2 p = ring->point[i];
         if (ring->is_convex[i] || is_same(p, a) || is_same(p, b) || is_same(p, c))
             continue;
-        if (turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0)
+        if (twice_area(a, b, p) >= 0.0 && twice_area(b, c, p) >= 0.0 && twice_area(c, a, p) >= 0.0)
             return true;
     }
     return false;
@@ -78,7 +78,8 @@ static bool has_inside(const Ring *ring, int last, int corner, int next) {
 
 static void look_at_bend(Ring *ring, int corner) {
     const int last = ring->last[corner], next = ring->next[corner];
-    ring->is_convex[corner] = turn(ring->point[last], ring->point[corner], ring->point[next]) > 0.0;
+    ring->is_convex[corner] =
+        twice_area(ring->point[last], ring->point[corner], ring->point[next]) > 0.0;
 }
 
 static void look_for_ear(Ring *ring, int corner) {

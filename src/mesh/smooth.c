@@ -37,9 +37,9 @@ typedef struct Smoother {
     const HdMesh *mesh;
     double min_cosine;
     int place_count;
-    int32_t *place_of; /* of each vertex */
-    int32_t *begin;    /* of each place, into corners; one more for the end */
-    int32_t *corners;  /* place by place */
+    int32_t *place_of; /* place of each vertex */
+    int32_t *begin;    /* first index into `corners` of each place; one more for the end */
+    int32_t *corners;  /* corners, place by place */
     int max_incidents;
     Incident *incidents;
     Edge *edges;
@@ -146,7 +146,7 @@ static int32_t class_of(Incident *incidents, int32_t number) {
 }
 
 /* The first incident represents its class. */
-static void unite(Incident *incidents, int32_t a, int32_t b) {
+static void merge_classes(Incident *incidents, int32_t a, int32_t b) {
     const int32_t first = class_of(incidents, a), second = class_of(incidents, b);
     if (first < second)
         incidents[second].class = first;
@@ -163,7 +163,7 @@ static void unite_at_edges(const Smoother *smoother, int edge_count) {
                 break;
             const Incident *a = &incidents[edges[i].incident], *b = &incidents[edges[j].incident];
             if (hd_dot(a->normal, b->normal) >= smoother->min_cosine)
-                unite(incidents, edges[i].incident, edges[j].incident);
+                merge_classes(incidents, edges[i].incident, edges[j].incident);
         }
     }
 }
@@ -228,9 +228,9 @@ static bool prepare(Smoother *smoother) {
         smoother->normals == NULL || smoother->corner_normals == NULL || !find_places(smoother))
         return false;
     list_corners(smoother);
-    const size_t most = (size_t)smoother->max_incidents;
-    smoother->incidents = allocate(most, sizeof *smoother->incidents);
-    smoother->edges = allocate(2 * most, sizeof *smoother->edges);
+    const size_t max_incidents = (size_t)smoother->max_incidents;
+    smoother->incidents = allocate(max_incidents, sizeof *smoother->incidents);
+    smoother->edges = allocate(2 * max_incidents, sizeof *smoother->edges);
     return smoother->incidents != NULL && smoother->edges != NULL;
 }
 

@@ -11,7 +11,7 @@
 #include "system/path.h"
 
 /* durability of a file once it has its name */
-typedef enum HdDurability { HD_FLEETING, HD_DURABLE } HdDurability;
+typedef enum HdDurability { HD_WITHOUT_SYNC, HD_DURABLE } HdDurability;
 
 /* A locked file under its temporary name "NAME.tmp-PID-N" in the same folder; no other process uses
    it. It is removed when the program ends (interrupt.h). If the program is killed, the free lock

@@ -44,6 +44,6 @@ HdStatus hd_cache_put_text(const char *kind, const char *key, const char *text, 
 
 /* Removes the least recently used entries of a folder until all others take at most `max_bytes`.
    Also removes temporary files more than an hour old. Skips files that cannot be removed. */
-void hd_cache_limit(const char *folder, int64_t most);
+void hd_cache_limit(const char *folder, int64_t max_bytes);
 
 #endif

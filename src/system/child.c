@@ -23,11 +23,11 @@
 
 extern char **environ;
 
-/* The interval is shorter where no descriptor reports the event. */
-enum { GLANCE_MS = 200, SHORT_GLANCE_MS = 10 };
+/* The shorter interval is for waits that no descriptor can end. */
+enum { INTERVAL_MS = 200, SHORT_INTERVAL_MS = 10 };
 
 /* highest signal number, real-time signals included; systems with fewer reject the rest */
-enum { LAST_SIGNAL = 64 };
+enum { MAX_SIGNAL = 64 };
 
 HdStatus hd_child_find(const char *name, char out[HD_MAX_PATH], HdError *error) {
     const char *folders = getenv("PATH");
@@ -73,7 +73,7 @@ typedef struct Order {
 /* ---- in the child, before it executes the other program: no allocation, no locks ---- */
 
 /* Copies a descriptor to `to` so that it survives execve. */
-static bool move_descriptor(int from, int to) {
+static bool inherit_descriptor(int from, int to) {
     return from == to ? fcntl(to, F_SETFD, 0) == 0 : dup2(from, to) >= 0;
 }
 
@@ -83,8 +83,8 @@ static bool move_descriptor(int from, int to) {
 static bool set_streams(int input, int output) {
     if (input < 0)
         input = open("/dev/null", O_RDONLY);
-    return input >= 0 && move_descriptor(input, STDIN_FILENO) &&
-           move_descriptor(output, STDOUT_FILENO) && move_descriptor(output, STDERR_FILENO);
+    return input >= 0 && inherit_descriptor(input, STDIN_FILENO) &&
+           inherit_descriptor(output, STDOUT_FILENO) && inherit_descriptor(output, STDERR_FILENO);
 }
 
 /* Resets and unblocks signals, which were blocked before the fork. The child must not run this
@@ -94,14 +94,14 @@ static bool set_signals(void) {
     struct sigaction now;
     sigset_t none;
     sigemptyset(&none);
-    for (int signal = 1; signal <= LAST_SIGNAL; signal++)
+    for (int signal = 1; signal <= MAX_SIGNAL; signal++)
         if (sigaction(signal, NULL, &now) == 0 && now.sa_handler != SIG_IGN)
             sigaction(signal, &usual, NULL);
     sigaction(SIGPIPE, &usual, NULL);
     return sigprocmask(SIG_SETMASK, &none, NULL) == 0;
 }
 
-static _Noreturn void become(const Order *order, int report, pid_t parent) {
+static _Noreturn void execute(const Order *order, int report, pid_t parent) {
 #ifdef __linux__
     /* On other systems the lock shows that the program lives. */
     prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -144,7 +144,7 @@ static int spawn_here(const Order *order) {
     pthread_sigmask(SIG_SETMASK, &all, &before);
     *pid = fork();
     if (*pid == 0)
-        become(order, report[1], parent);
+        execute(order, report[1], parent);
     if (*pid < 0)
         reason = errno;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
@@ -182,7 +182,7 @@ static void *launch(void *unused) {
 }
 
 /* Resets the launcher after a fork: the child has none of the threads, and the lock may be held. */
-static void forget_launcher(void) {
+static void reset_launcher(void) {
     launcher.mutex = (pthread_mutex_t)PTHREAD_MUTEX_INITIALIZER;
     launcher.changed = (pthread_cond_t)PTHREAD_COND_INITIALIZER;
     launcher.has_thread = false;
@@ -195,7 +195,7 @@ static bool start_launcher(void) {
     sigset_t all, before;
     if (launcher.has_thread)
         return true;
-    if (!launcher.knows_forks && pthread_atfork(NULL, NULL, forget_launcher) != 0)
+    if (!launcher.knows_forks && pthread_atfork(NULL, NULL, reset_launcher) != 0)
         return false;
     launcher.knows_forks = true;
     sigfillset(&all);
@@ -223,24 +223,24 @@ static int spawn(Order *order) {
     return order->reason;
 }
 
-static void remember(HdChild *child, const char *text, size_t length) {
-    size_t capacity = HD_CHILD_MAX_SAID - child->said_length;
+static void append_tail(HdChild *child, const char *text, size_t length) {
+    size_t capacity = HD_CHILD_MAX_TAIL - child->tail_length;
     if (length > capacity) {
-        size_t gone = length - capacity;
-        memmove(child->said, child->said + gone, child->said_length - gone);
-        child->said_length -= gone;
+        size_t dropped = length - capacity;
+        memmove(child->tail, child->tail + dropped, child->tail_length - dropped);
+        child->tail_length -= dropped;
     }
-    memcpy(child->said + child->said_length, text, length);
-    child->said_length += length;
-    child->said[child->said_length] = '\0';
+    memcpy(child->tail + child->tail_length, text, length);
+    child->tail_length += length;
+    child->tail[child->tail_length] = '\0';
 }
 
 /* Reads output that poll() reported, and closes it at its end. */
-static void take_output(HdChild *child) {
+static void read_output(HdChild *child) {
     char text[1024];
     ssize_t count = read(child->output, text, sizeof text);
     if (count > 0)
-        remember(child, text, (size_t)count);
+        append_tail(child, text, (size_t)count);
     else if (count == 0 || errno != EINTR)
         close_descriptor(&child->output);
 }
@@ -250,7 +250,7 @@ static void take_output(HdChild *child) {
 /* Waits for one of the channels { input, output }, and reads output. Returns false after an
    interrupt or if the child is stuck. `still_ms` counts intervals without an event instead of clock
    time, because the system may have slept or this program been stopped. */
-static bool poll_interval(HdChild *child, struct pollfd ready[2], int poll_interval_ms,
+static bool poll_channels(HdChild *child, struct pollfd ready[2], int poll_interval_ms,
                           int timeout_ms, int *still_ms) {
     const int count = hd_interrupt_signal() == 0 ? poll(ready, 2, poll_interval_ms) : 0;
     if (hd_interrupt_signal() != 0 || (count < 0 && errno != EINTR))
@@ -258,7 +258,7 @@ static bool poll_interval(HdChild *child, struct pollfd ready[2], int poll_inter
     *still_ms = count > 0 ? 0 : *still_ms + poll_interval_ms;
     child->is_stuck = *still_ms >= timeout_ms;
     if (count > 0 && ready[1].revents != 0)
-        take_output(child);
+        read_output(child);
     return !child->is_stuck;
 }
 
@@ -273,8 +273,8 @@ static bool wait_for_end(HdChild *child, int timeout_ms) {
     int still_ms = 0;
     while (child->output >= 0 || !has_ended(child)) {
         struct pollfd ready[2] = {{.fd = -1}, {.fd = child->output, .events = POLLIN}};
-        const int poll_interval_ms = child->output >= 0 ? GLANCE_MS : SHORT_GLANCE_MS;
-        if (!poll_interval(child, ready, poll_interval_ms, timeout_ms, &still_ms))
+        const int poll_interval_ms = child->output >= 0 ? INTERVAL_MS : SHORT_INTERVAL_MS;
+        if (!poll_channels(child, ready, poll_interval_ms, timeout_ms, &still_ms))
             return false;
     }
     return true;
@@ -285,7 +285,7 @@ bool hd_child_send(HdChild *child, const uint8_t *bytes, size_t size, int timeou
     while (size > 0) {
         struct pollfd ready[2] = {{.fd = child->input, .events = POLLOUT},
                                   {.fd = child->output, .events = POLLIN}};
-        if (!poll_interval(child, ready, GLANCE_MS, timeout_ms, &still_ms))
+        if (!poll_channels(child, ready, INTERVAL_MS, timeout_ms, &still_ms))
             return false;
         if (ready[0].revents == 0)
             continue;
@@ -363,9 +363,9 @@ HdStatus hd_child_start(HdChild *child, const char *const arguments[], bool with
                    arguments[0], strerror(reason));
 }
 
-const char *hd_child_said(HdChild *child) {
-    while (child->said_length > 0 && strchr("\r\n ", child->said[child->said_length - 1]) != NULL)
-        child->said_length--;
-    child->said[child->said_length] = '\0';
-    return child->said_length > 0 ? child->said : "(nothing)";
+const char *hd_child_tail(HdChild *child) {
+    while (child->tail_length > 0 && strchr("\r\n ", child->tail[child->tail_length - 1]) != NULL)
+        child->tail_length--;
+    child->tail[child->tail_length] = '\0';
+    return child->tail_length > 0 ? child->tail : "(nothing)";
 }

@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "system/path.h"
 
-enum { HD_CHILD_MAX_SAID = 4096 };
+enum { HD_CHILD_MAX_TAIL = 4096 };
 
 /* A running program. It leads its own process group: Ctrl-C in the terminal reaches hedron alone,
    which decides how the film ends. */
@@ -21,8 +21,8 @@ typedef struct HdChild {
     int input;     /* its standard input; -1: closed */
     int output;    /* its standard output and error; -1: closed */
     bool is_stuck; /* a wait timed out */
-    size_t said_length;
-    char said[HD_CHILD_MAX_SAID + 1]; /* end of its output */
+    size_t tail_length;
+    char tail[HD_CHILD_MAX_TAIL + 1]; /* end of its output */
 } HdChild;
 
 /* Finds a program in PATH. HD_UNAVAILABLE: there is none. */
@@ -46,6 +46,6 @@ bool hd_child_end(HdChild *child, int timeout_ms, char how[64]);
 void hd_child_stop(HdChild *child);
 
 /* Returns the end of its output without trailing line breaks. */
-const char *hd_child_said(HdChild *child);
+const char *hd_child_tail(HdChild *child);
 
 #endif

@@ -40,12 +40,12 @@ bool hd_library_path(void *library, const char *symbol, char *path, size_t capac
 }
 
 void *hd_library_open_adjacent(void *library, const char *symbol, const char *name) {
-    char beside[HD_MAX_PATH], path[HD_MAX_PATH];
-    if (!hd_library_path(library, symbol, beside, sizeof beside))
+    char adjacent[HD_MAX_PATH], path[HD_MAX_PATH];
+    if (!hd_library_path(library, symbol, adjacent, sizeof adjacent))
         return NULL;
-    const size_t folder = hd_folder_length(beside);
+    const size_t folder = hd_folder_length(adjacent);
     if (folder == 0)
         return NULL;
-    const int length = snprintf(path, sizeof path, "%.*s%s", (int)folder, beside, name);
+    const int length = snprintf(path, sizeof path, "%.*s%s", (int)folder, adjacent, name);
     return length < HD_MAX_PATH ? hd_library_open(path) : NULL;
 }

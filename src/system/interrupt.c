@@ -21,13 +21,13 @@ enum {
     TIMEOUT_MS = 1500,
     REMOVAL_MS = 300,
     CLOCK_SLACK_MS = 2,
-    GLANCE_MS = 250,
-    WRITE_GLANCE_MS = 200
+    INTERVAL_MS = 250,
+    WRITE_INTERVAL_MS = 200
 };
 
 static const int watched_signals[] = {SIGINT, SIGTERM, SIGHUP};
 static const double MIN_TIMEOUT_S = 0.1, MAX_TIMEOUT_S = 86400.0;
-static const char too_late[] = "hedron: interrupted; what was at work did not end in time\n";
+static const char timeout_message[] = "hedron: interrupted; the running work did not end in time\n";
 
 /* Signals arrive in any thread, two of them possibly in two threads at once. */
 static atomic_int caught;
@@ -143,13 +143,13 @@ static void unblock(int number) {
     pthread_sigmask(SIG_UNBLOCK, &only, NULL);
 }
 
-static void say(const char *text) {
+static void write_message(const char *text) {
     if (text != NULL && write(STDERR_FILENO, text, strlen(text)) < 0)
         errno = 0; /* nobody can read a report */
 }
 
 /* Ends as if the signal had never been caught, so that the parent process sees the signal. */
-static void die(int number) {
+static void die_by_signal(int number) {
     set_handler(number, SIG_DFL, 0);
     unblock(number);
     raise(number);
@@ -163,9 +163,9 @@ static void end_at_once(int number, const char *text) {
         set_timer(timers.end, REMOVAL_MS);
     if (timers.has_kill)
         set_timer(timers.kill, 2 * REMOVAL_MS);
-    say(text);
+    write_message(text);
     hd_cleanup_remove();
-    die(number);
+    die_by_signal(number);
 }
 
 /* Also wakes the main thread, and then does nothing else. */
@@ -176,8 +176,8 @@ static void handle_deadline(int unused) {
     if (number == 0 || waited + CLOCK_SLACK_MS < timeout_ms)
         return;
     if (atomic_load(&is_removing))
-        die(number);
-    end_at_once(number, too_late);
+        die_by_signal(number);
+    end_at_once(number, timeout_message);
 }
 
 static void handle(int number) {
@@ -187,7 +187,7 @@ static void handle(int number) {
         atomic_store(&caught, number);
         if (timers.has_end)
             set_timer(timers.end, timeout_ms);
-        say(atomic_load(&announcement));
+        write_message(atomic_load(&announcement));
     } else if (now - first >= SAME_REQUEST_MS) {
         end_at_once(number, NULL);
     }
@@ -202,7 +202,7 @@ static bool is_ignored(int number) {
 /* The system prefers the main thread for signals, but that handles none while it waits for a file
    server that is gone. This thread then handles them, and SIGALRM wakes the main thread. */
 static void *watch(void *main_thread) {
-    const struct timespec poll_interval = {.tv_nsec = GLANCE_MS * 1000000};
+    const struct timespec poll_interval = {.tv_nsec = INTERVAL_MS * 1000000};
     sigset_t all, watched;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, NULL);
@@ -271,7 +271,7 @@ int hd_interrupt_signal(void) {
 bool hd_wait_to_write(int descriptor) {
     struct pollfd ready = {.fd = descriptor, .events = POLLOUT};
     int count;
-    while ((count = poll(&ready, 1, WRITE_GLANCE_MS)) == 0 || (count < 0 && errno == EINTR))
+    while ((count = poll(&ready, 1, WRITE_INTERVAL_MS)) == 0 || (count < 0 && errno == EINTR))
         if (hd_interrupt_signal() != 0)
             return false;
     return true;

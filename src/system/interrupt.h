@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* SIGINT, SIGTERM and SIGHUP as a flag that the work polls; and a registry of files and processes
-   that are removed when the program ends, even at once by a signal. */
+/* A flag that SIGINT, SIGTERM and SIGHUP set and the work polls; and a registry of files and
+   processes to remove when the program ends, even by a signal. */
 #ifndef HD_SYSTEM_INTERRUPT_H
 #define HD_SYSTEM_INTERRUPT_H
 

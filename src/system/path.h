@@ -64,7 +64,7 @@ ssize_t hd_read_fully(int descriptor, void *bytes, size_t size);
 /* Reads a regular file of at most `max_bytes` bytes; never blocks on a pipe. The caller frees
    `*bytes`, which is NULL on failure only. Messages name the file by `what` and its path: "cannot
    read the scene a.json: ...". */
-HdStatus hd_file_read(const char *path, const char *what, int64_t most, unsigned char **bytes,
+HdStatus hd_file_read(const char *path, const char *what, int64_t max_bytes, unsigned char **bytes,
                       size_t *size, HdError *error);
 
 #endif
