@@ -40,7 +40,7 @@ remove_folder() {
     rm -r "$work/taken_away"
     expect_sentence
     expect_stdout_lines 0
-    expect_stderr_contains 'its folder gone/ is gone'
+    expect_stderr_contains 'its folder gone/ was removed'
     expect_nothing_temporary 'where the folder is gone,'
     [[ ! -e gone ]] || fail 'the folder was made again'
 }

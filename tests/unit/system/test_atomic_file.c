@@ -152,9 +152,9 @@ TEST(what_goes_away_meanwhile_is_named) {
              file.temporary);
     assert_string_equal(error.message, message);
     assert_int_equal(rmdir("going"), 0);
-    expect_failure(&file, "cannot write going/file: its folder going/ is gone");
+    expect_failure(&file, "cannot write going/file: its folder going/ was removed");
     assert_int_equal(hd_atomic_file_open(&file, "going/other", &error), HD_FAILED);
-    expect_contains(error.message, "its folder going/ is gone");
+    expect_contains(error.message, "its folder going/ was removed");
 }
 
 TEST(names_that_do_not_fit_are_refused) {
