@@ -265,7 +265,7 @@ static void render_one_item(void *context, int thread, int item) {
 
 static bool must_stop(const void *context) {
     const FrameWork *work = context;
-    return hd_interrupt_signal() != 0 || hd_watched_is_unwanted(&work->tables->watched);
+    return hd_interrupt_signal() != 0 || hd_watched_is_cancelled(&work->tables->watched);
 }
 
 static int count_items(const HdFrameTables *tables) {

@@ -22,8 +22,8 @@ void hd_error_prefix(HdError *error, const char *name) {
     hd_fail(error, error->status, "%s: %s", name, error->message);
 }
 
-/* With the break; a problem names a place, a value and what was expected. */
-enum { SHORTEST_LINE = 16 };
+/* shortest possible line of a problem, line break included */
+enum { MIN_LINE_BYTES = 16 };
 
 void hd_problem(HdProblems *problems, const char *format, ...) {
     char text[2048], line[sizeof text];
@@ -44,7 +44,7 @@ void hd_problem(HdProblems *problems, const char *format, ...) {
 }
 
 bool hd_problems_are_full(const HdProblems *problems) {
-    return problems->count >= (int)sizeof problems->text / SHORTEST_LINE;
+    return problems->count >= (int)sizeof problems->text / MIN_LINE_BYTES;
 }
 
 HdStatus hd_problems_first(const HdProblems *problems, HdError *error) {

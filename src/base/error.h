@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a library function tells its caller when it cannot do its work. */
+/* Statuses and messages of failed calls, and lists of problems found in an input. */
 #ifndef HD_BASE_ERROR_H
 #define HD_BASE_ERROR_H
 
@@ -10,30 +10,30 @@
 /* A status is also the program's exit code. */
 typedef enum HdStatus {
     HD_OK = 0,
-    HD_FAILED = 1,      /* the work failed: disk full, FFmpeg failed, out of memory */
+    HD_FAILED = 1,      /* the work failed: full disk, failed FFmpeg, too little memory */
     HD_BAD_INPUT = 2,   /* wrong usage or wrong input */
     HD_UNAVAILABLE = 3, /* a backend or device is missing or cannot do what was asked */
     HD_INTERRUPTED = 130
 } HdStatus;
 
-/* What failed last. The message is one sentence without a line break at its end; a compiler's log
-   may follow on lines of its own. */
+/* The last failure. `message` is one sentence without a final line break; a compiler's log may
+   follow on further lines. */
 typedef struct HdError {
     HdStatus status;
     char message[32768];
 } HdError;
 
-/* Fills `error` and returns `status`, so that a caller can write `return hd_fail(...)`. A message
-   that is too long is cut. What is no text in it, but for line breaks and tabs, is escaped
-   (text.h): it may have come from a file. */
+/* Fills `error` and returns `status`, so that a caller can write `return hd_fail(...)`. Cuts a
+   message that is too long. Escapes control characters except line breaks and tabs, and bytes that
+   are not UTF-8 (text.h): the text may come from a file. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif
 HdStatus
 hd_fail(HdError *error, HdStatus status, const char *format, ...);
 
-/* Leaves the calling function with the status of `call` unless that is HD_OK. For functions that
-   have nothing to give up first. */
+/* Returns from the calling function with the status of `call` unless that is HD_OK. For functions
+   with nothing to release. */
 #define HD_TRY(call)                                                                               \
     do {                                                                                           \
         const HdStatus tried_ = (call);                                                            \
@@ -41,41 +41,41 @@ hd_fail(HdError *error, HdStatus status, const char *format, ...);
             return tried_;                                                                         \
     } while (0)
 
-/* Fails for want of memory for what follows: a literal format, as printf's, and its arguments. */
+/* Fails because memory is short for the object that a literal printf format and its arguments
+   describe. */
 #define HD_NO_ROOM(error, ...) hd_fail(error, HD_FAILED, "out of memory: no room for " __VA_ARGS__)
 
-/* Puts `name` and a colon before the message of `error`, which is cut if it gets too long. */
+/* Prefixes the message of `error` with `name` and a colon; cuts it if it gets too long. */
 void hd_error_prefix(HdError *error, const char *name);
 
-/* ---- everything that is wrong with an input, gathered so that one message can tell all of it ----
- */
+/* ---- the problems of an input, collected for one message ---- */
 
-/* Start with all zeros. Lines beyond the room are counted, not kept. */
+/* Zero-initialise. Lines beyond the capacity are counted, not kept. */
 typedef struct HdProblems {
     int count;
     size_t used;
-    char text[16384]; /* a line for each problem */
+    char text[16384]; /* one line for each problem */
 } HdProblems;
 
-/* Adds one problem: a sentence without a full stop that names the place, the value and what was
-   expected. It becomes one line: line breaks are escaped too (text.h). */
+/* Adds one problem: a sentence without a full stop that names the place, the value and the expected
+   value. It becomes one line: line breaks are escaped too (text.h). */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
 void hd_problem(HdProblems *problems, const char *format, ...);
 
-/* Whether so many were added that none of those to come will be told: where looking for more is
-   dear, `count` alone may be raised. */
+/* Returns whether further problems can no longer be listed. Callers may then only raise `count` if
+   the search is expensive. */
 bool hd_problems_are_full(const HdProblems *problems);
 
-/* HD_OK where nothing was found. Otherwise HD_BAD_INPUT and the first problem. */
+/* Returns HD_OK if there is no problem, otherwise HD_BAD_INPUT and the first problem. */
 HdStatus hd_problems_first(const HdProblems *problems, HdError *error);
 
-/* HD_OK where nothing was found. Otherwise HD_BAD_INPUT and "name: problem", or, for more than one,
-   "name: 3 problems" followed by a line for each, indented. */
+/* Returns HD_OK if there is no problem, otherwise HD_BAD_INPUT. The message is "name: problem" for
+   one, and "name: 3 problems" with an indented line for each for several. */
 HdStatus hd_problems_status(const HdProblems *problems, const char *name, HdError *error);
 
-/* Writes each as a line of its own, which begins with the two texts. */
+/* Writes each problem as one line that starts with `name` and `kind`. */
 void hd_problems_print(const HdProblems *problems, FILE *out, const char *name, const char *kind);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Arrays that grow with what is put into them. */
+/* Growing arrays. */
 #ifndef HD_BASE_GROWTH_H
 #define HD_BASE_GROWTH_H
 
@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Puts a copy of `element`, of `size` bytes, behind the `count` elements of an array, which grows
-   where it must; `array` is the address of the pointer to it, and `capacity` what it has room for.
-   False where there is no memory: then all is as it was. */
+/* Appends a copy of `element`, of `size` bytes, to an array of `count` elements. `array` is the
+   address of its pointer; the array grows beyond `capacity` elements if needed. Returns false if
+   out of memory, with nothing changed. */
 static inline bool hd_append(void *array, size_t size, int *count, int *capacity,
                              const void *element) {
     char *elements;
@@ -27,8 +27,8 @@ static inline bool hd_append(void *array, size_t size, int *count, int *capacity
     return true;
 }
 
-/* The array, with room for `count` elements, which are lost where it must grow; `capacity` is what
-   it has room for. NULL where there is no memory, or none was asked for yet. */
+/* Returns the array with a capacity of at least `count` elements. Growing discards the elements and
+   zeroes the new ones. Returns NULL if out of memory or if nothing was reserved yet. */
 static inline void *hd_reserved(void *array, size_t element, int count, int *capacity) {
     if (count <= *capacity)
         return array;

@@ -10,7 +10,7 @@ uint64_t hd_hash_bytes(uint64_t hash, const void *data, size_t size) {
     return hash;
 }
 
-/* The product carries differences upwards only, so its upper half goes back into the lower one. */
+/* Multiplication carries differences upwards only, so the upper half is fed back into the lower. */
 uint64_t hd_hash_words(uint64_t hash, const void *data, size_t size) {
     const unsigned char *bytes = data;
     uint64_t word;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* FNV-1a with 64 bits: tells one thing from another, and what was damaged from what was not. It
-   keeps no secret. */
+/* Hashes of 64 bits that identify data and detect damage. They are not cryptographic. */
 #ifndef HD_BASE_HASH_H
 #define HD_BASE_HASH_H
 
@@ -9,11 +8,10 @@
 
 #define HD_HASH_START UINT64_C(14695981039346656037)
 
-/* Goes on from `hash`, at first HD_HASH_START. */
+/* Continues the FNV-1a hash `hash` with `size` bytes; start with HD_HASH_START. */
 uint64_t hd_hash_bytes(uint64_t hash, const void *data, size_t size);
 
-/* For much data: eight bytes at a time, which is several times as fast. It is no FNV and gives
-   another number. */
+/* Continues a hash eight bytes at a time, several times as fast. The values differ from FNV-1a. */
 uint64_t hd_hash_words(uint64_t hash, const void *data, size_t size);
 
 #endif

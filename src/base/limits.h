@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What the values of a scene may be at most and at least. The kernels work in float. Within these
-   limits no product of a distance, a coefficient, an intensity and the exposure leaves its range,
-   so neither infinity nor NaN can come up. */
+/* Limits of a scene's values. The kernels work in float: within these limits no product of a
+   distance, a coefficient, an intensity and the exposure overflows. Infinity and NaN cannot
+   occur. */
 #ifndef HD_BASE_LIMITS_H
 #define HD_BASE_LIMITS_H
 
@@ -15,15 +15,15 @@ enum {
     HD_MAX_TEXTURE_SIDE = 65535,
     HD_MAX_SHININESS = 65536,
     HD_MAX_FRAMES = 10000000,
-    HD_MAX_OUTPUTS = 8,        /* of a run */
-    HD_MAX_DIVISIONS = 1000,   /* of the side of a triangle */
-    HD_MAX_INSTANCES = 100000, /* meshes in their places */
-    HD_MAX_EDGE_COLOURS = 30   /* the edges of a dodecahedron */
+    HD_MAX_OUTPUTS = 8,        /* outputs of a run */
+    HD_MAX_DIVISIONS = 1000,   /* divisions of a triangle's side */
+    HD_MAX_INSTANCES = 100000, /* meshes placed in a scene */
+    HD_MAX_EDGE_COLOURS = 30   /* edges of a dodecahedron */
 };
 
-/* Files of meshes and their textures take at most one of so many parts of the machine's memory
-   while they are read, so that the scene's tables, which are about as large, find room as well; and
-   never more than this, lest a wrong file keep a large machine busy. */
+/* Reading meshes and their textures takes at most one HD_MESH_MEMORY_PART-th of the machine's
+   memory. The rest is for the scene's tables, which are about as large. The absolute limit keeps a
+   wrong file from occupying a large machine. */
 #define HD_MESH_MEMORY_PART 2
 #define HD_MAX_MESH_MEMORY  68719476736.0 /* bytes */
 
@@ -31,10 +31,10 @@ enum {
 #define HD_MAX_NUMBER              1e12 /* coordinates, lengths, light */
 #define HD_MAX_COEFFICIENT         1e6
 #define HD_MAX_EXPOSURE            1e6
-#define HD_MAX_ERROR               255.0 /* steps of 255 */
-#define HD_MIN_ERROR               1e-3  /* but for 0: bounds have steps of their own */
+#define HD_MAX_ERROR               255.0 /* in 1/255 of white */
+#define HD_MIN_ERROR               1e-3  /* or 0; bounds are quantised */
 #define HD_MAX_FIELD_OF_VIEW       179.0 /* degrees */
-#define HD_MAX_ROTATION            1e6   /* degrees, either way */
+#define HD_MAX_ROTATION            1e6   /* degrees, in either direction */
 #define HD_MIN_INDEX_OF_REFRACTION 0.1
 #define HD_MAX_INDEX_OF_REFRACTION 10.0
 

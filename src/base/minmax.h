@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The lesser and the greater of two whole numbers; for others there are fmin and fmax. */
+/* Minimum and maximum of integers; floating-point numbers have fmin and fmax. */
 #ifndef HD_BASE_MINMAX_H
 #define HD_BASE_MINMAX_H
 

@@ -11,14 +11,15 @@
 
 #include "base/minmax.h"
 
-/* The longest of \u001b, \x9b and a character of UTF-8. */
-enum { LONGEST_PIECE = 6 };
+/* bytes of the longest of \u001b, \x9b and a UTF-8 character */
+enum { MAX_PIECE_BYTES = 6 };
 
-/* The bytes of the character that `text` begins with, and its number; 0: that is no UTF-8. */
+/* Returns the length in bytes of the first character of `text` and sets its code point; 0 if it is
+   not UTF-8. */
 static size_t read_character(const char *text, unsigned *number) {
     const unsigned char first = (unsigned char)text[0];
     const size_t size = first < 0x80 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
-    static const unsigned least[] = {0, 0, 0x80, 0x800, 0x10000};
+    static const unsigned min_code_points[] = {0, 0, 0x80, 0x800, 0x10000};
     if ((first >= 0x80 && first < 0xc2) || first > 0xf4)
         return 0;
     *number = size == 1 ? first : first & (0xffu >> (size + 1));
@@ -28,7 +29,7 @@ static size_t read_character(const char *text, unsigned *number) {
         *number = *number << 6 | ((unsigned char)text[i] & 0x3f);
     }
     const bool is_surrogate = *number >= 0xd800 && *number < 0xe000;
-    return *number < least[size] || *number > 0x10ffff || is_surrogate ? 0 : size;
+    return *number < min_code_points[size] || *number > 0x10ffff || is_surrogate ? 0 : size;
 }
 
 static bool is_control(unsigned number) {
@@ -42,24 +43,25 @@ size_t hd_control_bytes(const char *text) {
     return size > 0 && is_control(number) ? size : 0;
 }
 
-/* Writes what stands for the next character and returns how many bytes of `text` that takes. */
-static size_t make_piece(const char *text, const char *kept, char piece[LONGEST_PIECE + 1]) {
+/* Writes the escaped form of the next character; returns the bytes of `text` it stands for. */
+static size_t escape_character(const char *text, const char *kept,
+                               char piece[MAX_PIECE_BYTES + 1]) {
     unsigned number;
     const size_t size = read_character(text, &number);
     if (size == 0)
-        snprintf(piece, LONGEST_PIECE + 1, "\\x%02x", (unsigned)(unsigned char)*text);
+        snprintf(piece, MAX_PIECE_BYTES + 1, "\\x%02x", (unsigned)(unsigned char)*text);
     else if (is_control(number) && strchr(kept, *text) == NULL)
-        snprintf(piece, LONGEST_PIECE + 1, "\\u%04x", number & 0xffff);
+        snprintf(piece, MAX_PIECE_BYTES + 1, "\\u%04x", number & 0xffff);
     else
-        snprintf(piece, LONGEST_PIECE + 1, "%.*s", (int)size, text);
+        snprintf(piece, MAX_PIECE_BYTES + 1, "%.*s", (int)size, text);
     return size > 0 ? size : 1;
 }
 
 static size_t escape(const char *text, const char *kept, char *out, size_t size) {
     size_t taken = 0, used = 0;
     while (text[taken] != '\0') {
-        char piece[LONGEST_PIECE + 1];
-        const size_t bytes = make_piece(text + taken, kept, piece), length = strlen(piece);
+        char piece[MAX_PIECE_BYTES + 1];
+        const size_t bytes = escape_character(text + taken, kept, piece), length = strlen(piece);
         if (used + length >= size)
             break;
         memcpy(out + used, piece, length);
@@ -84,7 +86,7 @@ void hd_exact_number(double value, char out[HD_NUMBER_SIZE]) {
         if (strtod(out, NULL) == value)
             break;
     }
-    if (value == 0.0 && signbit(value)) /* as an integer, -0 is 0 */
+    if (value == 0.0 && signbit(value)) /* printed as an integer, -0 would become 0 */
         snprintf(out, HD_NUMBER_SIZE, "-0.0");
 }
 
@@ -121,10 +123,9 @@ void hd_add_text(char *text, size_t size, const char *separator, const char *for
 
 enum { MAX_LETTERS = 31 };
 
-/* How many letters must be put in, taken away, replaced or swapped with their neighbour to make one
-   word of the other (R. A. Wagner and M. J. Fischer, The string-to-string correction problem,
-   1974): a table of distances between the beginnings of both words. Longer words count as far from
-   all. */
+/* Returns the edit distance of two words: letters inserted, deleted, replaced or swapped with a
+   neighbour (R. A. Wagner and M. J. Fischer, The string-to-string correction problem, 1974). The
+   table holds the distances of their prefixes. Longer words are far from all others. */
 static int edit_distance(const char *a, const char *b) {
     size_t a_length = strlen(a), b_length = strlen(b);
     int table[MAX_LETTERS + 1][MAX_LETTERS + 1];

@@ -1,54 +1,50 @@
 /* SPDX-License-Identifier: MIT */
-/* What messages are made of: text of others, numbers, and the name that somebody may have meant. */
+/* Texts for messages: escaping of foreign text, numbers, and suggestions for misspelt names. */
 #ifndef HD_BASE_TEXT_H
 #define HD_BASE_TEXT_H
 
 #include <stddef.h>
 
-/* ---- text of others, fit to be shown ----
-   Nothing in it steers a terminal, moves what stands around it, or is invisible for want of being
-   UTF-8. */
+/* ---- escaped text: valid UTF-8 without control characters ---- */
 
-/* How many bytes the control character takes that `text` begins with: 1 below U+0020 and for
-   U+007F, 2 for U+0080 to U+009F in UTF-8, 3 for those that turn the direction of writing (U+202A
-   to U+202E, U+2066 to U+2069) or end a line (U+2028, U+2029); 0: it begins with none. */
+/* Returns the length in bytes of the control character that `text` begins with, or 0. It is 1 below
+   U+0020 and for U+007F, 2 for U+0080 to U+009F. It is 3 for characters of writing direction
+   (U+202A to U+202E, U+2066 to U+2069) and line ends (U+2028, U+2029). */
 size_t hd_control_bytes(const char *text);
 
-/* Copies `text` with each control character as \u001b and each byte that is not UTF-8 as \x9b; cut
-   to `size` bytes with the zero byte, never within a character. Returns how many bytes of `text`
-   that took. What it wrote it copies unchanged. */
+/* Copies `text` with each control character as \u001b and each byte that is not UTF-8 as \x9b. Cuts
+   the copy to `size` bytes, terminator included, never within a character. Returns the number of
+   bytes of `text` consumed. Idempotent: escaped text is copied unchanged. */
 size_t hd_escape(const char *text, char *out, size_t size);
 
-/* The same, but line breaks and tabs stay. */
+/* As hd_escape, but keeps line breaks and tabs. */
 void hd_escape_lines(const char *text, char *out, size_t size);
 
 enum { HD_NUMBER_SIZE = 32 };
 
-/* As text with as few digits, 15 to 17, as it takes to read the same double back; 0's sign is kept.
- */
+/* Formats a double with the fewest digits, 15 to 17, that read back equal. Keeps the sign of 0. */
 void hd_exact_number(double value, char out[HD_NUMBER_SIZE]);
 
-/* The same for messages, which say 1e12 rather than 1000000000000. */
+/* As hd_exact_number, shortened for messages: 1e12 instead of 1000000000000. */
 void hd_short_number(double value, char out[HD_NUMBER_SIZE]);
 
-/* What a word for that many things ends in: "s", or nothing for one. */
+/* Returns the plural ending for `count` things: "s", or "" for one. */
 const char *hd_plural(int count);
 
-/* Appends what printf would print, after the separator unless the text is empty; cut to `size`
-   bytes with the zero byte. */
+/* Appends a formatted text, preceded by `separator` unless `text` is empty. Cuts the result to
+   `size` bytes, terminator included. */
 __attribute__((format(printf, 4, 5))) void
 hd_add_text(char *text, size_t size, const char *separator, const char *format, ...);
 
-/* Keeps the nearest of the names that are offered one after the other. Start with the word alone.
- */
+/* The candidate nearest to a misspelt word. Initialise `word`, and zero the rest. */
 typedef struct HdNearest {
     const char *word;
-    const char *name; /* NULL: nothing is near */
+    const char *name; /* NULL: no candidate is near */
     int distance;
 } HdNearest;
 
-/* A name is near where at most a third of its letters, and at least one, would have to change. Of
-   two that are equally near the first stays. */
+/* Offers a candidate. It is near if at most a third of its letters, and at least one, must change.
+   Of equally near candidates the first stays. */
 void hd_nearest_offer(HdNearest *nearest, const char *name);
 
 #endif

@@ -3,19 +3,19 @@
 
 #include <math.h>
 
-/* Cody and Waite's method: pi/2 in three parts of 33 bits each, so that k times a part is exact for
-   |k| < 2^20. The fourth part would be below 1e-31. */
+/* The method of Cody and Waite: pi/2 in three parts of 33 bits, so that k times a part is exact for
+   |k| < 2^20. A fourth part would be below 1e-31. */
 #define HALF_PI_1 0x1.921fb544p+0
 #define HALF_PI_2 0x1.0b4611a6p-34
 #define HALF_PI_3 0x1.3198a2ep-69
 
 #define TWO_OVER_PI (2.0 / HD_PI)
 
-/* Above this k would no longer be below 2^20 = 1.04e6. */
-static const double largest_reduced = 1e6;
+/* Above this bound k could reach 2^20 = 1.04e6. */
+static const double max_reduced = 1e6;
 
-/* Taylor's series; the first term left out is below 1e-19 on [-pi/4, pi/4]. All factorials up to
-   18! are exact in double. */
+/* Taylor series; the first omitted term is below 1e-19 on [-pi/4, pi/4]. All factorials up to 18!
+   are exact in double. */
 static const double sine_terms[] = {
     1.0 / 355687428096000.0, -1.0 / 1307674368000.0, 1.0 / 6227020800.0, -1.0 / 39916800.0,
     1.0 / 362880.0,          -1.0 / 5040.0,          1.0 / 120.0,        -1.0 / 6.0};
@@ -43,8 +43,8 @@ void hd_sine_cosine(double x, double *sine, double *cosine) {
     }
     /* Working on |x| makes the sine exactly odd and the cosine exactly even. */
     double rest = fabs(x);
-    if (rest > largest_reduced)
-        rest = fmod(rest, 2.0 * HD_PI); /* exact for the double 2 pi; off by what that is off */
+    if (rest > max_reduced)
+        rest = fmod(rest, 2.0 * HD_PI); /* exact for the double 2 pi, which itself is rounded */
     const double quotient = floor(rest * TWO_OVER_PI + 0.5);
     rest = ((rest - quotient * HALF_PI_1) - quotient * HALF_PI_2) - quotient * HALF_PI_3;
     const double s = rest + rest * sum_terms(sine_terms, 8, rest * rest);
@@ -57,8 +57,8 @@ void hd_sine_cosine(double x, double *sine, double *cosine) {
     *cosine = (quadrant == 1 || quadrant == 2) ? -absolute_cosine : absolute_cosine;
 }
 
-/* The arc tangent of 0..1. Halving the angle twice leaves at most tan(pi / 16) = 0.199, where the
-   first term that is left out of the series is below 1e-18. */
+/* Returns the arc tangent of t in 0..1. Halving the angle twice leaves at most tan(pi / 16) =
+   0.199. The first omitted term of the series is then below 1e-18. */
 static double arc_tangent(double t) {
     const double half = t / (1.0 + sqrt(1.0 + t * t));
     const double x = half / (1.0 + sqrt(1.0 + half * half));

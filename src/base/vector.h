@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Vectors of the host in space and in a plane, in double precision. */
+/* Vectors in double precision, for the host. */
 #ifndef HD_BASE_VECTOR_H
 #define HD_BASE_VECTOR_H
 
@@ -30,11 +30,11 @@ static inline HdVec3 hd_cross(HdVec3 a, HdVec3 b) {
 static inline double hd_length(HdVec3 a) {
     return sqrt(hd_dot(a, a));
 }
-/* The largest of its coordinates, whatever their signs. */
+/* Returns the largest absolute coordinate. */
 static inline double hd_largest(HdVec3 a) {
     return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
 }
-/* The minimum and the maximum of two, in each coordinate. */
+/* Return the minimum and the maximum of each coordinate. */
 static inline HdVec3 hd_minimum(HdVec3 a, HdVec3 b) {
     return hd_vec3(fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z));
 }

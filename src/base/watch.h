@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Work that is watched: whoever does it counts it, on any thread; whoever watches looks, and may
-   want it no more. */
+/* Progress of work: workers count it on any thread; an observer reads it and may cancel. */
 #ifndef HD_BASE_WATCH_H
 #define HD_BASE_WATCH_H
 
@@ -9,30 +8,30 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* What a whole frame counts. */
+/* The count of a whole frame. */
 #define HD_WATCH_FRAME ((uint64_t)1 << 32)
 
-/* All zero at first. */
+/* Zero-initialise. */
 typedef struct HdWatch {
-    _Atomic uint64_t done;   /* it never falls; what is done and lost again stays counted */
-    atomic_bool is_unwanted; /* frames under way end as after a signal (system/interrupt.h) */
+    _Atomic uint64_t done;    /* finished work; never falls, even if work is lost */
+    atomic_bool is_cancelled; /* cancels frames in flight, as after a signal */
 } HdWatch;
 
-/* A piece of work, as its watch sees it. */
+/* A piece of work and the watch that observes it. */
 typedef struct HdWatched {
-    HdWatch *watch;  /* NULL: nobody looks */
+    HdWatch *watch;  /* NULL: not observed */
     uint64_t weight; /* at most HD_WATCH_FRAME */
 } HdWatched;
 
-/* Takes a share, up to 1, of the work that is left. */
-static inline HdWatched hd_watched_take(HdWatched *left, double share) {
-    const HdWatched taken = {left->watch, (uint64_t)((double)left->weight * share)};
-    left->weight -= taken.weight;
-    return taken;
+/* Splits off a share, 0..1, of the remaining work. */
+static inline HdWatched hd_watched_split(HdWatched *left, double share) {
+    const HdWatched part = {left->watch, (uint64_t)((double)left->weight * share)};
+    left->weight -= part.weight;
+    return part;
 }
 
-/* Counts the items first .. end - 1 of `count` as done: each once, in any order. All together are
-   worth what the work is. */
+/* Counts items first .. end - 1 of `count` as done, each once, in any order. All items together
+   count the weight. */
 static inline void hd_watched_add(const HdWatched *watched, int first, int end, int count) {
     const uint64_t weight = watched->weight * (uint64_t)end / (uint64_t)count -
                             watched->weight * (uint64_t)first / (uint64_t)count;
@@ -40,11 +39,11 @@ static inline void hd_watched_add(const HdWatched *watched, int first, int end, 
         atomic_fetch_add_explicit(&watched->watch->done, weight, memory_order_relaxed);
 }
 
-static inline bool hd_watched_is_unwanted(const HdWatched *watched) {
-    return watched->watch != NULL && atomic_load(&watched->watch->is_unwanted);
+static inline bool hd_watched_is_cancelled(const HdWatched *watched) {
+    return watched->watch != NULL && atomic_load(&watched->watch->is_cancelled);
 }
 
-/* In frames. */
+/* Returns the finished work in frames. */
 static inline double hd_watch_frames(const HdWatch *watch) {
     return (double)atomic_load_explicit(&watch->done, memory_order_relaxed) /
            (double)HD_WATCH_FRAME;

@@ -160,7 +160,7 @@ static HdStatus settle(Run *run, const HdOptions *options, HdError *error) {
         hd_outputs_settle(outputs, is_named ? store->names : &name, is_named ? store->count : 1,
                           &settings->style, run->frames.count, error);
     outputs->options = store->given;
-    outputs->durability = store->no_sync ? HD_FLEETING : HD_DURABLE;
+    outputs->durability = store->no_sync ? HD_WITHOUT_SYNC : HD_DURABLE;
     if (status == HD_OK)
         status = hd_outputs_add_layers(outputs, store->layers,
                                        hd_scene_has_error_bound(&run->file->scene), error);

@@ -9,27 +9,23 @@
 
 #include "base/minmax.h"
 
-/* A value has the code c where it lies between the curve's inverse at c - 1/2 and at c + 1/2, and
-   these thresholds alone decide. Where to look is known from the value's bits: floats that share
-   exponent and leading bits of the fraction form a bucket.
-
-   With 8 bits a bucket is so narrow that it holds one threshold at most. Its entry has the code of
-   its least value above ENTRY_BITS, and below that what is missing from the threshold's place in
-   the bucket to the bucket's end: adding the value's place in the bucket carries over into the code
-   exactly from the threshold on.
-
-   With 16 bits the code grows almost linearly in a bucket. The curve is concave, so that a straight
-   line from the bucket's first to its last value never lies above it; it lies less than 0.1 of a
-   code below, so that the next code is the only other one. */
+/* A value has the code c if it lies between the curve's inverses at c - 1/2 and at c + 1/2; these
+   thresholds alone decide. Floats that share exponent and leading fraction bits form a bucket,
+   which a value's bits select. With 8 bits a bucket holds at most one threshold. Its entry has the
+   code of its least value above ENTRY_BITS. The bits below hold the distance from the threshold to
+   the bucket's end. Adding the value's place in the bucket carries into the code exactly from the
+   threshold on. With 16 bits the code grows almost linearly in a bucket. The curve is concave, so a
+   straight line from the bucket's first to its last value never lies above it. It lies less than
+   0.1 of a code below, so only the next code is a second candidate. */
 enum {
     LEADING_BITS_8 = 7,
     LEADING_BITS_16 = 8,
-    LOWEST_POWER_8 = -13, /* 2 to it lies below the first threshold */
+    LOWEST_POWER_8 = -13, /* 2 to this power is below the first threshold */
     LOWEST_POWER_16 = -21,
     BUCKETS_8 = -LOWEST_POWER_8 << LEADING_BITS_8,
     BUCKETS_16 = -LOWEST_POWER_16 << LEADING_BITS_16,
-    POSITION_BITS = 8,   /* a position is a code with so many bits after the point */
-    POSITION_MARGIN = 8, /* for what is rounded */
+    POSITION_BITS = 8,   /* fraction bits of a position, whose integer part is a code */
+    POSITION_MARGIN = 8, /* for rounding errors */
     FLOAT_FRACTION_BITS = 23,
     FLOAT_BIAS = 127,
     ENTRY_BITS = FLOAT_FRACTION_BITS - LEADING_BITS_8,
@@ -38,13 +34,13 @@ enum {
 
 #define LOWEST_BITS(power) ((uint32_t)(FLOAT_BIAS + (power)) << FLOAT_FRACTION_BITS)
 
-static uint32_t entries8[BUCKETS_8 + 1]; /* the last one for 1 */
-static float thresholds16[65537];        /* by code: its least value; one more, infinite */
-/* By bucket: the position of its least value; one more, that of 1. */
+static uint32_t entries8[BUCKETS_8 + 1]; /* the last entry is for 1 */
+static float thresholds16[65537];        /* least value of each code, then infinity */
+/* Position of each bucket's least value, then that of 1. */
 static uint32_t buckets16[BUCKETS_16 + 1];
 
-/* The third or the fifth root of 0 < x <= 1. Newton's steps from above fall until rounding stops
-   them. */
+/* Returns the third or fifth root of 0 < x <= 1. Newton's steps fall from above until rounding
+   stops them. */
 static double odd_root(double x, int degree) {
     double root = 1.0;
     for (;;) {
@@ -57,7 +53,8 @@ static double odd_root(double x, int degree) {
     }
 }
 
-/* IEC 61966-2-1: from the curve to linear light. x^2.4 is x^2 times the fifth root of x^2. */
+/* Returns linear light for a value on the curve (IEC 61966-2-1); x^2.4 is x^2 times the fifth root
+   of x^2. */
 static double srgb_to_linear(double value) {
     if (value <= 0.04045)
         return value / 12.92;
@@ -65,7 +62,8 @@ static double srgb_to_linear(double value) {
     return x * x * odd_root(x * x, 5);
 }
 
-/* x^(1/2.4) is the fourth root of x times the cube root of its square. */
+/* Returns the value on the curve; x^(1/2.4) is the fourth root of x times the cube root of its
+   square. */
 static double linear_to_srgb(double value) {
     if (value <= 0.04045 / 12.92)
         return value * 12.92;
@@ -85,7 +83,7 @@ static float float_of(uint32_t bits) {
     return value;
 }
 
-/* The least float that is not below the positive `value`. */
+/* Returns the least float that is not below the positive `value`. */
 static float round_up(double value) {
     const float nearest = (float)value;
     return (double)nearest < value ? float_of(bits_of(nearest) + 1) : nearest;
@@ -103,10 +101,10 @@ static void fill_search8(void) {
     unsigned code = 0;
     fill_thresholds(thresholds, 255);
     for (uint32_t i = 0; i <= BUCKETS_8; i++) {
-        const uint32_t least = LOWEST_BITS(LOWEST_POWER_8) + (i << ENTRY_BITS);
-        while (float_of(least) >= thresholds[code + 1])
+        const uint32_t lowest = LOWEST_BITS(LOWEST_POWER_8) + (i << ENTRY_BITS);
+        while (float_of(lowest) >= thresholds[code + 1])
             code++;
-        const uint32_t place = bits_of(thresholds[code + 1]) - least;
+        const uint32_t place = bits_of(thresholds[code + 1]) - lowest;
         const uint32_t missing = place >> ENTRY_BITS == 0 ? (1u << ENTRY_BITS) - place : 0;
         entries8[i] = (code << ENTRY_BITS) + missing;
     }
@@ -116,20 +114,20 @@ static void fill_search16(void) {
     unsigned code = 0;
     fill_thresholds(thresholds16, 65535);
     for (uint32_t i = 0; i <= BUCKETS_16; i++) {
-        const float least = float_of(LOWEST_BITS(LOWEST_POWER_16) + (i << SHIFT_16));
-        while (least >= thresholds16[code + 1])
+        const float lowest = float_of(LOWEST_BITS(LOWEST_POWER_16) + (i << SHIFT_16));
+        while (lowest >= thresholds16[code + 1])
             code++;
         const double from = (double)thresholds16[code];
         const double step = (double)thresholds16[code + 1] - from;
-        const double position = code + ((double)least - from) / step;
+        const double position = code + ((double)lowest - from) / step;
         const uint32_t rounded = (uint32_t)(position * (1 << POSITION_BITS));
         buckets16[i] = rounded > POSITION_MARGIN ? rounded - POSITION_MARGIN : 0;
     }
 }
 
-/* NaN becomes the least as well. */
-static inline float clamp(float value, float least) {
-    const float raised = value > least ? value : least;
+/* Maps NaN to the least value too. */
+static inline float clamp(float value, float lowest) {
+    const float raised = value > lowest ? value : lowest;
     return raised < 1.0f ? raised : 1.0f;
 }
 
@@ -158,7 +156,7 @@ static inline uint8_t linear8(float value) {
     return (uint8_t)(int)(clamp(value, 0.0f) * 255.0f + 0.5f);
 }
 
-/* In double, where the product is exact. */
+/* The product is exact in double. */
 static uint16_t linear16(float value) {
     return (uint16_t)((double)clamp(value, 0.0f) * 65535.0 + 0.5);
 }
@@ -189,7 +187,7 @@ void hd_curve_encode_rgba(HdCurve curve, const float *rgb, size_t pixels, uint8_
     }
 }
 
-/* Halves the range of bits in which a code begins; positive floats have their bits' order. */
+/* Bisects the bits of the least float of each code; positive floats are ordered as their bits. */
 void hd_curve_thresholds8(HdCurve curve, int32_t thresholds[256]) {
     thresholds[0] = 0;
     for (int code = 1; code < 256; code++) {
@@ -220,7 +218,7 @@ void hd_curve_encode16(HdCurve curve, const float *values, size_t count, uint16_
         out[i] = srgb16(values[i]);
 }
 
-static uint16_t decoded16[65536]; /* by code */
+static uint16_t decoded16[65536]; /* light of each code */
 
 static void fill_decoded16(void) {
     for (int code = 0; code < 65536; code++)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The transfer curve between linear light and the numbers in a file. Every value is made of sums,
-   products, quotients and square roots in double, so the tables are the same on every system. */
+/* Transfer curve between linear light and file values. It uses sums, products, quotients and square
+   roots in double only, so its tables are identical on every system. */
 #ifndef HD_IMAGE_CURVE_H
 #define HD_IMAGE_CURVE_H
 
@@ -13,22 +13,22 @@ typedef enum HdCurve {
     HD_CURVES
 } HdCurve;
 
-/* Each value is clamped to 0..1 (NaN counts as 0), put on the curve, and rounded to the nearest of
-   256 or 65536 steps. */
+/* Clamp each value to 0..1 (NaN becomes 0), apply the curve, and round to the nearest of 256 or
+   65536 steps. */
 void hd_curve_encode8(HdCurve curve, const float *values, size_t count, uint8_t *out);
 void hd_curve_encode16(HdCurve curve, const float *values, size_t count, uint16_t *out);
 
 /* As hd_curve_encode8 for r, g, b of each pixel, each followed by an alpha of 255. */
 void hd_curve_encode_rgba(HdCurve curve, const float *rgb, size_t pixels, uint8_t *rgba);
 
-/* By code: the bits of the least float that hd_curve_encode8 gives it; 0 for the code 0. A value
-   has the greatest code whose threshold is not above it. */
+/* Fills the thresholds: for each code the bits of the least float that hd_curve_encode8 maps to it,
+   0 for code 0. A value has the greatest code whose threshold is not above it. */
 void hd_curve_thresholds8(HdCurve curve, int32_t thresholds[256]);
 
-/* The way back, in place, 0..65535 for 0..1; each code is worked out once in a call. */
+/* Decodes 0..65535 to linear 0..65535 in place; computes each code once. */
 void hd_curve_decode16(HdCurve curve, uint16_t *values, size_t count);
 
-/* The curve itself in double, for 0..1; what lies outside is clamped. NaN stays. */
+/* Apply the curve or its inverse in double, clamping to 0..1. NaN stays NaN. */
 double hd_curve_to_display(HdCurve curve, double linear);
 double hd_curve_to_linear(HdCurve curve, double display);
 

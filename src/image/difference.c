@@ -7,7 +7,7 @@
 
 /* ---- quantiles ---- */
 
-/* A double's bits without sign have the order of the numbers; their upper part is the bucket. */
+/* The bits of non-negative doubles are ordered as the numbers; the upper bits select the bucket. */
 enum {
     FRACTION_BITS = 52,
     KEPT_BITS = 11,
@@ -64,15 +64,15 @@ double hd_quantile_above(const HdQuantile *quantile, uint64_t out_of) {
 enum { CHANNELS = 3 };
 
 typedef struct Space {
-    double sum, sum_of_squares;         /* of the rows before */
-    double row_sum, row_sum_of_squares; /* apart, so that little is lost by rounding */
+    double sum, sum_of_squares;         /* previous rows */
+    double row_sum, row_sum_of_squares; /* separate, to limit rounding errors */
     double largest;
     int x, y, channel;
     HdQuantile pixels;
 } Space;
 
 struct HdPictureDifference {
-    Space display, linear; /* display: in 1/257 of a step */
+    Space display, linear; /* display: in 1/257 of 1/255 */
     bool clamps;
     int rows;
     uint64_t pixels, not_finite[2], above_1, above_8;
@@ -114,7 +114,7 @@ static double clamped(double value) {
     return value < 0.0 ? 0.0 : value > 1.0 ? 1.0 : value;
 }
 
-/* Returns the error of the pixel. */
+/* Adds a pixel and returns its error. */
 static double add_pixel(Space *space, const double errors[CHANNELS], int x, int y) {
     double largest = 0.0;
     for (int c = 0; c < CHANNELS; c++) {
@@ -186,7 +186,7 @@ void hd_channel_difference_add(HdChannelDifference *difference, float first, flo
 
 /* ---- figures ---- */
 
-/* `unit` is what the space's values are divided by, `peak` its largest value after that. */
+/* Computes the figures; `unit` divides the values, and `peak` is their maximum after that. */
 static HdDifferenceFigures figures_of(const Space *space, uint64_t pixels, double unit,
                                       double peak) {
     if (pixels == 0)
@@ -223,10 +223,10 @@ void hd_difference_figures(const HdPictureDifference *difference, HdPictureFigur
 
 /* ---- heat maps ---- */
 
-static const double LEAST = 0.25; /* has the first colour */
+static const double LEAST = 0.25; /* error of the first colour */
 enum { DOUBLINGS = 10 };
 
-/* Their lightness (CIE L*) goes from 14 to 97 in equal steps. */
+/* Lightness (CIE L*) rises from 14 to 97 in equal steps. */
 static const uint8_t colours[DOUBLINGS + 1][3] = {
     {53, 10, 90},   {89, 17, 107},  {127, 31, 106}, {164, 45, 95},  {198, 63, 76},   {225, 89, 51},
     {243, 120, 25}, {250, 155, 13}, {249, 191, 41}, {247, 223, 90}, {252, 252, 156},

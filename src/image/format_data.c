@@ -32,7 +32,7 @@ static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
     const size_t pixels = (size_t)frame->width * (size_t)frame->height;
     unsigned char head[HEAD_SIZE];
     uint8_t encoded[4 * AT_ONCE];
-    (void)label; /* there is no place for it */
+    (void)label; /* cannot hold metadata */
     put_int32(head, frame->width);
     put_int32(head + 4, frame->height);
     bool good = fwrite(head, 1, HEAD_SIZE, stream) == HEAD_SIZE;
@@ -46,8 +46,7 @@ static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
     return good ? HD_OK : hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(errno));
 }
 
-/* Anything that is neither PNG nor JPEG arrives here, so that wrong sizes most often mean another
- * format. */
+/* Everything except PNG and JPEG arrives here, so wrong sizes usually mean another format. */
 static HdStatus check_head(const unsigned char *bytes, size_t size, const char *name,
                            HdError *error) {
     if (size < HEAD_SIZE)
@@ -71,7 +70,7 @@ static HdStatus check_head(const unsigned char *bytes, size_t size, const char *
     return HD_OK;
 }
 
-/* By what it begins with, where that is no picture in the data format. */
+/* Names a foreign format by its first bytes, unless the picture is in the data format. */
 static HdStatus refuse_foreign(const unsigned char *bytes, size_t size, const char *name,
                                HdError *error) {
     static const struct {
@@ -105,7 +104,7 @@ static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t si
     return HD_OK;
 }
 
-/* Its 8 bits are made of any style. */
+/* Any style can be converted to its 8 bits. */
 const HdFormat hd_format_data = {
     .name = "the data format",
     .write = write,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* OpenEXR by the library's C interface: radiance and alpha in half or float, layers in float. */
+/* OpenEXR through the library's C interface: radiance and alpha in half or float, layers in
+   float. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <errno.h>
@@ -19,7 +20,7 @@ static bool begins(const unsigned char *bytes, size_t size) {
 
 #include <openexr.h>
 
-/* Leaves the calling function with what a call of the library came to unless that is success. */
+/* Returns from the calling function with the result of a library call unless it succeeded. */
 #define EXR_TRY(call)                                                                              \
     do {                                                                                           \
         const exr_result_t tried_ = (call);                                                        \
@@ -30,15 +31,15 @@ static bool begins(const unsigned char *bytes, size_t size) {
 enum { CHANNELS = 3, MESSAGE_SIZE = 256 };
 static const uint64_t MAX_CHUNK_BYTES = UINT64_C(1) << 30;
 
-/* Where a frame has the numbers of a channel. */
+/* Array of a frame that holds a channel. */
 typedef enum Source { RADIANCE, FIRST, EFFORT } Source;
 
-/* What a frame may be written as: r, g, b first. */
+/* A channel of a file; r, g, b come first. */
 typedef struct Channel {
     const char *name;
     Source source;
-    int offset;    /* in the pixel's numbers there */
-    HdLayer layer; /* whose it is; radiance is always there */
+    int offset;    /* among the pixel's numbers */
+    HdLayer layer; /* its layer; radiance is always present */
 } Channel;
 
 static const Channel channels[] = {
@@ -56,10 +57,10 @@ static const Channel channels[] = {
 };
 enum { ALL_CHANNELS = sizeof channels / sizeof *channels };
 
-/* What the library's calls work on, and the first thing that it said of an error. */
+/* State of the library's calls, with its first error message. */
 typedef struct File {
     exr_context_t context;
-    FILE *stream; /* the caller's */
+    FILE *stream; /* not owned */
     const char *path;
     char message[MESSAGE_SIZE];
 } File;
@@ -100,8 +101,8 @@ static int64_t write_at(exr_const_context_t context, void *data, const void *byt
     return -1;
 }
 
-/* To the nearest half, the even one of two; NaN stays one, and what is too large for a finite half
-   becomes the largest. */
+/* Rounds to the nearest half, ties to even. NaN stays NaN; values beyond the range become the
+   largest finite half. */
 static uint16_t half_of(float value) {
     const double size = fabs((double)value);
     const uint16_t sign = signbit(value) ? 0x8000 : 0;
@@ -117,7 +118,7 @@ static uint16_t half_of(float value) {
     return (uint16_t)(sign | (uint16_t)((exponent + 13) * 1024 + (int)steps));
 }
 
-/* Colour and coverage are as the style has it; numbers of objects need more than half has. */
+/* Colour and alpha follow the style; object numbers exceed the precision of half. */
 static exr_pixel_type_t type_of(const Channel *channel, bool is_half) {
     const bool is_picture = channel->source == RADIANCE || channel->layer == HD_LAYER_ALPHA;
     return is_half && is_picture ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
@@ -168,7 +169,7 @@ static float value_of(const HdFrame *frame, const Channel *channel, size_t pixel
     return first[channel->offset];
 }
 
-/* The values of a channel in `count` pixels from the first one on; returns the end. */
+/* Writes a channel of `count` pixels from `first` on; returns the end. */
 static unsigned char *fill_plane(const HdFrame *frame, const exr_coding_channel_info_t *to,
                                  size_t first, size_t count, unsigned char *plane) {
     const Channel *channel = channel_named(to->channel_name);
@@ -183,7 +184,7 @@ static unsigned char *fill_plane(const HdFrame *frame, const exr_coding_channel_
     return plane + count * (size_t)to->bytes_per_element;
 }
 
-/* The lines of a chunk, channel after channel. */
+/* Writes the lines of a chunk, channel by channel. */
 static void fill_chunk(exr_encode_pipeline_t *pipeline, const HdFrame *frame, int y, int lines,
                        unsigned char *plane) {
     const size_t width = (size_t)frame->width;
@@ -210,7 +211,7 @@ static exr_result_t write_chunk(exr_context_t context, int part, int y, int line
     return exr_encoding_run(context, part, pipeline);
 }
 
-/* `planes` has room for the lines of a chunk. */
+/* `planes` holds the lines of a chunk. */
 static exr_result_t write_chunks(exr_context_t context, int part, int lines, const HdFrame *frame,
                                  unsigned char *planes) {
     exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
@@ -259,15 +260,15 @@ static HdStatus write_frame(const HdFrame *frame, const HdPictureStyle *style,
 
 /* Reading */
 
-/* A file that is being read: a single part of lines, whose channels R, G and B are half or float,
-   and those further channels that are so too. */
+/* A file being read: a single part of scan lines with R, G and B in half or float, and further such
+   channels. */
 typedef struct ExrRows {
     File file;
-    int top, width, height, next;      /* of the data window, `next` counts from its top */
-    int lines;                         /* of a chunk */
-    int channels;                      /* that are taken */
-    const char *names[HD_MAX_FURTHER]; /* of those beside r, g, b; the library's */
-    float *values;                     /* owned; of a chunk */
+    int top, width, height, next;      /* of the data window; `next` counts from its top */
+    int lines;                         /* lines of a chunk */
+    int channels;                      /* channels that are read */
+    const char *names[HD_MAX_FURTHER]; /* channels besides r, g, b; owned by the library */
+    float *values;                     /* owned; one chunk */
     exr_decode_pipeline_t pipeline;
     bool has_pipeline;
 } ExrRows;
@@ -290,8 +291,7 @@ static int64_t read_at(exr_const_context_t context, void *data, void *bytes, uin
     return ferror(file->stream) != 0 ? -1 : (int64_t)count;
 }
 
-/* The library has the code of short memory for data, too, that it cannot unpack; the words differ.
- */
+/* The library returns its out-of-memory code for corrupt data too; only the messages differ. */
 static HdStatus fail_reading(const ExrRows *rows, exr_result_t code, HdError *error) {
     const char *message = message_of(&rows->file, code);
     const bool is_memory_short =
@@ -300,7 +300,7 @@ static HdStatus fail_reading(const ExrRows *rows, exr_result_t code, HdError *er
                    "cannot read %s as OpenEXR: %s", rows->file.path, message);
 }
 
-/* Where the channel's values are in a pixel's; negative: it is not taken. */
+/* Returns the channel's index in a pixel; negative: not read. */
 static int place_of(const ExrRows *rows, const char *name) {
     for (int i = 0; i < CHANNELS; i++)
         if (strcmp(channels[i].name, name) == 0)
@@ -311,7 +311,7 @@ static int place_of(const ExrRows *rows, const char *name) {
     return -1;
 }
 
-/* Takes what there is for each pixel as numbers with a point; false where R, G or B is not. */
+/* Selects full-resolution channels in half or float; returns false if R, G or B is not one. */
 static bool find_channels(ExrRows *rows, const exr_attr_chlist_t *list, int *bits) {
     int found = 0;
     *bits = 16;
@@ -319,14 +319,14 @@ static bool find_channels(ExrRows *rows, const exr_attr_chlist_t *list, int *bit
     for (int i = 0; i < list->num_channels; i++) {
         const exr_attr_chlist_entry_t *channel = &list->entries[i];
         const bool is_light = place_of(rows, channel->name.str) >= 0;
-        const bool is_taken = channel->pixel_type != EXR_PIXEL_UINT && channel->x_sampling == 1 &&
-                              channel->y_sampling == 1;
-        if (is_light && !is_taken)
+        const bool is_readable = channel->pixel_type != EXR_PIXEL_UINT &&
+                                 channel->x_sampling == 1 && channel->y_sampling == 1;
+        if (is_light && !is_readable)
             return false;
         if (is_light && channel->pixel_type == EXR_PIXEL_FLOAT)
             *bits = 32;
         found += is_light;
-        if (!is_light && is_taken && rows->channels < CHANNELS + HD_MAX_FURTHER)
+        if (!is_light && is_readable && rows->channels < CHANNELS + HD_MAX_FURTHER)
             rows->names[rows->channels++ - CHANNELS] = channel->name.str;
     }
     return found == CHANNELS;
@@ -340,7 +340,7 @@ typedef struct Head {
     uint64_t bytes; /* of a chunk */
 } Head;
 
-/* All but the bytes. */
+/* Reads all but `bytes`. */
 static exr_result_t read_head(exr_const_context_t context, Head *head) {
     EXR_TRY(exr_get_count(context, &head->parts));
     EXR_TRY(exr_get_storage(context, 0, &head->storage));
@@ -357,7 +357,8 @@ static HdStatus check_head(ExrRows *rows, HdPictureFacts *facts, HdError *error)
         return fail_reading(rows, result, error);
     if (head.parts != 1 || head.storage != EXR_STORAGE_SCANLINE)
         return hd_fail(error, HD_BAD_INPUT,
-                       "%s is an OpenEXR of several parts, tiles or depths, expected one of lines",
+                       "%s is an OpenEXR of several parts, tiles or deep data, expected one part "
+                       "of scan lines",
                        path);
     if (!find_channels(rows, head.list, &facts->bits))
         return hd_fail(error, HD_BAD_INPUT,
@@ -421,8 +422,8 @@ static HdStatus open_rows(void **out, FILE *file, const char *path, HdPictureFac
     return status;
 }
 
-/* A plane for each channel: of four halves beside each other, as floats, the library of version 3.1
-   makes nonsense where they are wanted in another order than the file's. */
+/* One plane for each channel: version 3.1 of the library corrupts four adjacent halves converted to
+   floats in another order than the file's. */
 static size_t plane_size(const ExrRows *rows) {
     return (size_t)rows->width * (size_t)rows->lines;
 }
@@ -455,7 +456,7 @@ static exr_result_t read_chunk(ExrRows *rows) {
     return exr_decoding_run(context, 0, &rows->pipeline);
 }
 
-/* The last row's values of a channel. */
+/* Returns the last row's values of a channel. */
 static const float *row_of(const ExrRows *rows, int channel) {
     const int line = (rows->next - 1) % rows->lines;
     return rows->values + plane_size(rows) * (size_t)channel + (size_t)rows->width * (size_t)line;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Films: what FFmpeg is told about the file. */
+/* Films: FFmpeg's arguments for each file format. */
 #include "image/format.h"
 
 /* clang-format off */
@@ -14,15 +14,15 @@
 static const char *const mp4_arguments[] = {MP4_ARGUMENTS("bt709")};
 static const char *const linear_mp4_arguments[] = {MP4_ARGUMENTS("linear")};
 
-/* Every frame is a key frame, so that players can jump to it. The container is given no random
-   number, so that the same frames make the same bytes. */
+/* Every frame is a key frame, so players can seek to it. Without random numbers in the container
+   the same frames give the same bytes. */
 #define MKV_FILE "-fflags", "+bitexact", "-f", "matroska"
 #define MKV_ARGUMENTS(CURVE) \
     "-c:v", "ffv1", "-g", "1", "-pix_fmt", "bgr0", "-colorspace", "rgb", \
     "-color_primaries", "bt709", "-color_trc", CURVE, "-color_range", "pc", \
     MKV_FILE, NULL
 
-/* Slices are coded side by side and have checksums, but FFmpeg errs where they are few pixels. */
+/* Slices are coded in parallel and have checksums, but FFmpeg fails if they have few pixels. */
 #define SLICED "-level", "3", "-slices", "16", "-slicecrc", "1"
 #define WHOLE "-level", "1"
 #define MKV_CURVES(SLICES) \
@@ -31,8 +31,8 @@ static const char *const linear_mp4_arguments[] = {MP4_ARGUMENTS("linear")};
 static const char *const sliced_mkv_arguments[][32] = MKV_CURVES(SLICED);
 static const char *const whole_mkv_arguments[][32] = MKV_CURVES(WHOLE);
 
-/* A palette for each frame: one for all would keep every frame in memory until the last. The ordered
-   dither keeps still what does not move, and compresses well. */
+/* One palette a frame: a common one would keep all frames in memory. The ordered dither keeps
+   static parts unchanged, and compresses well. */
 static const char gif_filters[] =
     "split[seen][painted];"
     "[seen]palettegen=stats_mode=single:reserve_transparent=0[palette];"
@@ -56,10 +56,10 @@ const HdFormat hd_format_mkv = {
     .segment_format = &hd_format_mkv,
     .join_arguments = mkv_join,
 };
-/* Its pictures build on each other, so that it cannot be cut. */
+/* Its frames depend on each other, so it has no segments. */
 const HdFormat hd_format_gif = {
     .name = "GIF",
     .film_arguments = {gif_arguments, gif_arguments},
-    .is_srgb_alone = true,
+    .is_srgb_only = true,
     .segment_format = &hd_format_mkv,
 };

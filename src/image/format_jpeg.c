@@ -6,15 +6,15 @@
 #include <stdio.h>
 #include <string.h>
 
-#include <jerror.h> /* after its types */
+#include <jerror.h> /* needs jpeglib.h first */
 #include <jpeglib.h>
 
 #include "image/format.h"
 
-/* Encoders make a dozen; each goes over the whole picture, however few bytes it has. */
+/* Encoders write a dozen; each covers the whole picture, however few bytes it has. */
 enum { MAX_SCANS = 64 };
 
-/* libjpeg reports an error by a jump. Everything that must outlive it lives here, not in local
+/* libjpeg reports an error by longjmp. Values that must survive it are members, not local
    variables. */
 typedef struct Reader {
     struct jpeg_decompress_struct jpeg;
@@ -32,8 +32,7 @@ static void on_error(j_common_ptr jpeg) {
     longjmp(reader->back, 1);
 }
 
-/* libjpeg would go on with grey where pixels are missing or wrong. The warnings that are passed
-   over change none. */
+/* libjpeg would fill missing or wrong pixels with grey. The ignored warnings change no pixel. */
 static void on_message(j_common_ptr jpeg, int level) {
     const int code = jpeg->err->msg_code;
     if (level < 0 && code != JWRN_EXTRANEOUS_DATA && code != JWRN_JFIF_MAJOR)
@@ -63,9 +62,8 @@ static bool try_head(Reader *reader, const unsigned char *bytes, size_t size) {
     return true;
 }
 
-/* So decoded, a file has the same pixels with every libjpeg and on every processor: this inverse
-   transform is one of whole numbers, a coarser colour counts for all the pixels that share it, and
-   nothing is made up between blocks. */
+/* Makes decoding identical for every libjpeg and processor: an integer inverse transform, no
+   interpolation of chroma, and no smoothing between blocks. */
 static void set_exact(struct jpeg_decompress_struct *jpeg) {
     jpeg->dct_method = JDCT_ISLOW;
     jpeg->do_fancy_upsampling = FALSE;
@@ -73,8 +71,8 @@ static void set_exact(struct jpeg_decompress_struct *jpeg) {
     jpeg->out_color_space = JCS_RGB;
 }
 
-/* The bytes lie at the begin of the row that they become, so that the way goes from the end. The
-   last row is followed by the end of the file, which has to be there. */
+/* The bytes lie at the start of the row that they become, so conversion runs backwards. The last
+   row must be followed by the end of the file. */
 static bool try_rows(Reader *reader, const HdTexture *texture) {
     struct jpeg_decompress_struct *jpeg = &reader->jpeg;
     const size_t values = (size_t)texture->width * 3;

@@ -10,12 +10,12 @@
 #include "base/limits.h"
 #include "image/format.h"
 
-/* A file that is being read. */
+/* A file being read. */
 typedef struct PfmRows {
-    FILE *file;       /* the caller's */
-    const char *path; /* the caller's; for messages */
+    FILE *file;       /* not owned */
+    const char *path; /* not owned; for messages */
     int width, height, next;
-    int64_t begin; /* of the values */
+    int64_t begin; /* offset of the values */
     bool is_big_endian, is_grey;
 } PfmRows;
 
@@ -33,8 +33,8 @@ static HdStatus fail_head(const PfmRows *rows, HdError *error) {
                    rows->path, HD_MAX_IMAGE_SIDE);
 }
 
-/* The scale's sign is the byte order; its size has no agreed meaning, so that 1 alone is taken. One
-   byte of white space comes before the values. */
+/* The scale's sign is the byte order. Its size has no agreed meaning, so only 1 is accepted. One
+   white-space byte precedes the values. */
 static bool read_head(PfmRows *rows) {
     char text[96] = "", *at, *end;
     size_t count = fread(text, 1, sizeof text - 1, rows->file);
@@ -92,7 +92,7 @@ static float get_float(const unsigned char bytes[4], bool is_big_endian) {
     return value;
 }
 
-/* The file has its rows from the bottom. Its bytes lie where they become values. */
+/* Reads bytes in place, where they become values; the file stores rows from the bottom. */
 static HdStatus next_row(void *state, float *values, HdError *error) {
     PfmRows *rows = state;
     const size_t count = (size_t)rows->width * 3;
@@ -107,14 +107,14 @@ static HdStatus next_row(void *state, float *values, HdError *error) {
     return HD_OK;
 }
 
-/* In the byte order of the machine, as the scale's sign says. */
+/* Writes in the machine's byte order, which the scale's sign states. */
 static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
                       const HdPictureLabel *label, FILE *stream, const char *path, HdError *error) {
     static const uint16_t one = 1;
     const char *scale = *(const unsigned char *)&one == 1 ? "-1.0" : "1.0";
     const size_t values = (size_t)frame->width * 3;
-    (void)style; /* radiance is on no curve */
-    (void)label; /* there is no place for it */
+    (void)style; /* always linear */
+    (void)label; /* cannot hold metadata */
     bool good = fprintf(stream, "PF\n%d %d\n%s\n", frame->width, frame->height, scale) > 0;
     for (int y = frame->height - 1; y >= 0 && good; y--)
         good = fwrite(frame->rgb + values * (size_t)y, sizeof(float), values, stream) == values;

@@ -15,21 +15,21 @@
 #include "base/limits.h"
 #include "image/format.h"
 
-/* Far above what a picture needs, far below what would hurt. */
+/* Far above the needs of a picture, far below harmful sizes. */
 enum { MAX_CHUNK_BYTES = 8 * 1024 * 1024, MAX_KEPT_CHUNKS = 128 };
 
-/* Of a file besides twice what its pixels take: far more than texts and profiles have. */
-enum { MAX_BESIDES = 16 * 1024 * 1024 };
+/* Bytes of a file beyond twice those of its pixels: far more than texts and profiles take. */
+enum { MAX_EXTRA_BYTES = 16 * 1024 * 1024 };
 
 enum { MESSAGE_SIZE = 256, SIGNATURE_SIZE = 8 };
 
-/* libpng reports an error by a jump. Everything that must outlive it lives here, not in local
+/* libpng reports an error by longjmp. Values that must survive it are members, not local
    variables. */
 typedef struct PngReader {
     png_structp png;
     png_infop info;
     FILE *file;
-    size_t allowed;   /* to be read still */
+    size_t allowed;   /* bytes left to read */
     const char *name; /* for messages */
     HdPictureFacts facts;
     bool is_interlaced;
@@ -42,13 +42,13 @@ typedef struct PngWriter {
     png_structp png;
     png_infop info;
     FILE *stream;
-    uint64_t hash; /* of the bytes so far (hash.h) */
+    uint64_t hash; /* hash of all bytes so far (hash.h) */
     uint16_t *row; /* owned */
     char message[MESSAGE_SIZE];
 } PngWriter;
 
 static void on_error(png_structp png, png_const_charp message) {
-    /* We write few texts: libpng says so of any that it has no memory for. */
+    /* For our few texts libpng gives this message only if out of memory. */
     const bool lacks_memory = strcmp(message, "too many text chunks") == 0;
     snprintf(png_get_error_ptr(png), MESSAGE_SIZE, "%s", lacks_memory ? "out of memory" : message);
     png_longjmp(png, 1);
@@ -79,12 +79,12 @@ static void limit_reading(png_structp png) {
     png_set_user_limits(png, HD_MAX_IMAGE_SIDE, HD_MAX_IMAGE_SIDE);
     png_set_chunk_malloc_max(png, MAX_CHUNK_BYTES);
     png_set_chunk_cache_max(png, MAX_KEPT_CHUNKS);
-    /* Texts, profiles and gamma have no use here: skipped, they cannot do harm either. */
+    /* Texts, profiles and gamma are not needed; skipping them also avoids their errors. */
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_AS_DEFAULT, (png_const_bytep) "sRGB", 1);
 }
 
-/* Every kind becomes RGB, with 16 bits where it has as many, otherwise with 8. */
+/* Converts every kind to RGB, with 16 bits if it has them, otherwise 8. */
 static void convert_to_rgb(png_structp png) {
     png_set_expand(png);
     png_set_strip_alpha(png);
@@ -126,18 +126,18 @@ static void close_reader(void *rows) {
     free(reader);
 }
 
-/* Reads the head of a file that stands at its begin, which lives on, as the name does. Chunks
-   without measure are refused, and all but those of pixels and sRGB are passed over. A file of more
-   than 16 MiB and twice what its pixels take is wrong, and not read on. What is wrong with the file
-   is HD_BAD_INPUT, here and below; HD_FAILED: memory is short. Returns NULL after an error. */
+/* Reads the header of a file from its start; `file` and `name` must stay valid. Rejects excessive
+   chunks, and skips all but those of pixels and sRGB. Rejects a file larger than 16 MiB plus twice
+   the size of its pixels. Faults of the file are HD_BAD_INPUT, here and below; HD_FAILED: out of
+   memory. Returns NULL on error. */
 static PngReader *open_reader(FILE *file, const char *name, HdError *error) {
     PngReader *reader = malloc(sizeof *reader);
     if (reader == NULL) {
         hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
         return NULL;
     }
-    *reader =
-        (PngReader){.file = file, .allowed = MAX_BESIDES, .name = name, .message = "out of memory"};
+    *reader = (PngReader){
+        .file = file, .allowed = MAX_EXTRA_BYTES, .name = name, .message = "out of memory"};
     reader->png =
         png_create_read_struct(PNG_LIBPNG_VER_STRING, reader->message, on_error, on_warning);
     if (reader->png != NULL)
@@ -149,15 +149,15 @@ static PngReader *open_reader(FILE *file, const char *name, HdError *error) {
     return NULL;
 }
 
-/* The bytes lie in the row that they become: PNG's 16 bits are big endian, and 8 bits fill the
-   first half, so that the way goes from the end. */
+/* The bytes lie in the row that they become, so conversion runs backwards. 16 bits are big endian;
+   8 bits fill the first half. */
 static void make_codes(uint16_t *row, size_t values, int bits) {
     const unsigned char *bytes = (const unsigned char *)row;
     for (size_t i = values; i-- > 0;)
         row[i] = (uint16_t)(bits == 16 ? bytes[2 * i] << 8 | bytes[2 * i + 1] : bytes[i] * 257);
 }
 
-/* The last row is followed by the end of the file, which has to be there. */
+/* The last row must be followed by the end of the file. */
 static bool try_rows(PngReader *reader, uint16_t *codes, int count) {
     const size_t values = (size_t)reader->facts.width * 3;
     if (setjmp(png_jmpbuf(reader->png)) != 0)
@@ -171,8 +171,8 @@ static bool try_rows(PngReader *reader, uint16_t *codes, int count) {
     return true;
 }
 
-/* The next `count` rows from the top, which must be all of an interlaced picture: r, g, b of each
-   pixel, 0..65535 whatever the bits; without alpha. */
+/* Reads the next `count` rows from the top, all rows if interlaced: r, g, b of each pixel, 0..65535
+   for any bit depth, without alpha. */
 static HdStatus read_rows(PngReader *reader, uint16_t *codes, int count, HdError *error) {
     const size_t values = (size_t)reader->facts.width * 3;
     if (!try_rows(reader, codes, count))
@@ -195,7 +195,7 @@ static void flush_nothing(png_structp png) {
     (void)png;
 }
 
-/* Text in UTF-8 that is not compressed. libpng writes to none of it. */
+/* Makes an uncompressed UTF-8 text. libpng does not modify its strings. */
 static png_text text_of(const char *keyword, const char *text) {
     return (png_text){.compression = PNG_ITXT_COMPRESSION_NONE,
                       .key = (char *)keyword,
@@ -212,8 +212,8 @@ static void set_texts(const PngWriter *writer, const HdPictureLabel *label) {
     png_set_text(writer->png, writer->info, texts, label->options[0] != '\0' ? 4 : 3);
 }
 
-/* Frames are many and short-lived. After the filter what repeats is mostly zeros, and looking for
-   nothing else is both faster and smaller than level 1. */
+/* Frames are many and short-lived. After the filter mostly zeros repeat: matching runs only is
+   faster and smaller than level 1. */
 static void write_head(PngWriter *writer, const HdFrame *frame, const HdPictureStyle *style,
                        const HdPictureLabel *label) {
     png_structp png = writer->png;
@@ -232,7 +232,7 @@ static void write_head(PngWriter *writer, const HdFrame *frame, const HdPictureS
     png_write_info(png, writer->info);
 }
 
-/* A row of the file; PNG is big endian. With 16 bits the codes are made in the row itself. */
+/* Fills a row of the file in big endian; 16-bit codes are made in place. */
 static void make_row(const HdFrame *frame, const HdPictureStyle *style, int y, uint16_t *row) {
     const size_t width = (size_t)frame->width, values = 3 * width, first = width * (size_t)y;
     unsigned char *bytes = (unsigned char *)row;
@@ -257,7 +257,7 @@ static void make_row(const HdFrame *frame, const HdPictureStyle *style, int y, u
 enum { KEYWORD_SIZE = 7, TEXT_SIZE = 45, DATA_SIZE = KEYWORD_SIZE + TEXT_SIZE };
 _Static_assert(HD_PNG_END_SIZE == 12 + DATA_SIZE + 12, "a chunk, and IEND behind it");
 
-/* PNG is big endian. */
+/* Stores a big-endian number. */
 static void put_number(unsigned char *place, uint32_t number) {
     for (int i = 0; i < 4; i++)
         place[i] = (unsigned char)(number >> (24 - 8 * i));
@@ -332,7 +332,7 @@ static uint32_t get_uint32(const unsigned char bytes[4]) {
     return (uint32_t)bytes[0] << 24 | (uint32_t)bytes[1] << 16 | (uint32_t)bytes[2] << 8 | bytes[3];
 }
 
-/* libpng refuses large pictures too, but does not say how large they are. */
+/* libpng rejects large pictures too, but does not report their size. */
 static HdStatus create_texture(HdTexture *texture, const unsigned char *bytes, size_t size,
                                const char *name, HdError *error) {
     if (size < SIZE_END || memcmp(bytes + SIZE_OFFSET - 4, "IHDR", 4) != 0)
@@ -344,7 +344,7 @@ static HdStatus create_texture(HdTexture *texture, const unsigned char *bytes, s
 
 static PngReader *open_bytes(const unsigned char *bytes, size_t size, const char *name,
                              HdError *error) {
-    FILE *file = fmemopen((void *)bytes, size, "rb"); /* nothing writes to it */
+    FILE *file = fmemopen((void *)bytes, size, "rb"); /* only read */
     if (file == NULL) {
         hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
         return NULL;
@@ -415,14 +415,14 @@ static HdStatus open_rows(void **rows, FILE *file, const char *path, HdPictureFa
     if (reader->is_interlaced) {
         close_reader(reader);
         return hd_fail(error, HD_BAD_INPUT,
-                       "%s is an interlaced PNG, expected one whose rows follow each other", path);
+                       "%s is an interlaced PNG, expected one without interlacing", path);
     }
     *rows = reader;
     *facts = reader->facts;
     return HD_OK;
 }
 
-/* Codes lie at the begin of the row that they become, so that the way goes from the end. */
+/* Codes lie at the start of the row that they become, so conversion runs backwards. */
 static HdStatus next_row(void *rows, float *rgb, HdError *error) {
     PngReader *reader = rows;
     void *codes = rgb;

@@ -42,9 +42,9 @@ HdStatus hd_frame_add_rgba(HdFrame *frame, HdError *error) {
 }
 
 static int first_floats_of(unsigned layers) {
-    const unsigned middles = HD_LAYER_BIT(HD_LAYER_DEPTH) | HD_LAYER_BIT(HD_LAYER_NORMAL) |
-                             HD_LAYER_BIT(HD_LAYER_OBJECT);
-    if ((layers & middles) != 0)
+    const unsigned first_hit = HD_LAYER_BIT(HD_LAYER_DEPTH) | HD_LAYER_BIT(HD_LAYER_NORMAL) |
+                               HD_LAYER_BIT(HD_LAYER_OBJECT);
+    if ((layers & first_hit) != 0)
         return HD_MAX_FIRST_FLOATS;
     return (layers & HD_LAYER_BIT(HD_LAYER_ALPHA)) != 0 ? 1 : 0;
 }

@@ -30,11 +30,12 @@ bool hd_format_is_film(const HdFormat *format) {
 
 HdStatus hd_format_check_style(const char *path, const HdPictureStyle *style, HdError *error) {
     const HdFormat *format = hd_format_of(path);
-    if (format != NULL && format->is_srgb_alone && style->curve != HD_CURVE_SRGB)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "%s cannot be linear, for a %s has no way to say so: expected output.curve "
-                       "\"srgb\", or another film",
-                       path, format->name);
+    if (format != NULL && format->is_srgb_only && style->curve != HD_CURVE_SRGB)
+        return hd_fail(
+            error, HD_BAD_INPUT,
+            "%s cannot be linear, because %s files cannot state it: expected output.curve "
+            "\"srgb\", or another film",
+            path, format->name);
     if (format == &hd_format_png && style->bits > 16)
         return hd_fail(error, HD_BAD_INPUT,
                        "%s cannot have %d bits a channel: expected output.bits 8 or 16, or another "
@@ -73,7 +74,7 @@ HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, con
 /* The largest texture as PNG with four 16-bit channels has 2 GiB before compression. */
 static const int64_t MAX_TEXTURE_FILE = INT64_C(4) << 30;
 
-/* What is neither PNG nor JPEG may be in the data format, which has no signature. */
+/* Everything except PNG and JPEG may be the data format, which has no signature. */
 HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                            const char *name, HdCurve curve, HdError *error) {
     *texture = (HdTexture){0};
@@ -105,12 +106,12 @@ enum { CODES = 65536 };
 
 struct HdPictureReader {
     FILE *file;
-    const char *path; /* the caller's */
+    const char *path; /* not owned */
     HdPictureFacts facts;
     HdCurve curve;
-    void *rows;              /* owned; the format's */
+    void *rows;              /* owned, of the format */
     float *row;              /* owned */
-    HdPictureValue *by_code; /* owned; CODES of them, of a picture on a curve */
+    HdPictureValue *by_code; /* owned; CODES values for a picture on a curve */
 };
 
 static HdStatus open_file(HdPictureReader *reader, HdError *error) {
@@ -160,7 +161,7 @@ const HdPictureFacts *hd_picture_reader_facts(const HdPictureReader *reader) {
 
 HdStatus hd_picture_reader_start(HdPictureReader *reader, HdCurve curve, HdError *error) {
     const bool is_on_curve = reader->facts.format->is_on_curve;
-    const int step = reader->facts.bits == 8 ? 257 : 1; /* with 8 bits no other code is there */
+    const int step = reader->facts.bits == 8 ? 257 : 1; /* 8 bits give no other codes */
     reader->curve = curve;
     reader->row = malloc((size_t)reader->facts.width * 3 * sizeof *reader->row);
     if (is_on_curve)

@@ -3,17 +3,17 @@
 
 #include <stdlib.h>
 
-/* An edge of the mesh; it runs from the vertex with the smaller number. */
+/* An edge of the mesh, from the vertex with the smaller number. */
 typedef struct Edge {
     int32_t a, b;
 } Edge;
 
 typedef struct Division {
     const HdMesh *mesh;
-    int parts; /* of each edge */
+    int parts; /* parts of each edge */
     int edge_count;
-    Edge *edges; /* in order, each once */
-    HdMesh fine; /* what comes out; only what hd_mesh_allocate makes */
+    Edge *edges; /* sorted and unique */
+    HdMesh fine; /* result; only the arrays of hd_mesh_allocate */
 } Division;
 
 static HdStatus no_memory(const HdMesh *mesh, HdError *error) {
@@ -62,7 +62,7 @@ static HdVec3 between(HdVec3 a, HdVec3 b, double share) {
     return hd_add(a, hd_scale(hd_sub(b, a), share));
 }
 
-/* The former vertices, then parts - 1 on each edge. */
+/* Places the old vertices, then parts - 1 on each edge. */
 static void place_edge_vertices(Division *division) {
     HdMesh *fine = &division->fine;
     const HdVec3 *old = division->mesh->vertices;
@@ -74,7 +74,7 @@ static void place_edge_vertices(Division *division) {
                 between(old[edge->a], old[edge->b], (double)k / division->parts);
 }
 
-/* The vertex that is k parts from vertex a on the way to b. */
+/* Returns the vertex k parts from vertex a on the way to b. */
 static int edge_vertex(const Division *division, int a, int b, int k) {
     if (k == 0 || k == division->parts)
         return k == 0 ? a : b;
@@ -95,8 +95,7 @@ static void add_triangle(Division *division, int parent, int a, int b, int c) {
     fine->group_of[t] = division->mesh->group_of[parent];
 }
 
-/* Row r of a triangle has r + 1 vertices, from the side to its second corner to that to its third.
- */
+/* Fills row r of a triangle: r + 1 vertices from the side to corner 1 to the side to corner 2. */
 static void fill_row(Division *division, const int32_t *corner, int r, int32_t *row) {
     HdVec3 *vertices = division->fine.vertices;
     row[0] = edge_vertex(division, corner[0], corner[1], r);
@@ -127,10 +126,10 @@ static void divide_triangle(Division *division, int t, int32_t *upper, int32_t *
     }
 }
 
-/* `rows` has room for two. */
+/* `rows` has capacity for two rows. */
 static HdStatus divide(Division *division, int32_t *rows, HdError *error) {
     list_edges(division);
-    /* For each triangle parts^2, and (parts - 1) (parts - 2) / 2 vertices inside. */
+    /* A triangle gives parts^2 triangles and (parts - 1) (parts - 2) / 2 inner vertices. */
     const size_t old = (size_t)division->mesh->triangle_count, parts = (size_t)division->parts;
     const size_t vertices = (size_t)division->mesh->vertex_count +
                             (size_t)division->edge_count * (parts - 1) +

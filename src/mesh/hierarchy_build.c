@@ -9,24 +9,24 @@
 #include "system/interrupt.h"
 #include "system/machine.h"
 
-/* The top of the hierarchy is built level by level, all threads at work on all items of a level.
-   What has become small enough is built as a subtree by one thread. Neither the sizes nor the order
-   of items depend on the number of threads: every partition is stable. Nor does anything depend on
-   the caller's floating-point environment: what is rounded is computed by the threads. */
+/* All threads build the top level by level, over all items of a level. One thread builds each small
+   enough rest as a subtree. The result does not depend on the number of threads, because every
+   partition is stable. Nor does it depend on the caller's floating-point environment, because the
+   threads do all rounding. */
 enum {
-    MAX_PIECES = 256, /* of a level, about */
+    MAX_PIECES = 256, /* pieces of a level, about */
     MIN_PIECE = 4096,
     MAX_TASKS = MAX_PIECES * HD_MAX_HIERARCHY_DEPTH + 1,
     MAX_CHUNKS = 2 * MAX_PIECES
 };
 
-/* A node of the top: a child that is not negative is another one, otherwise it is ~ a task. */
+/* A node of the top: a child >= 0 is another one, otherwise ~child is a task. */
 typedef struct TopNode {
     HdBounds box[2];
     int child[2], axis;
 } TopNode;
 
-/* A subtree. */
+/* A subtree to build. */
 typedef struct Task {
     HdGroup group;
     HdItem *items, *spare;
@@ -34,32 +34,32 @@ typedef struct Task {
     int node_count, first_node;
 } Task;
 
-/* A node of the level that is being divided. */
+/* A node of the current level to divide. */
 typedef struct Open {
     HdGroup group;
-    int *link; /* where its parent holds its number */
+    int *link; /* where its parent stores its number */
     HdBinning binning;
     HdSplit split;
     int first_chunk, chunk_count;
 } Open;
 
-/* A piece of an open node, or of all items. */
+/* A chunk of an open node, or of all items. */
 typedef struct Chunk {
     const Open *open;
     int begin, end;
-    int left, right; /* where its items go */
+    int left, right; /* destinations of its items */
     HdBounds box;
     HdBounds centres[2];
 } Chunk;
 
-/* What the top of the hierarchy is built of; it has a fixed size. */
+/* State of building the top; its size is fixed. */
 typedef struct Top {
     TopNode nodes[MAX_TASKS];
     Task tasks[MAX_TASKS];
-    Task *turns[MAX_TASKS];    /* the tasks in the order in which they are begun */
-    Open opens[2][MAX_PIECES]; /* of a level and the next, by turns */
+    Task *ordered_tasks[MAX_TASKS]; /* the tasks in the order of processing */
+    Open opens[2][MAX_PIECES];      /* open nodes of this level and the next, alternating */
     Chunk chunks[MAX_CHUNKS];
-    HdBins bins[MAX_CHUNKS]; /* of each chunk */
+    HdBins bins[MAX_CHUNKS]; /* bins of each chunk */
 } Top;
 
 typedef struct Build {
@@ -70,8 +70,8 @@ typedef struct Build {
     HdError *error;
     HdLanes unit;
     void *memory;           /* two items for each box, later the nodes of the hierarchy */
-    HdItem *items, *others; /* `others` takes what is moved */
-    HdBuildNode *nodes;     /* of subtrees, each from the number of its first item on */
+    HdItem *items, *others; /* `others` receives moved items */
+    HdBuildNode *nodes;     /* nodes of subtrees, each at the number of its first item */
     int32_t *order;
     Top *top;
     Open *opens, *next_opens;
@@ -119,7 +119,7 @@ static void bound_centres(void *context, int thread, int number) {
     chunk->centres[0] = centres;
 }
 
-/* See hd_item_centre. */
+/* Returns the unit of hd_item_centre. */
 static HdLanes find_unit(const HdBounds *box) {
     float largest = 0.0F;
     for (int axis = 0; axis < 3; axis++) {
@@ -136,7 +136,7 @@ static HdLanes find_unit(const HdBounds *box) {
     return (HdLanes){unit, unit, unit, 0.0F};
 }
 
-static void cut(Build *build, int first, int count, const Open *open) {
+static void add_chunks(Build *build, int first, int count, const Open *open) {
     const int pieces = (count + build->piece - 1) / build->piece;
     for (int i = 0; i < pieces; i++) {
         Chunk *chunk = &build->top->chunks[build->chunk_count++];
@@ -152,8 +152,8 @@ static void add_task(Build *build, const HdGroup *group, HdItem *items, HdItem *
         (Task){.group = *group, .items = items, .spare = spare};
 }
 
-/* Makes a task or an open node of a group that lies in `others` until they are swapped. */
-static void hand_on(Build *build, const HdGroup *group, int *link) {
+/* Makes a task or an open node of a group that lies in `others` until the next swap. */
+static void add_group(Build *build, const HdGroup *group, int *link) {
     if (group->count > build->piece)
         build->next_opens[build->next_open_count++] = (Open){.group = *group, .link = link};
     else
@@ -172,7 +172,7 @@ static void swap(Build *build) {
 }
 
 static HdStatus load(Build *build) {
-    cut(build, 0, build->count, NULL);
+    add_chunks(build, 0, build->count, NULL);
     HD_TRY(run(build, build->chunk_count, load_chunk));
     HdGroup root = {.first = 0, .count = build->count, .depth = 1};
     root.box = root.centres = hd_bounds_empty();
@@ -182,9 +182,9 @@ static HdStatus load(Build *build) {
     HD_TRY(run(build, build->chunk_count, bound_centres));
     for (int i = 0; i < build->chunk_count; i++)
         hd_bounds_merge(&root.centres, &build->top->chunks[i].centres[0]);
-    /* As if they had been moved. */
+    /* `add_group` expects the items in `others`. */
     swap(build);
-    hand_on(build, &root, &build->root);
+    add_group(build, &root, &build->root);
     swap(build);
     return HD_OK;
 }
@@ -262,7 +262,7 @@ static void divide(Build *build, const Open *open) {
         top->box[side] = sides[side].box;
         for (int i = open->first_chunk; i < open->first_chunk + open->chunk_count; i++)
             hd_bounds_merge(&sides[side].centres, &build->top->chunks[i].centres[side]);
-        hand_on(build, &sides[side], &top->child[side]);
+        add_group(build, &sides[side], &top->child[side]);
     }
 }
 
@@ -271,7 +271,7 @@ static HdStatus divide_level(Build *build) {
     for (int i = 0; i < build->open_count; i++) {
         Open *open = &build->opens[i];
         open->first_chunk = build->chunk_count;
-        cut(build, open->group.first, open->group.count, open);
+        add_chunks(build, open->group.first, open->group.count, open);
         open->chunk_count = build->chunk_count - open->first_chunk;
     }
     HD_TRY(run(build, build->chunk_count, bin_chunk));
@@ -281,7 +281,7 @@ static HdStatus divide_level(Build *build) {
         const Open *open = &build->opens[i];
         if (open->split.axis >= 0)
             divide(build, open);
-        else /* it stays where it is */
+        else /* its items were not moved */
             add_task(build, &open->group, build->items, build->others, open->link);
     }
     swap(build);
@@ -291,7 +291,7 @@ static HdStatus divide_level(Build *build) {
 static void build_task(void *context, int thread, int number) {
     (void)thread;
     const Build *build = context;
-    Task *task = build->top->turns[number];
+    Task *task = build->top->ordered_tasks[number];
     const int first = task->group.first, end = first + task->group.count;
     HdSubtree subtree = {build->options, build->unit,          task->items,
                          task->spare,    build->nodes + first, 0};
@@ -308,15 +308,15 @@ static int larger_first(const void *a, const void *b) {
 
 static HdStatus build_subtrees(Build *build) {
     for (int i = 0; i < build->task_count; i++)
-        build->top->turns[i] = &build->top->tasks[i];
-    qsort(build->top->turns, (size_t)build->task_count, sizeof(void *), larger_first);
+        build->top->ordered_tasks[i] = &build->top->tasks[i];
+    qsort(build->top->ordered_tasks, (size_t)build->task_count, sizeof(void *), larger_first);
     return run(build, build->task_count, build_task);
 }
 
 static void copy_task(void *context, int thread, int number) {
     (void)thread;
     const Build *build = context;
-    const Task *task = build->top->turns[number];
+    const Task *task = build->top->ordered_tasks[number];
     const HdBuildNode *from = build->nodes + task->group.first;
     HdBuildNode *to = build->result + task->first_node;
     for (int i = 0; i < task->node_count; i++) {
@@ -327,8 +327,8 @@ static void copy_task(void *context, int thread, int number) {
     }
 }
 
-/* Gives the nodes below `top` their numbers, depth first from *next on, and writes those of the
-   top. Returns the height. */
+/* Numbers the nodes below `top` depth first from *next on, and writes those of the top. Returns the
+   height. */
 static int place(Build *build, int top, int *next, int32_t *child) {
     if (top < 0) {
         Task *task = &build->top->tasks[~top];
@@ -350,8 +350,8 @@ static int place(Build *build, int top, int *next, int32_t *child) {
     return 1 + (left > right ? left : right);
 }
 
-/* The nodes take the place of the items, which need more room and are no longer needed: memory that
-   is new to the program takes longer to get than to fill. */
+/* The nodes reuse the memory of the items, which are larger and no longer needed: new memory takes
+   longer to get than to fill. */
 static HdStatus assemble(Build *build, HdHierarchy *hierarchy) {
     int32_t root;
     int count = 0;
@@ -359,7 +359,7 @@ static HdStatus assemble(Build *build, HdHierarchy *hierarchy) {
     build->memory = NULL;
     hierarchy->depth = place(build, build->root, &count, &root);
     hierarchy->node_count = count;
-    if (root < 0) { /* a leaf, which gets a root */
+    if (root < 0) { /* a leaf only: add a root */
         const HdBounds none = hd_bounds_empty(), *all = &build->top->tasks[0].group.box;
         hierarchy->node_count = hierarchy->depth = 1;
         hierarchy->nodes[0] =
@@ -367,9 +367,9 @@ static HdStatus assemble(Build *build, HdHierarchy *hierarchy) {
         return HD_OK;
     }
     const HdStatus status = run(build, build->task_count, copy_task);
-    HdBuildNode *less = realloc(hierarchy->nodes, (size_t)count * sizeof *less);
-    if (less != NULL)
-        hierarchy->nodes = less;
+    HdBuildNode *shrunk = realloc(hierarchy->nodes, (size_t)count * sizeof *shrunk);
+    if (shrunk != NULL)
+        hierarchy->nodes = shrunk;
     return status;
 }
 
@@ -378,7 +378,7 @@ static bool allocate(Build *build, HdHierarchy *hierarchy) {
     const size_t count = (size_t)build->count;
     build->memory = hd_large_allocate(2 * count * sizeof(HdItem));
     build->nodes = hd_large_allocate(count * sizeof *build->nodes);
-    build->top = malloc(sizeof *build->top); /* small pages: little of it is touched as a rule */
+    build->top = malloc(sizeof *build->top); /* small pages: usually little of it is touched */
     hierarchy->order = hd_large_allocate(count * sizeof *hierarchy->order);
     if (build->memory == NULL || build->nodes == NULL || build->top == NULL ||
         hierarchy->order == NULL)

@@ -9,8 +9,8 @@ HdBinning hd_binning_of(const HdGroup *group, HdLanes unit) {
     if (binning.count > HD_MAX_BINS)
         binning.count = HD_MAX_BINS;
     for (int axis = 0; axis < 3; axis++) {
-        /* Below that the scale would overflow. With a little less than the count, rounding never
-           takes the last centre beyond the last bin. */
+        /* A smaller width would overflow the scale. A factor slightly below the count keeps a
+           rounded last centre within the last bin. */
         const float width = group->centres.upper[axis] - group->centres.lower[axis];
         if (width > 0x1p-100F)
             binning.scale[axis] = (float)binning.count * 0.9999F / width;
@@ -49,8 +49,8 @@ void hd_bins_merge(HdBins *bins, const HdBinning *binning, const HdBins *other) 
     }
 }
 
-/* costs[i] becomes area times items of the bins from the first one to i, for each axis: NaN, where
-   there are none. With a `step` of -1 it goes down from the last one. */
+/* Sets costs[i] for each axis to area times items of the bins up to i, or, with a `step` of -1,
+   from i on. NaN: no items. */
 static void sum_bin_costs(HdLanes *costs, const HdBins *bins, const HdBinning *binning, int step) {
     const HdBounds none = hd_bounds_empty();
     HdBounds box[3] = {none, none, none};
@@ -106,8 +106,8 @@ static HdBranch leaf_of(const HdGroup *group, float area) {
                       area * (float)group->count};
 }
 
-/* The cheaper one: a leaf of all items, if they are few enough, in which case the node and what
-   came after it is dropped; or node `number` with two branches. */
+/* Returns the cheaper of a leaf, if its items are few enough, and node `number` with two branches.
+   Choosing the leaf drops that node and all after it. */
 static HdBranch join(HdSubtree *subtree, const HdGroup *group, int number, HdBranch left,
                      HdBranch right) {
     const HdHierarchyOptions *options = subtree->options;
@@ -148,8 +148,8 @@ static void halve(const HdSubtree *subtree, const HdGroup *group, HdGroup sides[
         bound(&sides[side], subtree->items, subtree->unit);
 }
 
-/* Stable. Every item is written to both sides, and only one of them goes on: which side it is
-   cannot be foretold, and a branch taken wrongly takes longer than a copy. */
+/* Partitions stably. Writes each item to both sides and advances one of them: a mispredicted branch
+   takes longer than a copy. */
 static void partition(const HdSubtree *subtree, const HdGroup *group, const HdBinning *binning,
                       const HdSplit *split, HdGroup sides[2]) {
     HdItem *items = subtree->items + group->first, *right = subtree->spare + group->first;
@@ -174,8 +174,8 @@ static void partition(const HdSubtree *subtree, const HdGroup *group, const HdBi
     sides[1].centres = centres[1];
 }
 
-/* Divides the group and returns the axis. A function of its own, so that the bins are not on the
-   stack once for each level. */
+/* Divides the group and returns the axis. A separate function keeps the bins off the stack of the
+   recursion. */
 static int divide(const HdSubtree *subtree, const HdGroup *group, HdGroup sides[2]) {
     sides[0].first = group->first;
     sides[0].depth = sides[1].depth = group->depth + 1;
@@ -194,8 +194,8 @@ static int divide(const HdSubtree *subtree, const HdGroup *group, HdGroup sides[
     return 0;
 }
 
-/* A few items, and their order along each axis. A range of places holds the same items on every
-   axis, so that a split reorders within its range only. */
+/* Few items, and their order along each axis. A range of places holds the same items on every axis,
+   so a split reorders within its range only. */
 typedef struct Sweep {
     HdSubtree *subtree;
     HdItem items[MAX_SWEPT];
@@ -203,7 +203,7 @@ typedef struct Sweep {
     uint8_t sorted[3][MAX_SWEPT];
 } Sweep;
 
-/* By insertion, so stable. */
+/* Sorts by insertion, which is stable. */
 static void sort(Sweep *sweep, int count, int axis) {
     uint8_t *sorted = sweep->sorted[axis];
     for (int i = 0; i < count; i++) {
@@ -215,8 +215,8 @@ static void sort(Sweep *sweep, int count, int axis) {
     }
 }
 
-/* costs[i] becomes area times items of the group's first i + 1 along each axis; with a `step` of -1
-   of the last ones, from the i-th on. */
+/* Sets costs[i] for each axis to area times items of the group's first i + 1, or, with a `step` of
+   -1, from the i-th on. */
 static void sum_costs(HdLanes *costs, const Sweep *sweep, int begin, int count, int step) {
     const HdBounds none = hd_bounds_empty();
     HdBounds box[3] = {none, none, none};
@@ -239,7 +239,7 @@ static HdBounds bound_range(const Sweep *sweep, const uint8_t *sorted, int count
     return box;
 }
 
-/* Puts the items of the first `left_count` places on `axis` first on the other axes too. */
+/* Moves the items of the first `left_count` places on `axis` to the front on the other axes too. */
 static void divide_sweep(Sweep *sweep, int begin, int count, int axis, int left_count) {
     bool is_left[MAX_SWEPT];
     for (int i = 0; i < count; i++)
@@ -259,7 +259,7 @@ static void divide_sweep(Sweep *sweep, int begin, int count, int axis, int left_
     }
 }
 
-/* Two items have one split only; the axis is the one that tells them apart best. */
+/* Returns the axis that separates two items best; they have one split only. */
 static int farthest_axis(const Sweep *sweep, int begin) {
     const float *a = sweep->centre[sweep->sorted[0][begin]];
     const float *b = sweep->centre[sweep->sorted[0][begin + 1]];
@@ -270,7 +270,7 @@ static int farthest_axis(const Sweep *sweep, int begin) {
     return farthest;
 }
 
-/* Whether the centres of all items are at one place on the axis. */
+/* Returns whether the centres of all items coincide on the axis. */
 static bool is_flat(const Sweep *sweep, int begin, int count, int axis) {
     const uint8_t *sorted = sweep->sorted[axis] + begin;
     return !(sweep->centre[sorted[0]][axis] < sweep->centre[sorted[count - 1]][axis]);
@@ -313,8 +313,7 @@ static HdBranch build_sweep(Sweep *sweep, const HdGroup *group, int begin) {
     return join(sweep->subtree, group, number, first, second);
 }
 
-/* As hd_subtree_build for at most MAX_SWEPT items, which are divided at the best of all places
-   between them. It does not look at the depth. */
+/* As hd_subtree_build for at most MAX_SWEPT items; tries all splits. Ignores the depth. */
 static HdBranch sweep_group(HdSubtree *subtree, const HdGroup *group) {
     HdItem *items = subtree->items + group->first;
     Sweep sweep;
@@ -333,7 +332,7 @@ static HdBranch sweep_group(HdSubtree *subtree, const HdGroup *group) {
 }
 
 HdBranch hd_subtree_build(HdSubtree *subtree, const HdGroup *group) {
-    /* A sweep of n items makes at most n - 1 nodes below each other. */
+    /* A sweep of n items nests at most n - 1 nodes. */
     if (group->count <= MAX_SWEPT && group->depth + group->count <= HD_MAX_HIERARCHY_DEPTH)
         return sweep_group(subtree, group);
     if (group->count == 1 || group->depth > HD_MAX_HIERARCHY_DEPTH)

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What a hierarchy is built from, boxes in vectors of four floats, which any compiler keeps in
-   registers; where items are divided; and how one thread builds a subtree. For
-   src/mesh/hierarchy*.c alone. */
+/* Data and functions of building a hierarchy: boxes in vectors of four floats, which compilers keep
+   in registers; choice of splits; subtrees, built by one thread. For src/mesh/hierarchy*.c only. */
 #ifndef HD_MESH_HIERARCHY_SUBTREE_H
 #define HD_MESH_HIERARCHY_SUBTREE_H
 
@@ -22,33 +21,33 @@ typedef union HdCorner {
     } parts;
 } HdCorner;
 
-/* The tag of `lower` is the item's number with the bits of HD_ITEM_TAG set: as a float it is then a
-   normal number, which costs no more than others where all lanes are computed with. */
+/* The tag of `lower` is the item's number with the bits of HD_ITEM_TAG set. Read as a float it is a
+   normal number, so arithmetic on all lanes is not slowed down. */
 typedef struct HdItem {
     HdCorner lower, upper;
 } HdItem;
 
 enum { HD_ITEM_TAG = 0x40000000 };
 
-/* The fourth lane is of no account. */
+/* The fourth lane is unused. */
 typedef struct HdBounds {
     HdLanes lower, upper;
 } HdBounds;
 
-/* Items that lie side by side, to become a leaf or a node at `depth` (the root's is 1). */
+/* Adjacent items that become a leaf or a node at `depth` (the root's is 1). */
 typedef struct HdGroup {
     int first, count, depth;
-    HdBounds box;     /* about their boxes */
-    HdBounds centres; /* about their centres, in the unit of hd_item_centre */
+    HdBounds box;     /* bounds of their boxes */
+    HdBounds centres; /* bounds of their centres, in the unit of hd_item_centre */
 } HdGroup;
 
-/* Where either is NaN the result is b. Written so that it becomes one instruction. */
-static inline HdLanes hd_lesser(HdLanes a, HdLanes b) {
+/* Returns b if either is NaN, so that it compiles to one instruction. */
+static inline HdLanes hd_min_lanes(HdLanes a, HdLanes b) {
     return (HdLanes){a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1],
                      a[2] < b[2] ? a[2] : b[2], a[3] < b[3] ? a[3] : b[3]};
 }
 
-static inline HdLanes hd_greater(HdLanes a, HdLanes b) {
+static inline HdLanes hd_max_lanes(HdLanes a, HdLanes b) {
     return (HdLanes){a[0] > b[0] ? a[0] : b[0], a[1] > b[1] ? a[1] : b[1],
                      a[2] > b[2] ? a[2] : b[2], a[3] > b[3] ? a[3] : b[3]};
 }
@@ -59,23 +58,22 @@ static inline HdBounds hd_bounds_empty(void) {
 }
 
 static inline void hd_bounds_add(HdBounds *bounds, HdLanes lower, HdLanes upper) {
-    bounds->lower = hd_lesser(lower, bounds->lower);
-    bounds->upper = hd_greater(upper, bounds->upper);
+    bounds->lower = hd_min_lanes(lower, bounds->lower);
+    bounds->upper = hd_max_lanes(upper, bounds->upper);
 }
 
 static inline void hd_bounds_merge(HdBounds *bounds, const HdBounds *other) {
     hd_bounds_add(bounds, other->lower, other->upper);
 }
 
-/* Twice the centre, times `unit`: a power of two by which no coordinate is above 1, so that nothing
-   overflows; 0 in the fourth lane. */
+/* Returns twice the centre times `unit`, a power of two that scales all coordinates to at most 1,
+   so that nothing overflows. The fourth lane is 0. */
 static inline HdLanes hd_item_centre(const HdItem *item, HdLanes unit) {
     return item->lower.lanes * unit + item->upper.lanes * unit;
 }
 
-/* Half the areas of three boxes in `unit`, one in each lane. The lengths of the edges count a
-   little, so that boxes without an area, in a line, or with one too small for a float, are still
-   told apart by their size. */
+/* Returns half the areas of three boxes in `unit`, one a lane. Edge lengths add a little: boxes in
+   a line or with an area too small for a float still differ in size. */
 static inline HdLanes hd_bounds_areas(const HdBounds boxes[3], HdLanes unit) {
     const HdLanes a = boxes[0].upper * unit - boxes[0].lower * unit;
     const HdLanes b = boxes[1].upper * unit - boxes[1].lower * unit;
@@ -92,7 +90,7 @@ static inline float hd_bounds_area(const HdBounds *bounds, HdLanes unit) {
     return x * (y + z) + y * z + 0x1p-40F * (x + y + z);
 }
 
-/* Of candidates on three axes the cheapest so far, and its place. */
+/* The cheapest candidate so far on each axis, and its place. */
 typedef struct HdBest {
     HdLanes cost;
     HdIntLanes place;
@@ -105,17 +103,17 @@ static inline HdBest hd_best_none(void) {
 /* NaN is never cheaper. */
 static inline void hd_best_offer(HdBest *best, HdLanes cost, int place) {
     const HdIntLanes cheaper = cost < best->cost;
-    best->cost = hd_lesser(cost, best->cost);
+    best->cost = hd_min_lanes(cost, best->cost);
     best->place = (cheaper & place) | (~cheaper & best->place);
 }
 
-/* The cheapest axis; -1: none. */
+/* Returns the cheapest axis; -1: none. */
 static inline int hd_best_axis(const HdBest *best) {
-    int least = best->cost[0] < INFINITY ? 0 : -1;
+    int cheapest = best->cost[0] < INFINITY ? 0 : -1;
     for (int axis = 1; axis < 3; axis++)
-        if (best->cost[axis] < (least < 0 ? INFINITY : best->cost[least]))
-            least = axis;
-    return least;
+        if (best->cost[axis] < (cheapest < 0 ? INFINITY : best->cost[cheapest]))
+            cheapest = axis;
+    return cheapest;
 }
 
 static inline HdBox hd_bounds_box(const HdBounds *bounds) {
@@ -123,68 +121,68 @@ static inline HdBox hd_bounds_box(const HdBounds *bounds) {
                    {bounds->upper[0], bounds->upper[1], bounds->upper[2]}};
 }
 
-/* ---- where to divide the items of a node, by the surface area heuristic ---- */
+/* ---- choice of a split, by the surface area heuristic ---- */
 
 enum { HD_MAX_BINS = 32 };
 
-/* The same slices of equal width on each axis, over the centres of a group. */
+/* Slices of equal width on each axis, over the centres of a group. */
 typedef struct HdBinning {
-    HdLanes unit, origin, scale; /* a scale of 0: all centres are at one place on that axis */
+    HdLanes unit, origin, scale; /* a scale of 0: all centres coincide on that axis */
     int count;
 } HdBinning;
 
-/* What falls into each slice, on each axis. */
+/* Contents of each slice on each axis. */
 typedef struct HdBins {
     HdBounds box[HD_MAX_BINS][3];
-    HdIntLanes count[HD_MAX_BINS]; /* lane for axis */
+    HdIntLanes count[HD_MAX_BINS]; /* one lane an axis */
 } HdBins;
 
-/* Items whose bin on `axis` is less than `bin` go left. */
+/* A split: items whose bin on `axis` is less than `bin` go left. */
 typedef struct HdSplit {
-    int axis; /* -1: all centres are at one place */
+    int axis; /* -1: all centres coincide */
     int bin, left_count;
-    HdBounds left, right; /* boxes about the items of the two sides */
+    HdBounds left, right; /* bounds of the items of the two sides */
 } HdSplit;
 
 HdBinning hd_binning_of(const HdGroup *group, HdLanes unit);
 
 static inline int hd_bin_on(const HdBinning *binning, const HdItem *item, int axis) {
-    const float unit = binning->unit[axis]; /* as hd_item_centre */
+    const float unit = binning->unit[axis]; /* same rounding as hd_item_centre */
     const float centre = item->lower.parts.xyz[axis] * unit + item->upper.parts.xyz[axis] * unit;
     return (int)((centre - binning->origin[axis]) * binning->scale[axis]);
 }
 
-/* Clears the first binning->count bins, adds items to them, adds other bins to them. */
+/* Clear the first binning->count bins; add items; add other bins. */
 void hd_bins_clear(HdBins *bins, const HdBinning *binning);
 void hd_bins_add(HdBins *bins, const HdBinning *binning, const HdItem *items, int count);
 void hd_bins_merge(HdBins *bins, const HdBinning *binning, const HdBins *other);
 
-/* The split of the least cost: the sum of area times items on both sides. */
+/* Returns the split with the least sum of area times items on both sides. */
 HdSplit hd_bins_choose(const HdBins *bins, const HdBinning *binning);
 
 /* ---- a subtree ---- */
 
-/* Where a subtree is built. */
+/* State of building a subtree. */
 typedef struct HdSubtree {
     const HdHierarchyOptions *options;
     HdLanes unit;
-    HdItem *items;      /* of all subtrees; put into the order of the leaves */
-    HdItem *spare;      /* as many, for work */
-    HdBuildNode *nodes; /* room for one less than the subtree's items, at least */
-    int node_count;     /* so far */
+    HdItem *items;      /* shared by all subtrees; sorted into the order of the leaves */
+    HdItem *spare;      /* work space of the same size */
+    HdBuildNode *nodes; /* capacity for at least the subtree's items less one */
+    int node_count;     /* nodes so far */
 } HdSubtree;
 
-/* What became of a group. */
+/* Result of building a group. */
 typedef struct HdBranch {
-    int32_t child; /* as in HdBuildNode, counted from the subtree's first node */
-    int height;    /* most nodes on a way down from here; 0: a leaf */
-    float cost;    /* of a ray that meets the box, times its area */
+    int32_t child; /* as in HdBuildNode, relative to the subtree's first node */
+    int height;    /* most nodes on a path down from here; 0: a leaf */
+    float cost;    /* cost of a ray that meets the box, times its area */
 } HdBranch;
 
-/* The cheapest of a leaf and the nodes below `group`. */
+/* Builds the cheapest of a leaf and the nodes below `group`. */
 HdBranch hd_subtree_build(HdSubtree *subtree, const HdGroup *group);
 
-/* Whether a group must be halved, because its leaves would come too deep otherwise. */
+/* Returns whether a group must be halved to limit the depth of its leaves. */
 bool hd_group_is_deep(const HdGroup *group, const HdHierarchyOptions *options);
 
 #endif

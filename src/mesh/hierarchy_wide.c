@@ -9,16 +9,16 @@
 
 enum { MAX_WIDTH = 16 };
 
-/* A wide node waits for at most width - 1 others on each level above its own. */
+/* Each ancestor of a wide node leaves at most width - 1 others waiting. */
 enum { MAX_WAITING = HD_MAX_HIERARCHY_DEPTH * (MAX_WIDTH - 1) + 1 };
 
-/* A node of the binary hierarchy that becomes a wide one. */
+/* A node of the binary hierarchy that becomes a wide node. */
 typedef struct Waiting {
     int node, depth;
 } Waiting;
 
-/* Until all wide nodes are known, a child is the place where the binary hierarchy has it: twice the
-   number of the parent, and 1 more for the second child. */
+/* Until all wide nodes are known, a child is its place in the binary hierarchy: twice the parent's
+   number, plus 1 for the second child. */
 enum { MISSING = -1 };
 
 static const HdBox *box_at(const HdHierarchy *hierarchy, int place) {
@@ -36,14 +36,14 @@ static double half_area(const HdBox *box) {
     return x * (y + z) + y * z;
 }
 
-/* The places of one wide node's children, in the order of their items. */
+/* Places of a wide node's children, in the order of their items. */
 typedef struct Children {
     int count;
     int32_t places[MAX_WIDTH];
-    double areas[MAX_WIDTH]; /* negative: it cannot be opened */
+    double areas[MAX_WIDTH]; /* negative: a leaf */
 } Children;
 
-/* Puts the children of `node` where it has been, at `at`. */
+/* Replaces `node`, at index `at`, by its two children. */
 static void open_node(Children *children, int at, const HdHierarchy *hierarchy, int node) {
     for (int i = children->count++; i > at + 1; i--) {
         children->places[i] = children->places[i - 1];
@@ -77,7 +77,7 @@ static Children gather(const HdHierarchy *hierarchy, int node, int width) {
     return children;
 }
 
-/* Decides on all wide nodes, depth first. */
+/* Chooses all wide nodes, depth first. */
 static void merge(HdWideHierarchy *wide, const HdHierarchy *hierarchy) {
     Waiting waiting[MAX_WAITING];
     int waiting_count = 0;
@@ -99,7 +99,7 @@ static void merge(HdWideHierarchy *wide, const HdHierarchy *hierarchy) {
     }
 }
 
-/* Puts boxes and numbers where the places are. */
+/* Replaces places by boxes and node numbers. */
 static void fill_node(HdWideHierarchy *wide, const HdHierarchy *hierarchy, int number) {
     const int width = wide->width;
     float *bounds = wide->bounds + (size_t)number * 6 * (size_t)width;
@@ -120,19 +120,19 @@ static void fill_node(HdWideHierarchy *wide, const HdHierarchy *hierarchy, int n
 }
 
 static bool widen(HdWideHierarchy *wide, const HdHierarchy *hierarchy) {
-    const size_t width = (size_t)wide->width, most = (size_t)hierarchy->node_count;
-    wide->root_of = hd_large_allocate(most * sizeof *wide->root_of);
-    /* For a few times as many nodes as there will be; memory that is not touched is not taken. */
-    wide->child = hd_large_allocate(most * width * sizeof *wide->child);
+    const size_t width = (size_t)wide->width, max_nodes = (size_t)hierarchy->node_count;
+    wide->root_of = hd_large_allocate(max_nodes * sizeof *wide->root_of);
+    /* A few times as many nodes as needed; untouched memory costs nothing. */
+    wide->child = hd_large_allocate(max_nodes * width * sizeof *wide->child);
     if (wide->root_of == NULL || wide->child == NULL)
         return false;
     for (int i = 0; i < hierarchy->node_count; i++)
         wide->root_of[i] = -1;
     merge(wide, hierarchy);
     const size_t count = (size_t)wide->node_count;
-    int32_t *less = realloc(wide->child, count * width * sizeof *less);
-    if (less != NULL)
-        wide->child = less;
+    int32_t *shrunk = realloc(wide->child, count * width * sizeof *shrunk);
+    if (shrunk != NULL)
+        wide->child = shrunk;
     wide->bounds = hd_large_allocate(count * 6 * width * sizeof *wide->bounds);
     if (wide->bounds == NULL)
         return false;

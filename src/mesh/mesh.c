@@ -15,8 +15,8 @@ bool hd_mesh_allocate(HdMesh *mesh, size_t vertices, size_t triangles) {
            mesh->group_of != NULL;
 }
 
-/* Whether two corners are at one place, or the height over the longest side is within what
-   coordinates of this size are rounded by: rounding may then have made any area that there is. */
+/* Returns whether two corners coincide, or the height over the longest side is within the rounding
+   of such coordinates. Rounding may then have made any area. */
 static bool is_degenerate(const HdMesh *mesh, int triangle) {
     const int32_t *corners = mesh->corners[triangle];
     const HdVec3 a = mesh->vertices[corners[0]], b = mesh->vertices[corners[1]],
@@ -62,17 +62,17 @@ static void find_box(const HdMesh *mesh, HdVec3 *lower, HdVec3 *upper) {
         }
 }
 
-/* Relative costs of a node and a triangle, measured with packets of 16 rays. */
+/* Costs of a node relative to a triangle, measured with packets of 16 rays. */
 static const HdHierarchyOptions tree_options = {.node_cost = 1.0f, .max_in_leaf = 8};
 
-/* The float below a number, never denormal, which many processors multiply a hundred times as
-   slowly. */
+/* Returns the float below a number, never denormal: many processors multiply those a hundred times
+   as slowly. */
 static float below(float number) {
     float next = nextafterf(number, -FLT_MAX);
     return fabsf(next) < FLT_MIN ? -FLT_MIN : next;
 }
 
-/* Kernels store a corner in float or in double: the box holds it either way. */
+/* Kernels store corners in float or double; the box contains either. */
 static HdBox box_of(const HdMesh *mesh, int triangle, HdVec3 middle, double scale) {
     HdBox box = {{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
     for (int k = 0; k < 3; k++) {

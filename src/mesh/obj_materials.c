@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The materials of an OBJ file, from the material libraries (MTL) that it names. */
+/* Reads the materials of an OBJ file from the material libraries (MTL) that it names. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,14 +10,14 @@
 
 enum { NO_ILLUM = -1, MAX_ILLUM = 10, MAX_NOTED = 32, MAX_LIBRARIES = 64 };
 
-/* The parameters that count, named as in the file. */
+/* Supported parameters, named as in the file. */
 typedef struct Parameters {
     float Ka[3], Kd[3], Ks[3], Ke[3], Tf[3];
     float Ns, Ni, d;
     int illum; /* or NO_ILLUM */
 } Parameters;
 
-/* A material without any: white and opaque. */
+/* A material without parameters: white and opaque. */
 static const Parameters defaults = {.Kd = {1.0f, 1.0f, 1.0f},
                                     .Tf = {1.0f, 1.0f, 1.0f},
                                     .Ns = 64.0f,
@@ -32,40 +32,40 @@ typedef struct Definition {
 } Definition;
 
 typedef struct Libraries {
-    const char *path; /* of the mesh */
+    const char *path; /* path of the mesh */
     HdObjMemory *memory;
     HdProblems *notes;
-    const HdNameTable *materials; /* that the mesh names */
-    Definition *definitions;      /* of each */
-    int32_t *order; /* numbers of those that are defined, in the order of the libraries */
+    const HdNameTable *materials; /* names used by the mesh */
+    Definition *definitions;      /* one for each material */
+    int32_t *order;               /* numbers of the defined ones, in the order of the libraries */
     int defined_count;
-    const char *names[MAX_LIBRARIES]; /* of those that were asked for */
+    const char *names[MAX_LIBRARIES]; /* names of the libraries requested */
     int count;
 } Libraries;
 
-/* Of one library, statement by statement: each is checked and kept in one go. */
+/* Reads one library; checks and stores each statement at once. */
 typedef struct Reader {
     Libraries *libraries;
     const char *path;
-    HdSpan folder; /* which its names count from, below the mesh's: empty, or with a slash at its
-                      end */
+    HdSpan folder; /* folder of its texture names, below the mesh's: empty, or with a final slash */
     size_t line;
     bool is_in_material;
     bool has_dissolve;       /* the material has d, so Tr does not count */
-    Definition *material;    /* which is being defined; */
-    Definition unused;       /* this one, where it is not wanted */
-    HdSpan noted[MAX_NOTED]; /* statements whose first use has been told */
+    Definition *material;    /* the one being defined; */
+    Definition unused;       /* the target if it is not wanted */
+    HdSpan noted[MAX_NOTED]; /* statements reported already */
     int noted_count;
 } Reader;
 
-/* ---- materials as ours ---- */
+/* ---- conversion of materials ---- */
 
 typedef struct Notes {
     const char *place;
     HdProblems *problems;
 } Notes;
 
-static double within(const Notes *notes, const char *name, double value, double low, double high) {
+static double clamp_noted(const Notes *notes, const char *name, double value, double low,
+                          double high) {
     const double legal = value < low ? low : value > high ? high : value;
     if (legal != value)
         hd_problem(notes->problems, "%s: %s is %.9g, expected %.15g to %.15g, and becomes %.15g",
@@ -74,9 +74,9 @@ static double within(const Notes *notes, const char *name, double value, double 
 }
 
 static HdVec3 colour(const Notes *notes, const char *name, const float from[3], double high) {
-    return hd_vec3(within(notes, name, (double)from[0], 0.0, high),
-                   within(notes, name, (double)from[1], 0.0, high),
-                   within(notes, name, (double)from[2], 0.0, high));
+    return hd_vec3(clamp_noted(notes, name, (double)from[0], 0.0, high),
+                   clamp_noted(notes, name, (double)from[1], 0.0, high),
+                   clamp_noted(notes, name, (double)from[2], 0.0, high));
 }
 
 static double largest(HdVec3 a) {
@@ -87,7 +87,7 @@ static double mean(HdVec3 a) {
     return (a.x + a.y + a.z) / 3.0;
 }
 
-/* The colour alone of what has a strength too; white where there is none. */
+/* Returns the colour without its strength; white for black. */
 static HdVec3 tint_of(HdVec3 a) {
     return largest(a) > 0.0 ? hd_scale(a, 1.0 / largest(a)) : hd_vec3(1.0, 1.0, 1.0);
 }
@@ -96,19 +96,19 @@ static bool refracts(int illum) {
     return illum == 6 || illum == 7;
 }
 
-/* What of the light passes: what d leaves, or, where light is refracted and d says nothing, Tf. */
+/* Returns the transmitted share: 1 - d, or Tf if light is refracted and d is 1. */
 static double transmission_of(const Notes *notes, const Parameters *from, HdVec3 filter) {
-    const double passing = 1.0 - within(notes, "d", (double)from->d, 0.0, 1.0);
+    const double passing = 1.0 - clamp_noted(notes, "d", (double)from->d, 0.0, 1.0);
     return passing > 0.0 || !refracts(from->illum) ? passing : largest(filter);
 }
 
-/* Where more would go on than came, both shares shrink alike. */
+/* Scales both shares if together they exceed 1. */
 static void limit_shares(const Notes *notes, HdMaterial *material) {
     const double sum = material->reflection + material->transmission;
     if (sum <= 1.0)
         return;
     hd_problem(notes->problems,
-               "%s: Ks makes it reflect %.6g and d or Tf lets %.6g pass, expected at most 1 "
+               "%s: Ks reflects %.6g and d or Tf transmits %.6g, expected at most 1 "
                "together, and both are divided by %.6g",
                notes->place, material->reflection, material->transmission, sum);
     material->reflection /= sum;
@@ -118,19 +118,19 @@ static void limit_shares(const Notes *notes, HdMaterial *material) {
 static int shininess_of(const Notes *notes, const Parameters *from, double specular) {
     if (specular == 0.0)
         return (int)(fmin(fmax((double)from->Ns, 1.0), HD_MAX_SHININESS) + 0.5);
-    return (int)(within(notes, "Ns", (double)from->Ns, 1.0, HD_MAX_SHININESS) + 0.5);
+    return (int)(clamp_noted(notes, "Ns", (double)from->Ns, 1.0, HD_MAX_SHININESS) + 0.5);
 }
 
-/* Only where the file does not say that light goes straight on. */
+/* Returns Ni if light may be refracted, otherwise 1. */
 static double index_of(const Notes *notes, const Parameters *from, double transmission) {
     if (transmission == 0.0 || !(refracts(from->illum) || from->illum == NO_ILLUM))
         return 1.0;
-    return within(notes, "Ni", (double)from->Ni, HD_MIN_INDEX_OF_REFRACTION,
-                  HD_MAX_INDEX_OF_REFRACTION);
+    return clamp_noted(notes, "Ni", (double)from->Ni, HD_MIN_INDEX_OF_REFRACTION,
+                       HD_MAX_INDEX_OF_REFRACTION);
 }
 
-/* Fills all of `material` but its name and its texture, by the table in docs/reference/files.md,
-   and notes values that it had to change to be legal. */
+/* Fills `material`, except name and texture, by the table in docs/reference/files.md, and notes
+   values made legal. */
 static void make_material(const Parameters *from, HdMeshMaterial *material, const Notes *notes) {
     const HdVec3 diffuse = colour(notes, "Kd", from->Kd, 1.0);
     const HdVec3 specular = colour(notes, "Ks", from->Ks, 1.0);
@@ -142,7 +142,8 @@ static void make_material(const Parameters *from, HdMeshMaterial *material, cons
     to->diffuse = 1.0 - passing;
     to->transmission = passing;
     if (passing > 0.0 && largest(diffuse) == 0.0) {
-        /* Glass is often black but for its filter, and our one colour tints what passes too. */
+        /* Glass is often black except for its filter, and one colour tints transmitted light
+           too. */
         to->colour = tint_of(filter);
         to->diffuse = 0.0;
     }
@@ -164,13 +165,13 @@ static bool is_separator(char c) {
     return c == '/' || c == '\\';
 }
 
-/* What the name of a file should have been to stay in the folder that it counts from or below it.
-   Backslashes count as slashes. NULL: it does. */
+/* Returns the expected form of a file name, which must stay in its base folder or below; NULL: it
+   does. Backslashes count as slashes. */
 static const char *file_name_fault(HdSpan name) {
     if (hd_name_fault(name) != NULL)
         return hd_name_fault(name);
     if (is_separator(*name.begin) || (name.end - name.begin > 1 && name.begin[1] == ':'))
-        return "a name that counts from this file's folder";
+        return "a name relative to this file's folder";
     for (const char *at = name.begin; at < name.end;) {
         const char *end = at;
         while (end < name.end && !is_separator(*end))
@@ -188,7 +189,7 @@ static void fix_separators(char *name) {
             *name = '/';
 }
 
-/* The parts one after the other, free()'s. NULL: the memory does not suffice. */
+/* Joins the parts; free() releases the result. NULL: out of memory. */
 static char *join(HdObjMemory *memory, const HdSpan parts[3]) {
     size_t size = 0;
     for (int i = 0; i < 3; i++)
@@ -201,7 +202,7 @@ static char *join(HdObjMemory *memory, const HdSpan parts[3]) {
     return joined;
 }
 
-/* The folder of the path with its last slash, or nothing. */
+/* Returns the folder of the path with its last slash, or nothing. */
 static HdSpan folder_of(const char *path) {
     const char *slash = strrchr(path, '/');
     return (HdSpan){path, slash != NULL ? slash + 1 : path};
@@ -213,7 +214,7 @@ static HdSpan folder_of(const char *path) {
     hd_problem((reader)->libraries->notes, "%s: line %zu: " format, (reader)->path,                \
                (reader)->line, __VA_ARGS__)
 
-/* Of two materials with one name the first counts. */
+/* Returns the target of a definition; of two materials with one name the first counts. */
 static Definition *define(Reader *reader, HdSpan name) {
     Libraries *libraries = reader->libraries;
     const int number = hd_name_table_find(libraries->materials, name);
@@ -235,7 +236,7 @@ static void start_material(Reader *reader, HdSpan line) {
         reader->material = define(reader, name);
 }
 
-/* Reads up to `most` numbers, at least one. 0, after a note: they are not all right. */
+/* Reads up to `most` numbers, at least one. Returns 0, after a note, if one is wrong. */
 static int read_numbers(Reader *reader, HdSpan keyword, HdSpan line, int most, double *values) {
     for (int i = 0; i < most; i++) {
         const HdSpan word = hd_next_word(&line);
@@ -262,7 +263,7 @@ static void keep_numbers(Reader *reader, HdSpan keyword, HdSpan line, float *to,
     reader->has_dissolve |= hd_span_is(keyword, "d");
 }
 
-/* In millionths, so that 1 - 0.9 is 0.1. */
+/* Rounds to millionths, so that 1 - 0.9 is 0.1. */
 static void keep_transparency(Reader *reader, HdSpan keyword, HdSpan line) {
     double value;
     if (read_numbers(reader, keyword, line, 1, &value) == 0 || reader->has_dissolve)
@@ -270,7 +271,7 @@ static void keep_transparency(Reader *reader, HdSpan keyword, HdSpan line) {
     const double opacity = value < 0.0 ? 1.0 : value > 1.0 ? 0.0 : 1.0 - value;
     reader->material->parameters.d = (float)((int)(opacity * 1e6 + 0.5) / 1e6);
     if (value < 0.0 || value > 1.0)
-        note(reader, "Tr is %.9g, expected 0 to 1, and is taken for the nearer of them", value);
+        note(reader, "Tr is %.9g, expected 0 to 1; the nearer of them is used", value);
 }
 
 static void keep_illum(Reader *reader, HdSpan line) {
@@ -284,8 +285,8 @@ static void keep_illum(Reader *reader, HdSpan line) {
         reader->material->parameters.illum = (int)value;
 }
 
-/* The last one counts. Where the mesh has no folder its own is named all the same, so that a name
-   below is taken for nothing but a file's. */
+/* Sets the texture; the last one counts. Prefixes "./" if the mesh has no folder, so that a later
+   name can only be a file's. */
 static void set_texture(Reader *reader, HdSpan name) {
     HdSpan folder = folder_of(reader->libraries->path);
     if (folder.begin == folder.end)
@@ -309,7 +310,7 @@ static void keep_texture(Reader *reader, HdSpan line) {
         set_texture(reader, name);
 }
 
-static void leave_out(Reader *reader, HdSpan keyword) {
+static void note_unused(Reader *reader, HdSpan keyword) {
     const size_t size = hd_span_size(keyword);
     for (int i = 0; i < reader->noted_count; i++)
         if (hd_span_size(reader->noted[i]) == size &&
@@ -324,7 +325,7 @@ static void leave_out(Reader *reader, HdSpan keyword) {
         note(reader, "%s", "it has no statement of a material library");
 }
 
-static void take_statement(Reader *reader, HdSpan keyword, HdSpan line) {
+static void read_statement(Reader *reader, HdSpan keyword, HdSpan line) {
     Parameters *to = &reader->material->parameters;
     const struct {
         const char *keyword;
@@ -344,7 +345,7 @@ static void take_statement(Reader *reader, HdSpan keyword, HdSpan line) {
     else if (hd_span_is(keyword, "map_Kd"))
         keep_texture(reader, line);
     else
-        leave_out(reader, keyword);
+        note_unused(reader, keyword);
 }
 
 static void take_line(Reader *reader, HdSpan line) {
@@ -354,11 +355,11 @@ static void take_line(Reader *reader, HdSpan line) {
     if (hd_span_is(keyword, "newmtl"))
         start_material(reader, line);
     else if (reader->is_in_material)
-        take_statement(reader, keyword, line);
+        read_statement(reader, keyword, line);
 }
 
-/* Takes a line that ends in "\n", "\r\n" or "\r", or at the text's end. */
-static HdSpan take_next_line(HdSpan *text) {
+/* Takes a line up to "\n", "\r\n", "\r" or the end of the text. */
+static HdSpan next_line(HdSpan *text) {
     const char *at = text->begin;
     while (at < text->end && *at != '\n' && *at != '\r')
         at++;
@@ -369,23 +370,22 @@ static HdSpan take_next_line(HdSpan *text) {
     return line;
 }
 
-/* Takes the definitions of materials that the mesh names and that are not defined yet, with all
-   parameters that they do not give as in `defaults`; Tr becomes d. What is left out is told, each
-   kind of statement once. */
+/* Reads the first definitions of materials that the mesh names; missing parameters are as in
+   `defaults`, and Tr becomes d. Notes each kind of unused statement once. */
 static void read_definitions(Reader *reader, HdSpan text) {
     if (memchr(text.begin, '\0', (size_t)(text.end - text.begin)) != NULL) {
-        hd_problem(reader->libraries->notes, "%s: it has bytes 0, so this is no material library",
+        hd_problem(reader->libraries->notes, "%s: it has a NUL byte, so it is no material library",
                    reader->path);
         return;
     }
     for (; text.begin < text.end; reader->line++)
-        take_line(reader, take_next_line(&text));
+        take_line(reader, next_line(&text));
 }
 
 /* ---- libraries ---- */
 
-/* Whether the library is to be read, now and never again. */
-static bool admit(Libraries *libraries, const char *name) {
+/* Returns whether to read the library; true only once for each. */
+static bool should_read(Libraries *libraries, const char *name) {
     const HdSpan span = hd_span_of(name);
     const char *fault = file_name_fault(span);
     for (int i = 0; i < libraries->count; i++)
@@ -407,7 +407,7 @@ static void read_file(Libraries *libraries, const char *path, const char *name) 
     size_t size;
     HdError problem;
     HdObjMemory *memory = libraries->memory;
-    const size_t capacity = memory->most - memory->used;
+    const size_t capacity = memory->max_bytes - memory->used;
     const int64_t most = capacity < INT32_MAX ? (int64_t)capacity : INT32_MAX;
     if (hd_file_read(path, "material library", most, &bytes, &size, &problem) != HD_OK) {
         hd_problem(libraries->notes, "%s: %s", libraries->path, problem.message);
@@ -420,12 +420,12 @@ static void read_file(Libraries *libraries, const char *path, const char *name) 
     hd_obj_release(memory, bytes, size);
 }
 
-/* Reads libraries whose names, each with a zero byte, are the `size` bytes at `names`. */
+/* Reads the libraries named in the `size` bytes at `names`, each name zero-terminated. */
 static void read_libraries(Libraries *libraries, char *names, size_t size) {
     for (size_t next = 0; next < size; next += strlen(names + next) + 1) {
         char *name = names + next;
         fix_separators(name);
-        if (!admit(libraries, name))
+        if (!should_read(libraries, name))
             continue;
         char *path = join(libraries->memory, (const HdSpan[3]){folder_of(libraries->path),
                                                                hd_span_of(name), hd_span_of("")});
@@ -436,7 +436,7 @@ static void read_libraries(Libraries *libraries, char *names, size_t size) {
     }
 }
 
-/* What has no definition is as if it had one that says nothing. */
+/* A material without a definition gets the default parameters. */
 static void define_materials(const Libraries *libraries, HdMesh *mesh) {
     char place[256];
     for (int i = 0; i < mesh->material_count; i++)
@@ -462,13 +462,13 @@ static void note_undefined(const Libraries *libraries, const HdMesh *mesh) {
         first++;
     const char *name = mesh->materials[first].name;
     if (mesh->material_count == 1 && strcmp(name, HD_OBJ_NO_MATERIAL) == 0)
-        return; /* the file wants none */
+        return; /* the file names no material */
     hd_problem(libraries->notes,
-               "%s: no material library has '%.80s'%s, so the default look is taken: white, opaque",
+               "%s: no material library defines '%.80s'%s, so the default applies: white, opaque",
                libraries->path, name, count > 1 ? " and others that faces name" : "");
 }
 
-/* The names become the mesh's. */
+/* Moves the names to the mesh. */
 static bool name_materials(HdNameTable *names, HdObjMemory *memory, HdMesh *mesh) {
     mesh->materials = hd_obj_allocate(memory, (size_t)names->count, sizeof *mesh->materials);
     if (mesh->materials == NULL)

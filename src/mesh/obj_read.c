@@ -12,27 +12,26 @@
 
 _Static_assert(sizeof(HdVec3) == 3 * sizeof(double), "three numbers of the text are a vector");
 
-/* An array that grows. */
+/* A growing array. */
 typedef struct Row {
     void *data; /* owned */
     size_t count, capacity;
 } Row;
 
-/* What corners of faces refer to by number. */
+/* Elements that corners of faces name by number. */
 typedef enum Kind { VERTEX, UV, NORMAL, KIND_COUNT } Kind;
 
 typedef struct Elements {
-    Row row;         /* of 3 doubles for vertices and normals and 2 for texture coordinates, rounded
-                        to float */
-    int64_t highest; /* the number, from 1, that a face names; 0: none */
+    Row row; /* 3 doubles for vertices and normals, 2 for texture coordinates, rounded to float */
+    int64_t highest; /* highest number named by a face, from 1; 0: none */
     size_t line_of_highest;
 } Elements;
 
 typedef struct Face {
-    int32_t corner_count, material; /* a number of `names` */
+    int32_t corner_count, material; /* index into `names` */
 } Face;
 
-/* Numbers of elements from 0; -1: none. */
+/* Indices of elements from 0; -1: none. */
 typedef struct Corner {
     int32_t element[KIND_COUNT];
 } Corner;
@@ -45,20 +44,20 @@ typedef struct Text {
 
     Elements elements[KIND_COUNT];
     Row faces;
-    Row corners; /* of one face after the other */
+    Row corners; /* corners of the faces, in order */
     int64_t triangle_count;
-    int32_t max_corners; /* of a face */
-    HdNameTable names;   /* of materials */
-    Row libraries;       /* the bytes of their names as the file has them, each with a zero byte */
+    int32_t max_corners; /* maximum of a face */
+    HdNameTable names;   /* names of materials */
+    Row libraries;       /* zero-terminated names, as in the file */
 
-    HdStatus status;  /* of the reading so far */
-    int32_t material; /* -1: none has been named */
-    bool has_left_out;
+    HdStatus status;  /* result of reading so far */
+    int32_t material; /* -1: none named yet */
+    bool has_noted_unused;
     FILE *file;
-    char *buffer; /* of what comes next in the file, */
+    char *buffer; /* bytes of the file not yet read; */
     const char *next, *end;
-    char *line;         /* the one that was taken last, with those that continue it */
-    size_t line_number; /* where it begins */
+    char *line;         /* the current line with its continuations */
+    size_t line_number; /* number of its first line */
     size_t lines_read;
 } Text;
 
@@ -69,13 +68,13 @@ enum { BUFFER_SIZE = 1 << 17, TEXT_SIZE = 2 * HD_OBJ_MAX_LINE + 1 };
 static HdStatus fail_memory(const Text *text) {
     if (text->memory->is_over)
         return hd_fail(text->error, HD_BAD_INPUT,
-                       "%s: reading it takes more than the %zu bytes of memory that it may take",
-                       text->path, text->memory->most);
+                       "%s: reading it needs more than the %zu bytes of memory allowed", text->path,
+                       text->memory->max_bytes);
     return hd_fail(text->error, HD_FAILED, "out of memory: no room to read the mesh %s",
                    text->path);
 }
 
-/* These set `status` and the error, and return false. */
+/* Set `status` and the error, and return false. */
 static bool fail_reading(Text *text, const char *reason) {
     text->status =
         hd_fail(text->error, HD_BAD_INPUT, "cannot read the mesh %s: %s", text->path, reason);
@@ -87,7 +86,7 @@ static bool fail_allocation(Text *text) {
     return false;
 }
 
-/* Puts copies of `count` elements of `size` bytes behind those of the row. */
+/* Appends copies of `count` elements of `size` bytes to the row. */
 static inline bool append(Text *text, Row *row, size_t size, size_t count, const void *elements) {
     if (count > row->capacity - row->count) {
         const size_t capacity = row->capacity + row->capacity / 2 + count + 16;
@@ -158,9 +157,8 @@ static bool is_comment(const char *line, size_t length) {
     return span.begin < span.end && *span.begin == '#';
 }
 
-/* Takes the bytes of a line, with which `line` is filled up to a byte more than it may have;
-   returns how many it has there. */
-static size_t take_bytes(Text *text, char *line) {
+/* Copies the bytes of a line, at most one more than allowed, to `line`; returns how many. */
+static size_t copy_line_bytes(Text *text, char *line) {
     size_t length = 0;
     const char *at;
     do {
@@ -174,14 +172,12 @@ static size_t take_bytes(Text *text, char *line) {
     return length;
 }
 
-/* Takes a line of the file up to "\n", "\r\n" or, as old files have it, "\r", and puts it behind
-   the
-   `*used` bytes of those that it continues, but nothing of a comment. False: there is none, or
-   something is wrong. */
+/* Appends a line, up to "\n", "\r\n" or an old "\r", to the `*used` bytes that it continues; drops
+   comments. Returns false at the end of the file or on an error. */
 static bool join_line(Text *text, size_t *used) {
     const bool is_there = has_next(text);
     text->lines_read += is_there;
-    size_t length = take_bytes(text, text->line + *used);
+    size_t length = copy_line_bytes(text, text->line + *used);
     if (ferror(text->file))
         return fail_reading(text, strerror(errno));
     if (is_comment(text->line + *used, length))
@@ -190,18 +186,18 @@ static bool join_line(Text *text, size_t *used) {
     if (length > HD_OBJ_MAX_LINE)
         return fail_at(text, text->lines_read, "it is longer than %d bytes", HD_OBJ_MAX_LINE);
     if (*used > HD_OBJ_MAX_LINE)
-        return fail_at(text, text->line_number,
-                       "with those that continue it, it is longer than %d bytes", HD_OBJ_MAX_LINE);
+        return fail_at(text, text->line_number, "with its continuations it is longer than %d bytes",
+                       HD_OBJ_MAX_LINE);
     const char end = has_next(text) ? *text->next++ : '\n';
     if (end == '\0')
-        return fail_at(text, text->lines_read, "it has a byte 0, so this is no OBJ file");
+        return fail_at(text, text->lines_read, "it has a NUL byte, so it is no OBJ file");
     if (end == '\r' && has_next(text) && *text->next == '\n')
         text->next++;
     return is_there;
 }
 
-/* Takes the next line, which lasts until another is taken: without its end, and of a comment
-   nothing. False: there is none, or something is wrong. */
+/* Reads the next line without its end and comments; it is valid until the next call. Returns false
+   at the end of the file or on an error. */
 static bool next_line(Text *text, HdSpan *line) {
     size_t used = 0;
     text->line_number = text->lines_read + 1;
@@ -217,44 +213,43 @@ static bool next_line(Text *text, HdSpan *line) {
 /* ---- statements ---- */
 
 enum {
-    MAX_DIGITS = 9, /* of a number of an element; ten might leave the range of int32_t */
-    MAX_ELEMENTS = 322 * 1000 * 1000 /* of a kind */
+    MAX_DIGITS = 9,                  /* of an element's number; ten might overflow int32_t */
+    MAX_ELEMENTS = 322 * 1000 * 1000 /* maximum of a kind */
 };
 
 static const struct {
     const char *name, *plural;
-    int least, most; /* numbers that it has */
+    int min_numbers, max_numbers; /* numbers of an element */
 } kinds[KIND_COUNT] = {{"vertex", "vertices", 3, 3},
                        {"texture coordinate", "texture coordinates", 1, 2},
                        {"normal", "normals", 3, 3}};
 
-/* Statements that change nothing here, or that the file can do without. */
+/* Statements that have no effect here, or that can be ignored. */
 static const char *const harmless[] = {"o",   "g",     "s",        "usemap",  "maplib",
                                        "lod", "bevel", "c_interp", "d_interp"};
 
 #define fail_line(text, ...) fail_at(text, (text)->line_number, __VA_ARGS__)
 
-/* The words of a file that neither by its name nor by what it has said is an OBJ are nobody's
-   business. */
+/* Hides words of a file that is no OBJ by its name or contents: they may be confidential. */
 static HdSpan quoted(const Text *text, HdSpan word) {
     const bool is_obj =
         text->elements[VERTEX].row.count > 0 || hd_path_has_ending(text->path, ".obj");
     return is_obj ? word : hd_span_of("...");
 }
 
-/* For "%.*s". */
+/* Arguments for "%.*s". */
 #define shown(text, word) hd_span_shown(quoted(text, word)), quoted(text, word).begin
 
 static bool is_statement_end(HdSpan word) {
     return word.begin == word.end || *word.begin == '#';
 }
 
-/* Numbers beyond those that are kept are for others; those that may be missing are 0. */
+/* Ignores further numbers; optional numbers that are missing are 0. */
 static bool keep_numbers(Text *text, Kind kind, HdSpan line) {
     double numbers[3] = {0.0, 0.0, 0.0};
-    for (int i = 0; i < kinds[kind].most; i++) {
+    for (int i = 0; i < kinds[kind].max_numbers; i++) {
         const HdSpan word = hd_next_word(&line);
-        if (i >= kinds[kind].least && is_statement_end(word))
+        if (i >= kinds[kind].min_numbers && is_statement_end(word))
             break;
         const char *fault = hd_number_fault(word, &numbers[i]);
         if (fault != NULL)
@@ -265,10 +260,11 @@ static bool keep_numbers(Text *text, Kind kind, HdSpan line) {
     Row *row = &text->elements[kind].row;
     if (row->count == MAX_ELEMENTS)
         return fail_line(text, "there are more than %d %s", (int)MAX_ELEMENTS, kinds[kind].plural);
-    return append(text, row, (size_t)kinds[kind].most * sizeof *numbers, 1, numbers);
+    return append(text, row, (size_t)kinds[kind].max_numbers * sizeof *numbers, 1, numbers);
 }
 
-/* Reads "-12" or "12"; without digits, `*number` is 0. NULL: too many digits. */
+/* Reads "-12" or "12"; without digits, `*number` is 0. Returns NULL if there are too many
+   digits. */
 static const char *read_index(const char *at, const char *end, bool *has_digits, int64_t *number) {
     const bool is_negative = at < end && *at == '-';
     int64_t value = 0;
@@ -285,7 +281,7 @@ static const char *read_index(const char *at, const char *end, bool *has_digits,
     return is_negative && digits == 0 ? NULL : at;
 }
 
-/* Positive numbers may name what comes later; the highest is looked at again at the end. */
+/* Positive numbers may name later elements; `finish` checks the highest. */
 static bool keep_index(Text *text, Kind kind, int64_t number, HdSpan word, Corner *corner) {
     Elements *elements = &text->elements[kind];
     const int64_t absolute = number < 0 ? (int64_t)elements->row.count + 1 + number : number;
@@ -302,7 +298,7 @@ static bool keep_index(Text *text, Kind kind, int64_t number, HdSpan word, Corne
                      shown(text, word), kinds[kind].name, (long long)number, elements->row.count);
 }
 
-/* "v", "v/t", "v//n" or "v/t/n". */
+/* Reads "v", "v/t", "v//n" or "v/t/n". */
 static bool read_corner(Text *text, HdSpan word, Corner *corner) {
     const char *at = word.begin;
     *corner = (Corner){{-1, -1, -1}};
@@ -376,20 +372,20 @@ static bool keep_name(Text *text, HdSpan line, const char *what, bool is_library
            append(text, &text->libraries, 1, 1, "");
 }
 
-/* Of what is left out the first is told. Rubbish seldom begins with a word. */
-static bool leave_out(Text *text, HdSpan word) {
+/* Notes the first unused statement. Files of other kinds seldom begin with a word. */
+static bool note_unused(Text *text, HdSpan word) {
     for (const char *at = word.begin; at < word.end; at++)
         if (*at <= ' ' || *at > '~')
-            return fail_line(text, "it begins with byte 0x%02x, so this is no OBJ file",
+            return fail_line(text, "it begins with byte 0x%02x, so it is no OBJ file",
                              (unsigned)(unsigned char)*at);
     for (size_t i = 0; i < sizeof harmless / sizeof *harmless; i++)
         if (hd_span_is(word, harmless[i]))
             return true;
-    if (!text->has_left_out)
+    if (!text->has_noted_unused)
         hd_problem(text->notes,
                    "%s: line %zu: statements such as '%.*s' are not used, only faces (f) are",
                    text->path, text->line_number, shown(text, word));
-    text->has_left_out = true;
+    text->has_noted_unused = true;
     return true;
 }
 
@@ -409,10 +405,10 @@ static bool take_line(Text *text, HdSpan line) {
         return keep_name(text, line, "material", false);
     if (hd_span_is(word, "mtllib"))
         return keep_name(text, line, "material library", true);
-    return leave_out(text, word);
+    return note_unused(text, word);
 }
 
-/* What only the whole file tells: whether there are faces, and what they name. */
+/* Checks the whole file: whether it has faces, and the elements that they name. */
 static HdStatus finish(Text *text) {
     for (int kind = 0; text->status == HD_OK && kind < KIND_COUNT; kind++) {
         const Elements *elements = &text->elements[kind];
@@ -440,10 +436,10 @@ static HdStatus read_text(Text *text) {
     return finish(text);
 }
 
-/* The elements as an array of their own, free()'s, of just their size. */
-static void *take_numbers(Text *text, Kind kind) {
+/* Returns the elements as an array of exact size; free() releases it. */
+static void *release_numbers(Text *text, Kind kind) {
     Row *row = &text->elements[kind].row;
-    const size_t size = (size_t)kinds[kind].most * sizeof(double);
+    const size_t size = (size_t)kinds[kind].max_numbers * sizeof(double);
     void *fitting = hd_obj_resize(text->memory, row->data, size, row->capacity, row->count);
     void *numbers = fitting != NULL ? fitting : row->data;
     row->data = NULL;
@@ -461,17 +457,17 @@ static void free_text(Text *text) {
 
 /* ---- from the text to the mesh ---- */
 
-/* Texture coordinates and normals that no corner names are left out. */
-static void take_elements(Text *text, HdMesh *mesh) {
+/* Moves the elements to the mesh; drops texture coordinates and normals that no corner names. */
+static void move_elements(Text *text, HdMesh *mesh) {
     const Elements *elements = text->elements;
-    mesh->vertices = take_numbers(text, VERTEX);
+    mesh->vertices = release_numbers(text, VERTEX);
     mesh->vertex_count = (int)elements[VERTEX].row.count;
     if (elements[NORMAL].highest > 0) {
-        mesh->normals = take_numbers(text, NORMAL);
+        mesh->normals = release_numbers(text, NORMAL);
         mesh->normal_count = (int)elements[NORMAL].row.count;
     }
     if (elements[UV].highest > 0) {
-        mesh->uvs = take_numbers(text, UV);
+        mesh->uvs = release_numbers(text, UV);
         mesh->uv_count = (int)elements[UV].row.count;
     }
 }
@@ -489,7 +485,7 @@ static bool allocate_triangles(const Text *text, HdMesh *mesh) {
     return !memory->has_refused;
 }
 
-/* Without a direction there is no normal. */
+/* A normal of length 0 has no direction. */
 static int32_t normal_of(const HdMesh *mesh, int32_t number) {
     if (number < 0)
         return -1;
@@ -512,7 +508,7 @@ static void add_triangle(HdMesh *mesh, const Corner *corners, const int32_t chos
         mesh->material_of[triangle] = material;
 }
 
-/* Room for the largest polygon. */
+/* Capacity for the largest polygon. */
 typedef struct Polygon {
     HdVec3 *points;
     int32_t (*triangles)[3];
@@ -562,7 +558,7 @@ static HdStatus take_faces(const Text *text, HdMesh *mesh) {
 }
 
 static HdStatus take_mesh(Text *text, HdMesh *mesh) {
-    take_elements(text, mesh);
+    move_elements(text, mesh);
     if (!hd_obj_read_materials(mesh, text->path, &text->names, text->libraries.data,
                                text->libraries.count, text->memory, text->notes))
         return fail_memory(text);
@@ -577,7 +573,7 @@ static HdStatus take_mesh(Text *text, HdMesh *mesh) {
 
 HdStatus hd_mesh_read_obj(HdMesh *mesh, const char *path, size_t max_bytes, HdProblems *notes,
                           HdError *error) {
-    HdObjMemory memory = {.most = max_bytes};
+    HdObjMemory memory = {.max_bytes = max_bytes};
     Text text = {.path = path, .memory = &memory, .notes = notes, .error = error};
     *mesh = (HdMesh){0};
     HdStatus status = read_text(&text);

@@ -9,8 +9,8 @@
 
 void *hd_obj_resize(HdObjMemory *memory, void *array, size_t size, size_t before, size_t count) {
     const size_t others = memory->used - before * size;
-    if (count > SIZE_MAX / size || count * size > memory->most ||
-        others > memory->most - count * size) {
+    if (count > SIZE_MAX / size || count * size > memory->max_bytes ||
+        others > memory->max_bytes - count * size) {
         memory->is_over = memory->has_refused = true;
         return NULL;
     }
@@ -36,8 +36,8 @@ void hd_obj_release(HdObjMemory *memory, void *array, size_t bytes) {
 
 enum {
     MAX_SHOWN = 80,
-    LONGEST_NUMBER = 64, /* longer ones might leave the range of double on their way */
-    MAX_POWER = 19       /* of ten, either way */
+    MAX_NUMBER_LENGTH = 64, /* longer ones might overflow a double on the way */
+    MAX_POWER = 19          /* of ten, in either direction */
 };
 
 static const double powers_of_ten[2 * MAX_POWER + 1] = {
@@ -89,7 +89,7 @@ static const char *skip_sign(const char *at, const char *end) {
     return at < end && (*at == '-' || *at == '+') ? at + 1 : at;
 }
 
-/* Reads "e-12" and the like, or nothing. NULL: something else. */
+/* Reads an exponent such as "e-12", or nothing. Returns NULL for anything else. */
 static const char *read_power(const char *at, const char *end, int *power) {
     *power = 0;
     if (at == end || (*at != 'e' && *at != 'E'))
@@ -105,8 +105,8 @@ static const char *read_power(const char *at, const char *end, int *power) {
     return at;
 }
 
-/* Reads digits with a point among them, those on either side of it as a whole number. NULL: there
-   are no digits. */
+/* Reads digits with an optional point; each side is read as an integer. Returns NULL without
+   digits. */
 static const char *read_mantissa(const char *at, const char *end, double *mantissa) {
     double whole = 0.0, fraction = 0.0, scale = 1.0;
     bool has_digits = false;
@@ -124,7 +124,7 @@ static const char *read_mantissa(const char *at, const char *end, double *mantis
 
 const char *hd_number_fault(HdSpan word, double *value) {
     int power = 0;
-    if (word.end - word.begin > LONGEST_NUMBER)
+    if (word.end - word.begin > MAX_NUMBER_LENGTH)
         return "a number of at most 64 characters";
     const char *at = read_mantissa(skip_sign(word.begin, word.end), word.end, value);
     if (at != NULL)

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the readers of OBJ and MTL files share: memory, of which a reading has a limit; words of
-   lines; and numbers for names. */
+/* Shared by the readers of OBJ and MTL files: limited memory, words of lines, numbered names. */
 #ifndef HD_MESH_OBJ_READING_H
 #define HD_MESH_OBJ_READING_H
 
@@ -12,31 +11,31 @@
 #include "base/error.h"
 #include "mesh/mesh.h"
 
-/* Start with all zeros but `most`. */
+/* Zero-initialise, except `most`. */
 typedef struct HdObjMemory {
-    size_t most; /* bytes at a time */
+    size_t max_bytes; /* bytes in use at once */
     size_t used;
-    bool is_over;     /* something was refused because it would have been more, */
-    bool has_refused; /* or for whatever reason */
+    bool is_over;     /* an allocation exceeded `most`, */
+    bool has_refused; /* or failed for any reason */
 } HdObjMemory;
 
-/* As realloc(), of an array of `before` elements, which may be NULL, to `count` of them. NULL, with
-   the array as it was, where there is no more. */
+/* Resizes as realloc() an array of `before` elements, which may be NULL, to `count`. Returns NULL
+   on failure, with the array unchanged. */
 void *hd_obj_resize(HdObjMemory *memory, void *array, size_t size, size_t before, size_t count);
 
-/* Not zeroed; at least a byte. */
+/* Allocates at least a byte, not zeroed. */
 void *hd_obj_allocate(HdObjMemory *memory, size_t count, size_t size);
 
-/* Frees an array of so many bytes; NULL is allowed. Not needed for what lasts until the reading's
-   end. */
+/* Frees an array of `bytes` bytes; NULL is allowed. Arrays that last until the end of reading do
+   not need it. */
 void hd_obj_release(HdObjMemory *memory, void *array, size_t bytes);
 
-/* Some bytes of a text, up to but without `end`. */
+/* Bytes of a text, up to but excluding `end`. */
 typedef struct HdSpan {
     const char *begin, *end;
 } HdSpan;
 
-/* For "%.*s" in messages: no more bytes than a reader wants to see, and no character cut in two. */
+/* Returns the length to print with "%.*s": limited, and never within a character. */
 int hd_span_shown(HdSpan span);
 
 static inline size_t hd_span_size(HdSpan span) {
@@ -49,39 +48,40 @@ static inline HdSpan hd_span_of(const char *text) {
 
 bool hd_span_is(HdSpan span, const char *text);
 
-/* Takes the next word of a line; an empty one at the line's end. Words end at blanks and tabs. */
+/* Takes the next word of a line, up to blanks or tabs; empty at the end. */
 HdSpan hd_next_word(HdSpan *line);
 
-/* The rest of a line without blanks and tabs around it. */
+/* Returns the rest of a line without blanks and tabs around it. */
 HdSpan hd_rest(HdSpan line);
 
-/* What a word should have been to be a number: decimal, at most HD_MAX_NUMBER either way, not oddly
-   long. NULL: it is one, and `*value` what it says, up to the rounding of a few operations; where
-   the power of ten is below -19 or above 19, so that it is less than HD_MIN_LENGTH, 0. */
+/* Parses a number. Returns NULL, or the expected form: decimal, magnitude at most HD_MAX_NUMBER, at
+   most 64 characters. `*value` is exact up to the rounding of a few operations. It is 0 if its
+   power of ten is below -19 or above 19 and it is less than HD_MIN_LENGTH. */
 const char *hd_number_fault(HdSpan word, double *value);
 
-/* What a name should have been: there, without control characters. NULL: it is. */
+/* Returns the expected form of a name, not empty and without control characters; NULL: it is
+   valid. */
 const char *hd_name_fault(HdSpan name);
 
 typedef struct HdName {
     HdSpan text;
-    char *owned; /* the same with a zero byte; who takes it leaves NULL */
+    char *owned; /* zero-terminated copy; a new owner sets NULL */
 } HdName;
 
-/* All zeros: empty. */
+/* Zero-initialise. */
 typedef struct HdNameTable {
     int count;
-    HdName *names; /* owned; room for HD_MAX_MESH_MATERIALS */
-    void *tree;    /* tsearch()'s, of `names` */
+    HdName *names; /* owned; capacity HD_MAX_MESH_MATERIALS */
+    void *tree;    /* of tsearch(), over `names` */
 } HdNameTable;
 
-/* What hd_name_table_add returns instead of a number. */
+/* Failures of hd_name_table_add. */
 enum { HD_NAME_NO_MEMORY = -1, HD_NAME_TOO_MANY = -2 };
 
-/* The number of the name, which is added where it is new. */
+/* Returns the number of the name; adds a new one. */
 int hd_name_table_add(HdNameTable *table, HdSpan name, HdObjMemory *memory);
 
-/* The number of the name, or -1. */
+/* Returns the number of the name, or -1. */
 int hd_name_table_find(const HdNameTable *table, HdSpan name);
 
 void hd_name_table_free(HdNameTable *table);
@@ -89,10 +89,9 @@ void hd_name_table_free(HdNameTable *table);
 /* The material of faces before the first `usemtl`. */
 #define HD_OBJ_NO_MATERIAL "default"
 
-/* Gives the mesh at `path` a material for each of the names, which are taken from there: as the
-   libraries define it or, where none does, white and opaque. `libraries` are their names, each with
-   a zero byte, in `size` bytes. What is not used is told in `notes`. False: the memory does not
-   suffice. */
+/* Moves `names` to the mesh at `path` as materials, defined by the libraries or else white and
+   opaque. `libraries` are zero-terminated names in `size` bytes. Reports unused statements in
+   `notes`. Returns false if out of memory. */
 bool hd_obj_read_materials(HdMesh *mesh, const char *path, HdNameTable *names, char *libraries,
                            size_t size, HdObjMemory *memory, HdProblems *notes);
 

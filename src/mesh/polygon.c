@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "mesh/mesh.h"
 
-/* A ring of the corners that are left, in the plane in which the polygon runs counterclockwise. */
+/* Ring of the remaining corners, in the plane in which the polygon runs counterclockwise. */
 typedef struct Ring {
     int count;
     HdVec2 point[HD_MAX_CONCAVE_CORNERS];
@@ -10,7 +10,8 @@ typedef struct Ring {
     bool is_ear[HD_MAX_CONCAVE_CORNERS];
 } Ring;
 
-/* Newell's: twice the area, as a normal; right for corners in one plane, a mean for others. */
+/* Returns Newell's normal, twice the area long: exact for corners in one plane, a mean for
+   others. */
 static HdVec3 normal_of(const HdVec3 *corners, int count) {
     HdVec3 sum = {0.0, 0.0, 0.0};
     for (int i = 1; i + 1 < count; i++)
@@ -19,7 +20,7 @@ static HdVec3 normal_of(const HdVec3 *corners, int count) {
     return sum;
 }
 
-/* Drops the coordinate along which the normal is longest, and mirrors what would run clockwise. */
+/* Drops the coordinate with the longest normal component, and mirrors clockwise polygons. */
 static HdVec2 project(HdVec3 corner, HdVec3 normal) {
     const double x = fabs(normal.x), y = fabs(normal.y), z = fabs(normal.z);
     double sign = normal.z;
@@ -36,16 +37,16 @@ static HdVec2 project(HdVec3 corner, HdVec3 normal) {
     return point;
 }
 
-/* Twice the area: positive where a, b, c run counterclockwise. */
-static double turn(HdVec2 a, HdVec2 b, HdVec2 c) {
+/* Returns twice the signed area, positive if a, b, c run counterclockwise. */
+static double twice_area(HdVec2 a, HdVec2 b, HdVec2 c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/* Whether the triangles from the first corner cover the polygon. */
+/* Returns whether the fan from the first corner covers the polygon. */
 static bool is_fan(const HdVec3 *corners, int count, HdVec3 normal) {
     const HdVec2 tip = project(corners[0], normal);
     for (int i = 1; i + 1 < count; i++)
-        if (!(turn(tip, project(corners[i], normal), project(corners[i + 1], normal)) > 0.0))
+        if (!(twice_area(tip, project(corners[i], normal), project(corners[i + 1], normal)) > 0.0))
             return false;
     return true;
 }
@@ -62,14 +63,14 @@ static bool is_same(HdVec2 a, HdVec2 b) {
     return a.x == b.x && a.y == b.y;
 }
 
-/* Corners at the place of one of the triangle's do not count: bridges to holes have them twice. */
+/* Ignores corners that coincide with the triangle's: bridges to holes have them twice. */
 static bool has_inside(const Ring *ring, int last, int corner, int next) {
     const HdVec2 a = ring->point[last], b = ring->point[corner], c = ring->point[next];
     for (int i = ring->next[next]; i != last; i = ring->next[i]) {
         const HdVec2 p = ring->point[i];
         if (ring->is_convex[i] || is_same(p, a) || is_same(p, b) || is_same(p, c))
             continue;
-        if (turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0)
+        if (twice_area(a, b, p) >= 0.0 && twice_area(b, c, p) >= 0.0 && twice_area(c, a, p) >= 0.0)
             return true;
     }
     return false;
@@ -77,7 +78,8 @@ static bool has_inside(const Ring *ring, int last, int corner, int next) {
 
 static void look_at_bend(Ring *ring, int corner) {
     const int last = ring->last[corner], next = ring->next[corner];
-    ring->is_convex[corner] = turn(ring->point[last], ring->point[corner], ring->point[next]) > 0.0;
+    ring->is_convex[corner] =
+        twice_area(ring->point[last], ring->point[corner], ring->point[next]) > 0.0;
 }
 
 static void look_for_ear(Ring *ring, int corner) {
@@ -85,7 +87,7 @@ static void look_for_ear(Ring *ring, int corner) {
                            !has_inside(ring, ring->last[corner], corner, ring->next[corner]);
 }
 
-/* A corner to cut off: an ear, or, where there is none, as of what crosses itself, `from`. */
+/* Returns an ear to cut off; `from` if there is none, as in self-intersecting polygons. */
 static int find_ear(const Ring *ring, int from) {
     int i = from;
     do {
@@ -130,7 +132,7 @@ static void cut_ears(const HdVec3 *corners, int count, HdVec3 normal, int32_t (*
     for (int i = 0; i < count - 2; i++) {
         at = find_ear(&ring, at);
         cut_off(&ring, at, triangles[i]);
-        at = ring.next[at]; /* the ring's: what was cut off still knows its neighbours */
+        at = ring.next[at]; /* the ring's: a removed corner keeps its neighbours */
     }
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Around each place the triangles that share an edge there, and do not crease at it, make a class.
-   Each class has one normal. Every sum is taken in the order of the triangles, so the bytes do not
-   depend on anything but the mesh. */
+/* Computes smooth normals. At each place, triangles that share an uncreased edge form a class
+   with one normal. Every sum runs in the order of the triangles, so the bytes depend on the mesh
+   only. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,25 +9,25 @@
 #include "mesh/mesh.h"
 
 enum {
-    /* Of triangles at one edge each is compared with so many that follow: proper meshes have two,
-       and thousands at one edge shall not take millions of comparisons. */
+    /* Limits how many of the following triangles at an edge each is compared with: proper meshes
+       have two, and thousands must not take millions of comparisons. */
     MAX_AT_EDGE = 16
 };
 
-/* What rounding may take from the cosine between two normals. */
+/* Tolerance of the cosine between two normals for rounding. */
 static const double cosine_tolerance = 1e-12;
 
-/* A corner of a triangle as its place sees it. */
+/* A corner of a triangle, listed by its place. */
 typedef struct Incident {
     int32_t corner; /* 3 times the triangle plus 0..2 */
-    int32_t class;  /* number of an incident of the same class, its own for the first */
-    HdVec3 normal;  /* of the triangle, unit; 0: it has no area */
+    int32_t class;  /* an incident of the same class; its own number for the first */
+    HdVec3 normal;  /* unit normal of the triangle; 0: no area */
     double angle;
     int32_t place_of_normal; /* for the first of a class; -1: none */
     HdVec3 sum;
 } Incident;
 
-/* An edge from the place to another one, as one triangle has it. */
+/* An edge from the place to another one, in one triangle. */
 typedef struct Edge {
     int32_t other;    /* the place at its far end */
     int32_t incident; /* the triangle's */
@@ -37,9 +37,9 @@ typedef struct Smoother {
     const HdMesh *mesh;
     double min_cosine;
     int place_count;
-    int32_t *place_of; /* of each vertex */
-    int32_t *begin;    /* of each place, into corners; one more for the end */
-    int32_t *corners;  /* place by place */
+    int32_t *place_of; /* place of each vertex */
+    int32_t *begin;    /* first index into `corners` of each place; one more for the end */
+    int32_t *corners;  /* corners, place by place */
     int max_incidents;
     Incident *incidents;
     Edge *edges;
@@ -52,7 +52,7 @@ static void *allocate(size_t count, size_t size) {
     return malloc(count > 0 ? count * size : size);
 }
 
-/* Orders pointers to points by place, those to one place as they lie. -0 and 0 are equal. */
+/* Orders pointers to points by place, then by address. -0 equals 0. */
 static int compare_places(const void *first, const void *second) {
     const HdVec3 *a = *(const HdVec3 *const *)first, *b = *(const HdVec3 *const *)second;
     if (a->x != b->x)
@@ -64,11 +64,11 @@ static int compare_places(const void *first, const void *second) {
     return (a > b) - (a < b);
 }
 
-/* Numbers the places in the order in which the vertices first name them. */
+/* Numbers the places in the order in which vertices first use them. */
 static bool find_places(Smoother *smoother) {
     const HdVec3 *vertices = smoother->mesh->vertices;
     const size_t count = (size_t)smoother->mesh->vertex_count;
-    int32_t *place_of = smoother->place_of; /* first the vertex that names the place first */
+    int32_t *place_of = smoother->place_of; /* temporarily the first vertex at the place */
     const HdVec3 **sorted = allocate(count, sizeof(void *));
     if (sorted == NULL)
         return false;
@@ -145,8 +145,8 @@ static int32_t class_of(Incident *incidents, int32_t number) {
     return number;
 }
 
-/* The first incident of a class stands for it. */
-static void unite(Incident *incidents, int32_t a, int32_t b) {
+/* The first incident represents its class. */
+static void merge_classes(Incident *incidents, int32_t a, int32_t b) {
     const int32_t first = class_of(incidents, a), second = class_of(incidents, b);
     if (first < second)
         incidents[second].class = first;
@@ -163,12 +163,12 @@ static void unite_at_edges(const Smoother *smoother, int edge_count) {
                 break;
             const Incident *a = &incidents[edges[i].incident], *b = &incidents[edges[j].incident];
             if (hd_dot(a->normal, b->normal) >= smoother->min_cosine)
-                unite(incidents, edges[i].incident, edges[j].incident);
+                merge_classes(incidents, edges[i].incident, edges[j].incident);
         }
     }
 }
 
-/* Triangles without an area belong to nobody: they have no normal to be compared. */
+/* Skips triangles without an area, which have no normal to compare. */
 static int list_edges(const Smoother *smoother, int incident_count) {
     int count = 0;
     for (int32_t i = 0; i < incident_count; i++) {
@@ -221,20 +221,20 @@ static bool prepare(Smoother *smoother) {
     smoother->place_of = allocate(vertices, sizeof *smoother->place_of);
     smoother->begin = allocate(vertices + 1, sizeof *smoother->begin);
     smoother->corners = allocate(corners, sizeof *smoother->corners);
-    /* At most one normal for each corner; memory that is not touched is not taken. */
+    /* At most one normal for each corner; untouched memory costs nothing. */
     smoother->normals = allocate(corners, sizeof *smoother->normals);
     smoother->corner_normals = allocate(corners, sizeof(int32_t));
     if (smoother->place_of == NULL || smoother->begin == NULL || smoother->corners == NULL ||
         smoother->normals == NULL || smoother->corner_normals == NULL || !find_places(smoother))
         return false;
     list_corners(smoother);
-    const size_t most = (size_t)smoother->max_incidents;
-    smoother->incidents = allocate(most, sizeof *smoother->incidents);
-    smoother->edges = allocate(2 * most, sizeof *smoother->edges);
+    const size_t max_incidents = (size_t)smoother->max_incidents;
+    smoother->incidents = allocate(max_incidents, sizeof *smoother->incidents);
+    smoother->edges = allocate(2 * max_incidents, sizeof *smoother->edges);
     return smoother->incidents != NULL && smoother->edges != NULL;
 }
 
-/* Hands the results to the mesh. */
+/* Moves the results to the mesh. */
 static void take_normals(Smoother *smoother, HdMesh *mesh) {
     const size_t count = (size_t)smoother->normal_count;
     HdVec3 *normals = realloc(smoother->normals, (count > 0 ? count : 1) * sizeof *normals);
@@ -250,7 +250,7 @@ static void take_normals(Smoother *smoother, HdMesh *mesh) {
 static double min_cosine(double crease_degrees) {
     double sine, cosine;
     if (crease_degrees >= 180.0)
-        return -2.0; /* below every cosine: nothing creases */
+        return -2.0; /* below every cosine: no creases */
     hd_sine_cosine(crease_degrees * (HD_PI / 180.0), &sine, &cosine);
     return cosine - cosine_tolerance;
 }

@@ -129,7 +129,7 @@ static HdStatus fail_idle(const HdVideo *video, const char *program, const char 
     return hd_fail(error, HD_FAILED,
                    "%s was idle for %d s %s of %s and was stopped (HEDRON_FFMPEG_PATIENCE sets the "
                    "seconds); it said: %s",
-                   program, video->timeout_ms / 1000, when, video->file.path, hd_child_said(child));
+                   program, video->timeout_ms / 1000, when, video->file.path, hd_child_tail(child));
 }
 
 static HdStatus fail_early(HdVideo *video, HdError *error) {
@@ -138,7 +138,7 @@ static HdStatus fail_early(HdVideo *video, HdError *error) {
     if (hd_interrupt_signal() != 0)
         return fail_interrupted(video, "FFmpeg", error);
     hd_fail(error, HD_FAILED, "FFmpeg ended early (%s) at frame %ld of %s; it said: %s", how,
-            video->frames, video->file.path, hd_child_said(&video->ffmpeg));
+            video->frames, video->file.path, hd_child_tail(&video->ffmpeg));
     report_missing_file(video, error);
     return HD_FAILED;
 }
@@ -202,7 +202,7 @@ static HdStatus end_ffmpeg(HdVideo *video, HdError *error) {
     if (video->ffmpeg.is_stuck)
         return fail_idle(video, "FFmpeg", "after the last frame", &video->ffmpeg, error);
     return hd_fail(error, HD_FAILED, "FFmpeg could not make %s (%s); it said: %s", video->file.path,
-                   how, hd_child_said(&video->ffmpeg));
+                   how, hd_child_tail(&video->ffmpeg));
 }
 
 /* FFmpeg exits with code 0 even if its input was cut short, so only the file itself can tell. */
@@ -222,9 +222,9 @@ static HdStatus count_frames(HdVideo *video, HdError *error) {
     if (ffprobe.is_stuck)
         return fail_idle(video, "ffprobe", "while it counted the frames", &ffprobe, error);
     /* FFmpeg's messages despite exit code 0: a full disk, say. */
-    if (video->ffmpeg.said_length > 0)
-        snprintf(excuse, MAX_EXCUSE, "; FFmpeg had said: %.500s", hd_child_said(&video->ffmpeg));
-    const char *answer = hd_child_said(&ffprobe);
+    if (video->ffmpeg.tail_length > 0)
+        snprintf(excuse, MAX_EXCUSE, "; FFmpeg had said: %.500s", hd_child_tail(&video->ffmpeg));
+    const char *answer = hd_child_tail(&ffprobe);
     long found = strtol(answer, &end, 10);
     if (!done || *end != '\0')
         return hd_fail(error, HD_FAILED,

@@ -299,7 +299,7 @@ static HdStatus bound_open(HdBoundPasses *passes, const HdBoundPass *pass, doubl
         int rest = *open_count - from, count = hd_min(rest, MAX_ENTRIES);
         int *open = passes->open + from;
         Part part = {passes, pass, cutoff, is_first, open, from, count};
-        HD_TRY(bound_part(&part, hd_watched_take(&watched, (double)count / rest), error));
+        HD_TRY(bound_part(&part, hd_watched_split(&watched, (double)count / rest), error));
         memmove(passes->open + left, open, sizeof *open * (size_t)part.count);
         left += part.count;
     }
@@ -321,7 +321,7 @@ HdStatus hd_bound_pass(HdBoundPasses *passes, const HdBoundPass *pass, HdError *
     while (open > 0) {
         const double before = (double)hd_frame_rays(passes->sums),
                      tried = (double)open * pass->samples;
-        const HdWatched own = hd_watched_take(&watched, limit > 0.0 ? 0.875 : 1.0);
+        const HdWatched own = hd_watched_split(&watched, limit > 0.0 ? 0.875 : 1.0);
         HD_TRY(bound_open(passes, pass, cutoff, is_first, own, &open, error));
         if (cutoff <= last ||
             (double)hd_frame_rays(passes->sums) - before > tried * MAX_RAYS * NEXT_CUTOFF)

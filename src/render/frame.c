@@ -225,7 +225,7 @@ static HdStatus sample_chosen(HdRefinement *r, int count, int from, int samples,
                                .count = all,
                                .samples = pass.each,
                                .means = r->means,
-                               .watched = hd_watched_take(&r->left, own / (own + later))};
+                               .watched = hd_watched_split(&r->left, own / (own + later))};
     HD_TRY(hd_bound_pass(&r->passes, &asked, error));
     hd_chunks_run(r->threads, count, add_samples, &pass);
     return HD_OK;

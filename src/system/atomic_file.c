@@ -19,13 +19,14 @@
 
 enum { MAX_ATTEMPTS = 1000 };
 
-/* Permissions of a file, from its first instant on, less what the umask takes. */
+/* permissions of a new file, before the umask */
 enum { MODE_USUAL = 0666, MODE_PRIVATE = 0600 };
 
-/* Between the name and the numbers. */
-#define MARK ".tmp-"
+/* separator of the final name and the numbers */
+#define SEPARATOR ".tmp-"
 
-/* The folder of `path`, without its last slashes but for the root's; the current one is ".". */
+/* Returns the folder of `path` without trailing slashes: "." for the current one, "/" for the
+   root. */
 static const char *folder_of(const char *path, char folder[HD_MAX_PATH]) {
     size_t length = hd_folder_length(path);
     while (length > 1 && path[length - 1] == '/')
@@ -36,36 +37,34 @@ static const char *folder_of(const char *path, char folder[HD_MAX_PATH]) {
 
 /* ---- folders of the run ---- */
 
-/* As many as a run has outputs, with those above them, and more. A sequence whose folders are
-   numbered has countless ones, but it asks for each but once. */
+/* Holds more folders than a run's outputs need, parents included. A sequence with numbered folders
+   has arbitrarily many, but looks up each only once. */
 enum { MAX_FOLDERS = 64 };
 
-/* SYNCED: and so are those above it. */
-typedef enum Knowledge { UNKNOWN, THERE, SYNCED } Knowledge;
+/* SYNCED: the folders above it are synced too */
+typedef enum FolderState { UNKNOWN, EXISTS, SYNCED } FolderState;
 
-/* A folder that this run wrote to: where it goes away it is missed, instead of made anew without
-   what was in it. */
+/* A folder that this run wrote to. If it disappears, with its contents, the run fails. */
 typedef struct Folder {
-    uint64_t hash; /* of its name */
-    Knowledge knowledge;
+    uint64_t hash; /* hash of its name */
+    FolderState state;
 } Folder;
 
-/* Beyond the room the oldest are forgotten. */
+/* ring buffer: a new folder replaces the oldest */
 static struct {
     pthread_mutex_t mutex;
     unsigned next;
     Folder list[MAX_FOLDERS];
 } known = {.mutex = PTHREAD_MUTEX_INITIALIZER};
 
-/* Returns what was known of the folder of the file `path`, and keeps `more` where that says more.
- */
-static Knowledge learn_folder(const char *path, Knowledge more) {
+/* Returns what is known about the folder of the file `path`, and raises it to `more`. */
+static FolderState update_folder_state(const char *path, FolderState more) {
     const uint64_t hash = hd_hash_bytes(HD_HASH_START, path, hd_folder_length(path));
     unsigned i = 0;
     pthread_mutex_lock(&known.mutex);
-    while (i < MAX_FOLDERS && (known.list[i].knowledge == UNKNOWN || known.list[i].hash != hash))
+    while (i < MAX_FOLDERS && (known.list[i].state == UNKNOWN || known.list[i].hash != hash))
         i++;
-    const Knowledge before = i < MAX_FOLDERS ? known.list[i].knowledge : UNKNOWN;
+    const FolderState before = i < MAX_FOLDERS ? known.list[i].state : UNKNOWN;
     if (more > before)
         known.list[i < MAX_FOLDERS ? i : known.next++ % MAX_FOLDERS] = (Folder){hash, more};
     pthread_mutex_unlock(&known.mutex);
@@ -82,8 +81,9 @@ void hd_known_folders_forget(void) {
 
 #define CANNOT_SYNC "cannot write %s to the disk: %s"
 
-/* Neither pipes nor the folders of some file systems can be synced. */
-static bool has_disk(int reason) {
+/* Returns whether a failed sync matters: pipes and the folders of some file systems cannot be
+   synced. */
+static bool is_disk_error(int reason) {
     return reason != EINVAL && reason != ENOTSUP && reason != ENOSYS && reason != EROFS;
 }
 
@@ -92,7 +92,7 @@ HdStatus hd_sync_file(int descriptor, const char *path, HdError *error) {
     do
         code = fsync(descriptor);
     while (code != 0 && errno == EINTR);
-    if (code == 0 || !has_disk(errno))
+    if (code == 0 || !is_disk_error(errno))
         return HD_OK;
     return hd_fail(error, HD_FAILED, CANNOT_SYNC, path, strerror(errno));
 }
@@ -115,7 +115,7 @@ HdStatus hd_sync_folder(const char *path, HdError *error) {
     while (!is_last) {
         folder_of(file, folder);
         HD_TRY(sync_one(folder, error));
-        is_last = learn_folder(file, SYNCED) == SYNCED || strcmp(folder, "/") == 0 ||
+        is_last = update_folder_state(file, SYNCED) == SYNCED || strcmp(folder, "/") == 0 ||
                   strcmp(folder, ".") == 0;
         memcpy(file, folder, sizeof file);
     }
@@ -140,11 +140,11 @@ static HdStatus check_target(const char *path, HdError *error) {
     return HD_OK;
 }
 
-/* The name is cut because many file systems end at 255 bytes, and the suffix must fit as well. */
+/* Cuts the name because many file systems allow 255 bytes, suffix included. */
 static HdStatus temporary_name(const char *path, int attempt, char temporary[HD_MAX_PATH],
                                HdError *error) {
     int folder = (int)hd_folder_length(path);
-    int length = snprintf(temporary, HD_MAX_PATH, "%.*s%.*s" MARK "%ld-%d", folder, path,
+    int length = snprintf(temporary, HD_MAX_PATH, "%.*s%.*s" SEPARATOR "%ld-%d", folder, path,
                           HD_TEMPORARY_MAX_KEPT, path + folder, (long)getpid(), attempt);
     if (length < 0 || length >= HD_MAX_PATH)
         return hd_fail(error, HD_BAD_INPUT,
@@ -153,36 +153,36 @@ static HdStatus temporary_name(const char *path, int attempt, char temporary[HD_
     return HD_OK;
 }
 
-/* The temporary name is cut to fit, so that the final one would be found too long only at the end.
- */
+/* Checks the final name early: the temporary one is cut, so only renaming would fail. */
 static HdStatus check_length(const char *path, HdError *error) {
     const size_t length = strlen(path + hd_folder_length(path));
     char folder[HD_MAX_PATH];
-    long most = pathconf(folder_of(path, folder), _PC_NAME_MAX);
-    if (most > 0 && length > (size_t)most)
+    long max_length = pathconf(folder_of(path, folder), _PC_NAME_MAX);
+    if (max_length > 0 && length > (size_t)max_length)
         return hd_fail(error, HD_BAD_INPUT,
                        "cannot write \"%s\": the name of the file has %zu bytes, expected at most "
                        "%ld",
-                       path, length, most);
+                       path, length, max_length);
     return HD_OK;
 }
 
 size_t hd_temporary_name_length(const char *name) {
     const char *found = NULL;
     int end = 0;
-    for (const char *next = strstr(name, MARK); next != NULL; next = strstr(next + 1, MARK))
+    for (const char *next = strstr(name, SEPARATOR); next != NULL;
+         next = strstr(next + 1, SEPARATOR))
         found = next;
-    if (found == NULL || sscanf(found, MARK "%*[0-9]-%*[0-9]%n", &end) != 0 || end == 0)
+    if (found == NULL || sscanf(found, SEPARATOR "%*[0-9]-%*[0-9]%n", &end) != 0 || end == 0)
         return 0;
     return found[end] == '\0' ? (size_t)(found - name) : 0;
 }
 
-/* ---- what killed programs left ---- */
+/* ---- stale files of killed programs ---- */
 
-/* Whether the process that the name tells is gone, as far as this machine knows. */
-static bool writer_is_gone(const char *temporary) {
+/* Returns whether the process in the file name has ended, as far as this machine knows. */
+static bool writer_has_ended(const char *temporary) {
     const char *numbers = temporary + hd_folder_length(temporary);
-    numbers += hd_temporary_name_length(numbers) + strlen(MARK);
+    numbers += hd_temporary_name_length(numbers) + strlen(SEPARATOR);
     return kill((pid_t)strtol(numbers, NULL, 10), 0) != 0 && errno == ESRCH;
 }
 
@@ -194,8 +194,8 @@ bool hd_temporary_remove_stale(const char *temporary) {
         return true;
     const bool is_file = fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode);
     if (is_file && flock(descriptor, LOCK_EX | LOCK_NB) != 0)
-        is_done = errno != EWOULDBLOCK || !writer_is_gone(temporary);
-    /* Another process may have removed it and given its name to a file of its own meanwhile. */
+        is_done = errno != EWOULDBLOCK || !writer_has_ended(temporary);
+    /* Another process may have removed the file and reused its name. */
     else if (is_file && lstat(temporary, &named) == 0 && named.st_dev == found.st_dev &&
              named.st_ino == found.st_ino)
         unlink(temporary);
@@ -205,21 +205,21 @@ bool hd_temporary_remove_stale(const char *temporary) {
 
 /* ---- a file ---- */
 
-/* The folder, which was there, or the temporary file is gone. */
-static HdStatus fail_without(const HdAtomicFile *file, HdError *error) {
+/* Reports that the folder, which existed earlier, or the temporary file is missing. */
+static HdStatus fail_missing(const HdAtomicFile *file, HdError *error) {
     char folder[HD_MAX_PATH];
     const int length = (int)hd_folder_length(file->path);
     snprintf(folder, sizeof folder, "%.*s", length > 0 ? length : 1, length > 0 ? file->path : ".");
     if (access(folder, F_OK) != 0)
         return hd_fail(error, HD_FAILED,
-                       "cannot write %s: its folder %s is gone; it was there before", file->path,
+                       "cannot write %s: its folder %s was removed during the run", file->path,
                        folder);
     return hd_fail(error, HD_FAILED, "cannot write %s: somebody removed %s", file->path,
                    file->temporary);
 }
 
-/* Between its making and its locking the file looks like one that was left behind. Where a file
-   system has no locks, none can be held, and nothing is removed. */
+/* Locks the file. False if it was removed as stale before. Without locks in the file system nobody
+   holds one, and nothing is removed. */
 static bool lock(int descriptor) {
     struct stat found;
     if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
@@ -227,15 +227,16 @@ static bool lock(int descriptor) {
     return fstat(descriptor, &found) != 0 || found.st_nlink > 0;
 }
 
-/* Under the first temporary name that is free. A process id comes back after a crash, and
-   containers that share a folder repeat them. */
+/* Creates the file under the first free name. A process id is reused after a crash and by
+   containers that share a folder. */
 static HdStatus create(HdAtomicFile *file, unsigned mode, HdError *error) {
     for (int attempt = 0; attempt < MAX_ATTEMPTS; attempt++) {
         HD_TRY(temporary_name(file->path, attempt, file->temporary, error));
         const int descriptor = open(file->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
         const int reason = errno;
-        if (descriptor < 0 && reason == ENOENT && learn_folder(file->path, UNKNOWN) != UNKNOWN)
-            return fail_without(file, error);
+        if (descriptor < 0 && reason == ENOENT &&
+            update_folder_state(file->path, UNKNOWN) != UNKNOWN)
+            return fail_missing(file, error);
         if (descriptor < 0 && reason != EEXIST)
             return hd_fail(error, HD_FAILED, "cannot write %s: cannot create %s: %s", file->path,
                            file->temporary, strerror(reason));
@@ -254,13 +255,13 @@ static HdStatus reserve(HdAtomicFile *file, const char *path, unsigned mode, HdE
     file->stream = NULL;
     file->lock = -1;
     HD_TRY(check_target(path, error));
-    if (learn_folder(path, UNKNOWN) == UNKNOWN)
+    if (update_folder_state(path, UNKNOWN) == UNKNOWN)
         HD_TRY(hd_path_make_parents(path, 0777, error));
     HD_TRY(check_length(path, error));
     memcpy(file->path, path, strlen(path) + 1);
     HD_TRY(create(file, mode, error));
     hd_cleanup_add_file(file->temporary);
-    learn_folder(path, THERE);
+    update_folder_state(path, EXISTS);
     return HD_OK;
 }
 
@@ -290,28 +291,29 @@ HdStatus hd_atomic_file_open_private(HdAtomicFile *file, const char *path, HdErr
 
 HdStatus hd_atomic_file_check(const HdAtomicFile *file, HdError *error) {
     if (access(file->temporary, F_OK) != 0 && errno == ENOENT)
-        return fail_without(file, error);
+        return fail_missing(file, error);
     return HD_OK;
 }
 
-/* The temporary name is gone. */
-static void leave(HdAtomicFile *file) {
+/* Unlocks the file and forgets its temporary name, which no longer exists. */
+static void unlock_temporary(HdAtomicFile *file) {
     hd_cleanup_forget_file(file->temporary);
     if (file->lock >= 0)
         close(file->lock);
     file->lock = -1;
 }
 
-static void drop(HdAtomicFile *file) {
+static void remove_temporary(HdAtomicFile *file) {
     unlink(file->temporary);
-    leave(file);
+    unlock_temporary(file);
 }
 
 HdStatus hd_atomic_file_close(HdAtomicFile *file, HdError *error) {
     if (file->stream == NULL)
         return HD_OK;
     int reason = 0;
-    /* The stream remembers a write that failed, but not why: one more byte mostly tells. */
+    /* The stream remembers a failed write without its reason; writing one more byte usually shows
+       it. */
     if (ferror(file->stream))
         reason = write(fileno(file->stream), "", 1) < 0 ? errno : EIO;
     file->lock = fcntl(fileno(file->stream), F_DUPFD_CLOEXEC, 0);
@@ -322,15 +324,15 @@ HdStatus hd_atomic_file_close(HdAtomicFile *file, HdError *error) {
     file->stream = NULL;
     if (reason == 0)
         return HD_OK;
-    drop(file);
+    remove_temporary(file);
     return hd_fail(error, HD_FAILED, "cannot write %s: %s", file->path, strerror(reason));
 }
 
-/* By its name, for another program may have put a file of its own in the place of ours. */
+/* Syncs by name: another program may have replaced the file. */
 static HdStatus sync_named(const HdAtomicFile *file, HdError *error) {
     const int descriptor = open(file->temporary, O_RDONLY | O_CLOEXEC);
     if (descriptor < 0 && errno == ENOENT)
-        return fail_without(file, error);
+        return fail_missing(file, error);
     const HdStatus status =
         hd_sync_file(descriptor >= 0 ? descriptor : file->lock, file->path, error);
     if (descriptor >= 0)
@@ -341,19 +343,19 @@ static HdStatus sync_named(const HdAtomicFile *file, HdError *error) {
 HdStatus hd_atomic_file_sync(HdAtomicFile *file, HdError *error) {
     const HdStatus status = sync_named(file, error);
     if (status != HD_OK)
-        drop(file);
+        remove_temporary(file);
     return status;
 }
 
 HdStatus hd_atomic_file_publish(HdAtomicFile *file, HdError *error) {
     if (rename(file->temporary, file->path) == 0) {
-        leave(file);
+        unlock_temporary(file);
         return HD_OK;
     }
     const int reason = errno;
-    drop(file);
+    remove_temporary(file);
     if (reason == ENOENT)
-        return fail_without(file, error);
+        return fail_missing(file, error);
     return hd_fail(error, HD_FAILED, "cannot rename %s to %s: %s", file->temporary, file->path,
                    strerror(reason));
 }
@@ -372,5 +374,5 @@ void hd_atomic_file_discard(HdAtomicFile *file) {
     if (file->stream != NULL)
         fclose(file->stream);
     file->stream = NULL;
-    drop(file);
+    remove_temporary(file);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Files that appear under their name only once they are complete, and then outlive a power cut. */
+/* Files that get their name only when they are complete, and then survive a power failure. */
 #ifndef HD_SYSTEM_ATOMIC_FILE_H
 #define HD_SYSTEM_ATOMIC_FILE_H
 
@@ -10,69 +10,69 @@
 #include "base/error.h"
 #include "system/path.h"
 
-/* Whether a file outlives a power cut once it has its name. */
-typedef enum HdDurability { HD_FLEETING, HD_DURABLE } HdDurability;
+/* durability of a file once it has its name */
+typedef enum HdDurability { HD_WITHOUT_SYNC, HD_DURABLE } HdDurability;
 
-/* A file under its temporary name, "NAME.tmp-PID-N" in the same folder, that no other process uses:
-   it is locked. It does not outlive the program (interrupt.h), unless that is killed; then its lock
-   tells that it may be removed. */
+/* A locked file under its temporary name "NAME.tmp-PID-N" in the same folder; no other process uses
+   it. It is removed when the program ends (interrupt.h). If the program is killed, the free lock
+   shows that the file is stale. */
 typedef struct HdAtomicFile {
-    FILE *stream; /* for the caller to write to; NULL: closed */
-    int lock;     /* a descriptor while there is no stream; -1: it has its name, or is gone */
+    FILE *stream; /* stream to write to; NULL: closed */
+    int lock;     /* descriptor when there is no stream; -1: renamed or removed */
     char path[HD_MAX_PATH];
     char temporary[HD_MAX_PATH];
 } HdAtomicFile;
 
-/* Makes the file, and missing folders, but not one that was there earlier in the run and is gone. A
-   `path` that stands for a folder or a device is refused, because renaming would replace it. On
-   failure there is nothing to be discarded. */
+/* Creates the file and missing folders, but not a folder that existed earlier in the run. Refuses a
+   `path` that names a folder or a device, because renaming would replace it. After a failure there
+   is nothing to discard. */
 HdStatus hd_atomic_file_open(HdAtomicFile *file, const char *path, HdError *error);
 
-/* The same for a file that only this user may read and write. */
+/* As hd_atomic_file_open, for a file that only this user may read and write. */
 HdStatus hd_atomic_file_open_private(HdAtomicFile *file, const char *path, HdError *error);
 
-/* The same without a stream: another program writes to `temporary`, and may replace that file. */
+/* As hd_atomic_file_open without a stream: another program writes to `temporary`, and may replace
+   it. */
 HdStatus hd_atomic_file_reserve(HdAtomicFile *file, const char *path, HdError *error);
 
-/* HD_FAILED where somebody removed the temporary file, or its folder, which the message tells. */
+/* Returns HD_FAILED, with the reason, if the temporary file or its folder was removed. */
 HdStatus hd_atomic_file_check(const HdAtomicFile *file, HdError *error);
 
-/* The three steps to the final name. After one that failed, a write that failed earlier included,
-   the temporary file is gone and a file that was there before is untouched. Closing the stream
-   comes first; syncing, which waits until the bytes are on the disk, may be left out. */
+/* The three steps to the final name: close the stream, sync the bytes to the disk (optional),
+   rename. If a step or an earlier write failed, the temporary file is removed. An existing file at
+   `path` is then untouched. */
 HdStatus hd_atomic_file_close(HdAtomicFile *file, HdError *error);
 HdStatus hd_atomic_file_sync(HdAtomicFile *file, HdError *error);
 HdStatus hd_atomic_file_publish(HdAtomicFile *file, HdError *error);
 
-/* All steps; HD_DURABLE: with the syncing of the file and of its folders. */
+/* Performs all steps; HD_DURABLE also syncs the file and its folders. */
 HdStatus hd_atomic_file_commit(HdAtomicFile *file, HdDurability durability, HdError *error);
 
-/* Closes and removes the temporary file; after the last step, or one that failed, nothing is left
-   to be done. */
+/* Closes and removes the temporary file. Does nothing after the last step or a failed one. */
 void hd_atomic_file_discard(HdAtomicFile *file);
 
-/* Waits until the bytes of an open file are on the disk; `path` is for the message. HD_FAILED where
-   the disk says no. What no disk is behind, such as a pipe, has nothing to wait for. */
+/* Blocks until the bytes of an open file are on the disk; `path` is for messages. Returns HD_FAILED
+   if the disk reports an error. Returns at once for a pipe and others that cannot be synced. */
 HdStatus hd_sync_file(int descriptor, const char *path, HdError *error);
 
-/* Waits until the name of the file `path` is on the disk: syncs its folder, and those above it up
-   to one for which this run did so, for they may be new. A folder that may not be read was made by
-   somebody else, and is left to the system. */
+/* Blocks until the name of the file `path` is on the disk. Syncs its folder and those above it,
+   which may be new, up to one that this run synced already. Skips folders that this user may not
+   read, which somebody else created. */
 HdStatus hd_sync_folder(const char *path, HdError *error);
 
-/* Forgets the folders that were there, and synced, earlier in the run: another run begins. */
+/* Forgets the existing and synced folders at the start of another run. */
 void hd_known_folders_forget(void);
 
-/* Of a longer name than this, without its folder, a temporary file's name has only the begin. */
+/* bytes of the final name that a temporary name keeps at most, without the folder */
 enum { HD_TEMPORARY_MAX_KEPT = 200 };
 
-/* How much of `name`, without its folder, is what a temporary file keeps of the final name; 0: it
-   is not the name of a temporary file. */
+/* Returns how many bytes of `name`, without its folder, belong to the final name; 0 if it is not
+   the name of a temporary file. */
 size_t hd_temporary_name_length(const char *name);
 
-/* Removes a temporary file, one by its name, that no process has locked. False where that may be
-   tried again soon: its writer, the process in the name, is gone, and what that had started has the
-   lock until it ends for want of input. */
+/* Removes a file with a temporary name unless a process has locked it. Returns false if a later
+   attempt may succeed: the writer in the name is gone, but a program that it started still holds
+   the lock. That program ends when its input does. */
 bool hd_temporary_remove_stale(const char *temporary);
 
 #endif

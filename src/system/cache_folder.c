@@ -17,12 +17,12 @@
 #include "base/hash.h"
 #include "system/atomic_file.h"
 
-/* An entry's file: the checksum of what follows it, the key with its zero byte, the payload. Where
-   the format changes, or on a machine of another byte order, the checksum is wrong. */
+/* A file holds a checksum of the rest, the key with its terminator, and the payload. If the format
+   or the byte order differs, the checksum is wrong. */
 enum { CHECKSUM_BYTES = sizeof(uint64_t) };
 
-/* Entries' names end so. */
-#define ENDING ".entry"
+/* file name extension of entries */
+#define EXTENSION ".entry"
 
 /* ---- names ---- */
 
@@ -61,15 +61,15 @@ static HdStatus entry_path(char path[HD_MAX_PATH], char folder[HD_MAX_PATH], con
                            const char *key, HdError *error) {
     char name[HD_CACHE_MAX_KIND + 32];
     HD_TRY(hd_cache_folder(folder, error));
-    snprintf(name, sizeof name, "%.*s-%016" PRIx64 ENDING, (int)HD_CACHE_MAX_KIND, kind,
+    snprintf(name, sizeof name, "%.*s-%016" PRIx64 EXTENSION, (int)HD_CACHE_MAX_KIND, kind,
              hd_hash_bytes(HD_HASH_START, key, strlen(key)));
     return join(path, folder, name, error);
 }
 
 /* ---- reading ---- */
 
-/* Why a file or folder is not this user's alone to write, in words that follow its name; NULL: it
- * is. */
+/* Returns why others could write to a file or folder, as a phrase after its name; NULL if only this
+   user may. */
 static const char *find_owner_fault(const struct stat *found) {
     if (found->st_uid != geteuid())
         return "it belongs to another user";
@@ -78,8 +78,8 @@ static const char *find_owner_fault(const struct stat *found) {
     return NULL;
 }
 
-/* HD_UNAVAILABLE where there is no such folder, HD_FAILED and the reason where others may write to
- * it. */
+/* Returns HD_UNAVAILABLE if the folder is missing, and HD_FAILED with the reason if others may
+   write to it. */
 static HdStatus check_folder(const char *folder, HdError *error) {
     struct stat found;
     if (stat(folder, &found) != 0)
@@ -90,11 +90,11 @@ static HdStatus check_folder(const char *folder, HdError *error) {
                          : hd_fail(error, HD_FAILED, "cannot use the folder %s: %s", folder, fault);
 }
 
-/* Returns what is wrong, or NULL; `*file` is the caller's to free in any case. */
+/* Returns the fault, or NULL. The caller frees `*file`, also after a fault. */
 static const char *read_file(int descriptor, unsigned char **file, size_t *size) {
     struct stat found;
     if (fstat(descriptor, &found) != 0)
-        return "it cannot be looked at";
+        return "its properties cannot be read";
     if (!S_ISREG(found.st_mode))
         return "it is not a regular file";
     const char *fault = find_owner_fault(&found);
@@ -110,8 +110,8 @@ static const char *read_file(int descriptor, unsigned char **file, size_t *size)
     return done == (ssize_t)*size ? NULL : "it cannot be read";
 }
 
-/* Moves the payload to the front. Returns what is wrong, or NULL. */
-static const char *keep_payload(unsigned char *file, size_t *size, const char *key) {
+/* Moves the payload to the front. Returns the fault, or NULL. */
+static const char *extract_payload(unsigned char *file, size_t *size, const char *key) {
     const size_t key_bytes = strlen(key) + 1;
     const unsigned char *content = file + CHECKSUM_BYTES;
     uint64_t checksum;
@@ -120,7 +120,7 @@ static const char *keep_payload(unsigned char *file, size_t *size, const char *k
     if (checksum != hd_hash_bytes(HD_HASH_START, content, *size))
         return "its checksum is wrong";
     if (*size < key_bytes || memcmp(content, key, key_bytes) != 0)
-        return "it is of another key";
+        return "it belongs to another key";
     *size -= key_bytes;
     memmove(file, content + key_bytes, *size);
     return NULL;
@@ -135,14 +135,14 @@ HdStatus hd_cache_get(const char *kind, const char *key, unsigned char **bytes, 
     HD_TRY(check_folder(folder, error));
     const int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
     if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR))
-        return hd_fail(error, HD_UNAVAILABLE, "%s has no entry for it", folder);
+        return hd_fail(error, HD_UNAVAILABLE, "%s has no entry for this key", folder);
     if (descriptor < 0)
         return hd_fail(error, HD_FAILED, "%s cannot be used: %s", path, strerror(errno));
     const char *fault = read_file(descriptor, bytes, size);
     if (fault == NULL)
-        fault = keep_payload(*bytes, size, key);
+        fault = extract_payload(*bytes, size, key);
     if (fault == NULL)
-        futimens(descriptor, NULL); /* it was used just now */
+        futimens(descriptor, NULL); /* marks it as used */
     close(descriptor);
     if (fault == NULL)
         return HD_OK;
@@ -155,8 +155,8 @@ HdStatus hd_cache_get(const char *kind, const char *key, unsigned char **bytes, 
 
 enum { STALE_SECONDS = 3600 };
 
-/* All entries together, and the one that has not been used for the longest time, of those that were
-   used after `stuck`, which cannot be removed. */
+/* The total size of all entries, and the least recently used one. Entries up to the time `stuck`
+   cannot be removed. */
 typedef struct Usage {
     int64_t bytes;
     char oldest[256];
@@ -172,18 +172,18 @@ static void add_entry(Usage *usage, const char *name, const struct stat *found) 
     usage->used = used;
 }
 
-static void look_at(Usage *usage, int folder, const char *name) {
+static void visit_entry(Usage *usage, int folder, const char *name) {
     struct stat found;
     if (fstatat(folder, name, &found, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(found.st_mode))
         return;
-    if (hd_path_has_ending(name, ENDING))
+    if (hd_path_has_ending(name, EXTENSION))
         add_entry(usage, name, &found);
-    else if (strstr(name, ENDING ".tmp-") != NULL &&
+    else if (strstr(name, EXTENSION ".tmp-") != NULL &&
              time(NULL) - found.st_mtim.tv_sec > STALE_SECONDS)
         unlinkat(folder, name, 0);
 }
 
-void hd_cache_limit(const char *folder, int64_t most) {
+void hd_cache_limit(const char *folder, int64_t max_bytes) {
     DIR *stream = opendir(folder);
     Usage usage = {0};
     bool is_over = stream != NULL;
@@ -191,8 +191,8 @@ void hd_cache_limit(const char *folder, int64_t most) {
         usage = (Usage){.stuck = usage.stuck};
         rewinddir(stream);
         for (const struct dirent *found = readdir(stream); found != NULL; found = readdir(stream))
-            look_at(&usage, dirfd(stream), found->d_name);
-        is_over = usage.bytes > most && usage.oldest[0] != '\0';
+            visit_entry(&usage, dirfd(stream), found->d_name);
+        is_over = usage.bytes > max_bytes && usage.oldest[0] != '\0';
         if (is_over && unlinkat(dirfd(stream), usage.oldest, 0) != 0 && errno != ENOENT)
             usage.stuck = usage.used;
     }
@@ -222,10 +222,10 @@ static HdStatus write_entry(const char *path, const char *key, const void *bytes
         hd_hash_bytes(hd_hash_bytes(HD_HASH_START, key, key_bytes), bytes, size);
     HdAtomicFile file;
     HD_TRY(hd_atomic_file_open_private(&file, path, error));
-    fwrite(&checksum, 1, CHECKSUM_BYTES, file.stream); /* committing finds what fails */
+    fwrite(&checksum, 1, CHECKSUM_BYTES, file.stream); /* errors show when committing */
     fwrite(key, 1, key_bytes, file.stream);
     fwrite(bytes, 1, size, file.stream);
-    return hd_atomic_file_commit(&file, HD_FLEETING, error);
+    return hd_atomic_file_commit(&file, HD_WITHOUT_SYNC, error);
 }
 
 HdStatus hd_cache_put(const char *kind, const char *key, const void *bytes, size_t size,
@@ -233,8 +233,9 @@ HdStatus hd_cache_put(const char *kind, const char *key, const void *bytes, size
     char path[HD_MAX_PATH], folder[HD_MAX_PATH];
     HD_TRY(entry_path(path, folder, kind, key, error));
     if (size > HD_CACHE_MAX_ENTRY_BYTES - CHECKSUM_BYTES - strlen(key) - 1)
-        return hd_fail(error, HD_FAILED, "an entry of %zu bytes is too large for the cache: %d",
-                       size, (int)HD_CACHE_MAX_ENTRY_BYTES);
+        return hd_fail(error, HD_FAILED,
+                       "a cache entry of %zu bytes is too large, expected at most %d", size,
+                       (int)HD_CACHE_MAX_ENTRY_BYTES);
     HD_TRY(make_folder(folder, error));
     HD_TRY(check_folder(folder, error));
     HD_TRY(write_entry(path, key, bytes, size, error));
@@ -258,7 +259,8 @@ HdStatus hd_cache_get_text(const char *kind, const char *key, char *text, size_t
     free(bytes);
     if (is_text)
         return HD_OK;
-    return hd_fail(error, HD_FAILED, "the cached text of %zu bytes is not one of %s", size, kind);
+    return hd_fail(error, HD_FAILED, "the cached entry of %zu bytes is not a text of kind %s", size,
+                   kind);
 }
 
 HdStatus hd_cache_put_text(const char *kind, const char *key, const char *text, HdError *error) {

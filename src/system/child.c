@@ -23,11 +23,11 @@
 
 extern char **environ;
 
-/* Where nothing tells that something happened, glances are shorter. */
-enum { GLANCE_MS = 200, SHORT_GLANCE_MS = 10 };
+/* The shorter interval is for waits that no descriptor can end. */
+enum { INTERVAL_MS = 200, SHORT_INTERVAL_MS = 10 };
 
-/* Real-time ones included; where there are fewer, nothing is known of the rest. */
-enum { LAST_SIGNAL = 64 };
+/* highest signal number, real-time signals included; systems with fewer reject the rest */
+enum { MAX_SIGNAL = 64 };
 
 HdStatus hd_child_find(const char *name, char out[HD_MAX_PATH], HdError *error) {
     const char *folders = getenv("PATH");
@@ -36,7 +36,7 @@ HdStatus hd_child_find(const char *name, char out[HD_MAX_PATH], HdError *error) 
         folders = "/usr/local/bin:/usr/bin:/bin";
     for (const char *folder = folders;; folder++) {
         int length = (int)strcspn(folder, ":");
-        /* An empty item stands for the current folder. */
+        /* An empty item of PATH is the current folder. */
         int used = length == 0 ? snprintf(out, HD_MAX_PATH, "./%s", name)
                                : snprintf(out, HD_MAX_PATH, "%.*s/%s", length, folder, name);
         if (used < HD_MAX_PATH && stat(out, &found) == 0 && S_ISREG(found.st_mode) &&
@@ -56,8 +56,8 @@ static void close_descriptor(int *descriptor) {
     *descriptor = -1;
 }
 
-/* Sockets, because writing to a pipe without a reader raises a signal and writing to a socket need
-   not. ends[0] is ours. */
+/* Opens a pair of sockets: writing to one without a reader need not raise a signal, as a pipe does.
+   The parent keeps ends[0]. */
 static bool open_channel(int ends[2]) {
     return socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0;
 }
@@ -67,51 +67,52 @@ typedef struct Order {
     const char *const *arguments;
     int input, output;
     int lock;   /* kept open; -1: none */
-    int reason; /* negative: not carried out yet */
+    int reason; /* errno of the result; negative: pending */
 } Order;
 
-/* ---- in the child, before it is another program: no memory is asked for, no lock taken ---- */
+/* ---- in the child, before it executes the other program: no allocation, no locks ---- */
 
-/* Not closed on the way into the other program, as `from` may be. */
-static bool move_descriptor(int from, int to) {
+/* Copies a descriptor to `to` so that it survives execve. */
+static bool inherit_descriptor(int from, int to) {
     return from == to ? fcntl(to, F_SETFD, 0) == 0 : dup2(from, to) >= 0;
 }
 
-/* Where our own standard streams are closed, the channels have their numbers. Nothing is
-   overwritten before it is used even then: `output` comes after another end and is never 0. */
+/* If the parent's standard streams are closed, the channels may have their numbers. Even then
+   nothing is overwritten before its use: `output` was opened after another end, so it is never
+   0. */
 static bool set_streams(int input, int output) {
     if (input < 0)
         input = open("/dev/null", O_RDONLY);
-    return input >= 0 && move_descriptor(input, STDIN_FILENO) &&
-           move_descriptor(output, STDOUT_FILENO) && move_descriptor(output, STDERR_FILENO);
+    return input >= 0 && inherit_descriptor(input, STDIN_FILENO) &&
+           inherit_descriptor(output, STDOUT_FILENO) && inherit_descriptor(output, STDERR_FILENO);
 }
 
-/* All are blocked until now. Handlers would do our work a second time, the other program must not
-   inherit that signals are blocked, and ours ignores lost readers. */
+/* Resets and unblocks signals, which were blocked before the fork. The child must not run this
+   program's handlers, and must not inherit blocked signals or the ignored SIGPIPE. */
 static bool set_signals(void) {
     const struct sigaction usual = {.sa_handler = SIG_DFL};
     struct sigaction now;
     sigset_t none;
     sigemptyset(&none);
-    for (int signal = 1; signal <= LAST_SIGNAL; signal++)
+    for (int signal = 1; signal <= MAX_SIGNAL; signal++)
         if (sigaction(signal, NULL, &now) == 0 && now.sa_handler != SIG_IGN)
             sigaction(signal, &usual, NULL);
     sigaction(SIGPIPE, &usual, NULL);
     return sigprocmask(SIG_SETMASK, &none, NULL) == 0;
 }
 
-static _Noreturn void become(const Order *order, int report, pid_t parent) {
+static _Noreturn void execute(const Order *order, int report, pid_t parent) {
 #ifdef __linux__
-    /* Where the system cannot do so, the lock tells that the program lives. */
+    /* On other systems the lock shows that the program lives. */
     prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
-    if (getppid() != parent) /* whose end came before that */
+    if (getppid() != parent) /* the parent ended before prctl */
         _exit(1);
-    /* The lock gets a number that no standard stream takes. */
+    /* F_DUPFD gives the lock a number above the standard streams. */
     if (setpgid(0, 0) == 0 &&
         (order->lock < 0 || fcntl(order->lock, F_DUPFD, STDERR_FILENO + 1) >= 0) &&
         set_streams(order->input, order->output) && set_signals())
-        /* the words are not changed, whatever the prototype says */
+        /* execve does not change the arguments, despite its prototype */
         execve(order->arguments[0], (char *const *)order->arguments, environ);
     const int reason = errno;
     while (write(report, &reason, sizeof reason) < 0 && errno == EINTR)
@@ -121,7 +122,7 @@ static _Noreturn void become(const Order *order, int report, pid_t parent) {
 
 /* ---- */
 
-/* The channel closes by itself once the child is another program; else it tells why it is not. */
+/* Returns 0 when the channel closes, as on execve; otherwise the errno sent by the child. */
 static int read_report(int report, pid_t child) {
     int reason = 0;
     if (hd_read_fully(report, &reason, sizeof reason) != (ssize_t)sizeof reason)
@@ -131,7 +132,7 @@ static int read_report(int report, pid_t child) {
     return reason;
 }
 
-/* Returns 0 or what went wrong, as errno would. */
+/* Returns 0 or an errno. */
 static int spawn_here(const Order *order) {
     const pid_t parent = getpid();
     pid_t *pid = order->pid;
@@ -143,7 +144,7 @@ static int spawn_here(const Order *order) {
     pthread_sigmask(SIG_SETMASK, &all, &before);
     *pid = fork();
     if (*pid == 0)
-        become(order, report[1], parent);
+        execute(order, report[1], parent);
     if (*pid < 0)
         reason = errno;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
@@ -158,8 +159,7 @@ static int spawn_here(const Order *order) {
     return reason;
 }
 
-/* ---- a child dies with the thread that started it: one thread, which never ends, starts all ----
- */
+/* ---- a child dies with the thread that started it, so one permanent thread starts all ---- */
 
 static struct {
     pthread_mutex_t mutex;
@@ -181,21 +181,21 @@ static void *launch(void *unused) {
     return NULL;
 }
 
-/* In a copy of this program, which has none of its threads and may find the lock held. */
-static void forget_launcher(void) {
+/* Resets the launcher after a fork: the child has none of the threads, and the lock may be held. */
+static void reset_launcher(void) {
     launcher.mutex = (pthread_mutex_t)PTHREAD_MUTEX_INITIALIZER;
     launcher.changed = (pthread_cond_t)PTHREAD_COND_INITIALIZER;
     launcher.has_thread = false;
     launcher.order = NULL;
 }
 
-/* Signals are for other threads. */
+/* Starts the thread with all signals blocked; other threads handle them. */
 static bool start_launcher(void) {
     pthread_t thread;
     sigset_t all, before;
     if (launcher.has_thread)
         return true;
-    if (!launcher.knows_forks && pthread_atfork(NULL, NULL, forget_launcher) != 0)
+    if (!launcher.knows_forks && pthread_atfork(NULL, NULL, reset_launcher) != 0)
         return false;
     launcher.knows_forks = true;
     sigfillset(&all);
@@ -207,7 +207,7 @@ static bool start_launcher(void) {
     return launcher.has_thread;
 }
 
-/* As spawn_here. */
+/* Runs spawn_here on the launcher's thread. */
 static int spawn(Order *order) {
     pthread_mutex_lock(&launcher.mutex);
     if (!start_launcher())
@@ -223,34 +223,34 @@ static int spawn(Order *order) {
     return order->reason;
 }
 
-static void remember(HdChild *child, const char *text, size_t length) {
-    size_t capacity = HD_CHILD_MAX_SAID - child->said_length;
+static void append_tail(HdChild *child, const char *text, size_t length) {
+    size_t capacity = HD_CHILD_MAX_TAIL - child->tail_length;
     if (length > capacity) {
-        size_t gone = length - capacity;
-        memmove(child->said, child->said + gone, child->said_length - gone);
-        child->said_length -= gone;
+        size_t dropped = length - capacity;
+        memmove(child->tail, child->tail + dropped, child->tail_length - dropped);
+        child->tail_length -= dropped;
     }
-    memcpy(child->said + child->said_length, text, length);
-    child->said_length += length;
-    child->said[child->said_length] = '\0';
+    memcpy(child->tail + child->tail_length, text, length);
+    child->tail_length += length;
+    child->tail[child->tail_length] = '\0';
 }
 
-/* Call only where poll() reported the output; closes it at its end. */
-static void take_output(HdChild *child) {
+/* Reads output that poll() reported, and closes it at its end. */
+static void read_output(HdChild *child) {
     char text[1024];
     ssize_t count = read(child->output, text, sizeof text);
     if (count > 0)
-        remember(child, text, (size_t)count);
+        append_tail(child, text, (size_t)count);
     else if (count == 0 || errno != EINTR)
         close_descriptor(&child->output);
 }
 
 /* ---- waiting ---- */
 
-/* Waits for one of the channels { input, output }, and takes in output. False after an interrupt,
-   or where the child is stuck: `still_ms` counts glances in vain, and no clock, for the whole
-   system may have slept or this program been stopped. */
-static bool poll_interval(HdChild *child, struct pollfd ready[2], int poll_interval_ms,
+/* Waits for one of the channels { input, output }, and reads output. Returns false after an
+   interrupt or if the child is stuck. `still_ms` counts intervals without an event instead of clock
+   time, because the system may have slept or this program been stopped. */
+static bool poll_channels(HdChild *child, struct pollfd ready[2], int poll_interval_ms,
                           int timeout_ms, int *still_ms) {
     const int count = hd_interrupt_signal() == 0 ? poll(ready, 2, poll_interval_ms) : 0;
     if (hd_interrupt_signal() != 0 || (count < 0 && errno != EINTR))
@@ -258,7 +258,7 @@ static bool poll_interval(HdChild *child, struct pollfd ready[2], int poll_inter
     *still_ms = count > 0 ? 0 : *still_ms + poll_interval_ms;
     child->is_stuck = *still_ms >= timeout_ms;
     if (count > 0 && ready[1].revents != 0)
-        take_output(child);
+        read_output(child);
     return !child->is_stuck;
 }
 
@@ -268,13 +268,13 @@ static bool has_ended(const HdChild *child) {
     return code != 0 ? errno != EINTR : state.si_pid != 0;
 }
 
-/* Takes in output until its end, then waits for the child's. False where it is to be killed. */
+/* Reads output until its end, then waits for the child. Returns false if it must be killed. */
 static bool wait_for_end(HdChild *child, int timeout_ms) {
     int still_ms = 0;
     while (child->output >= 0 || !has_ended(child)) {
         struct pollfd ready[2] = {{.fd = -1}, {.fd = child->output, .events = POLLIN}};
-        const int poll_interval_ms = child->output >= 0 ? GLANCE_MS : SHORT_GLANCE_MS;
-        if (!poll_interval(child, ready, poll_interval_ms, timeout_ms, &still_ms))
+        const int poll_interval_ms = child->output >= 0 ? INTERVAL_MS : SHORT_INTERVAL_MS;
+        if (!poll_channels(child, ready, poll_interval_ms, timeout_ms, &still_ms))
             return false;
     }
     return true;
@@ -285,7 +285,7 @@ bool hd_child_send(HdChild *child, const uint8_t *bytes, size_t size, int timeou
     while (size > 0) {
         struct pollfd ready[2] = {{.fd = child->input, .events = POLLOUT},
                                   {.fd = child->output, .events = POLLIN}};
-        if (!poll_interval(child, ready, GLANCE_MS, timeout_ms, &still_ms))
+        if (!poll_channels(child, ready, INTERVAL_MS, timeout_ms, &still_ms))
             return false;
         if (ready[0].revents == 0)
             continue;
@@ -302,12 +302,12 @@ bool hd_child_send(HdChild *child, const uint8_t *bytes, size_t size, int timeou
 
 /* ---- ends ---- */
 
-/* Waits for as long as it takes, and describes how the child ended. */
+/* Blocks until the child has ended, and describes how in `how`. */
 static bool reap(HdChild *child, char how[64]) {
     int state = 0;
     pid_t ended;
     siginfo_t unused;
-    /* Its number is free for another process only once it was waited for. */
+    /* Its process id is reused only after waitpid. */
     while (waitid(P_PID, (id_t)child->pid, &unused, WEXITED | WNOWAIT) != 0 && errno == EINTR)
         continue;
     hd_cleanup_forget_group(child->pid);
@@ -363,9 +363,9 @@ HdStatus hd_child_start(HdChild *child, const char *const arguments[], bool with
                    arguments[0], strerror(reason));
 }
 
-const char *hd_child_said(HdChild *child) {
-    while (child->said_length > 0 && strchr("\r\n ", child->said[child->said_length - 1]) != NULL)
-        child->said_length--;
-    child->said[child->said_length] = '\0';
-    return child->said_length > 0 ? child->said : "(nothing)";
+const char *hd_child_tail(HdChild *child) {
+    while (child->tail_length > 0 && strchr("\r\n ", child->tail[child->tail_length - 1]) != NULL)
+        child->tail_length--;
+    child->tail[child->tail_length] = '\0';
+    return child->tail_length > 0 ? child->tail : "(nothing)";
 }

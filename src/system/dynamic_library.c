@@ -8,8 +8,8 @@
 
 #include "system/path.h"
 
-/* Nothing is ever unloaded: NVIDIA's driver has threads of its own, and its compiler loses memory
-   each time it goes. */
+/* Libraries stay loaded: NVIDIA's driver has threads of its own, and its compiler leaks memory on
+   each unload. */
 void *hd_library_open(const char *path) {
     return dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
 }
@@ -25,7 +25,7 @@ const char *hd_library_load(void *library, const HdLibrarySymbol *symbols, int c
         void *address = dlsym(library, symbols[i].name);
         if (!address)
             return symbols[i].name;
-        /* POSIX has function pointers and void pointers alike; C does not let one be cast. */
+        /* POSIX represents both kinds of pointer alike, but C forbids the cast. */
         memcpy((char *)functions + symbols[i].offset, &address, sizeof address);
     }
     return NULL;
@@ -40,12 +40,12 @@ bool hd_library_path(void *library, const char *symbol, char *path, size_t capac
 }
 
 void *hd_library_open_adjacent(void *library, const char *symbol, const char *name) {
-    char beside[HD_MAX_PATH], path[HD_MAX_PATH];
-    if (!hd_library_path(library, symbol, beside, sizeof beside))
+    char adjacent[HD_MAX_PATH], path[HD_MAX_PATH];
+    if (!hd_library_path(library, symbol, adjacent, sizeof adjacent))
         return NULL;
-    const size_t folder = hd_folder_length(beside);
+    const size_t folder = hd_folder_length(adjacent);
     if (folder == 0)
         return NULL;
-    const int length = snprintf(path, sizeof path, "%.*s%s", (int)folder, beside, name);
+    const int length = snprintf(path, sizeof path, "%.*s%s", (int)folder, adjacent, name);
     return length < HD_MAX_PATH ? hd_library_open(path) : NULL;
 }

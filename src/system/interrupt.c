@@ -21,22 +21,22 @@ enum {
     TIMEOUT_MS = 1500,
     REMOVAL_MS = 300,
     CLOCK_SLACK_MS = 2,
-    GLANCE_MS = 250,
-    WRITE_GLANCE_MS = 200
+    INTERVAL_MS = 250,
+    WRITE_INTERVAL_MS = 200
 };
 
 static const int watched_signals[] = {SIGINT, SIGTERM, SIGHUP};
 static const double MIN_TIMEOUT_S = 0.1, MAX_TIMEOUT_S = 86400.0;
-static const char too_late[] = "hedron: interrupted; what was at work did not end in time\n";
+static const char timeout_message[] = "hedron: interrupted; the running work did not end in time\n";
 
-/* Signals may come in any thread, and two of them in two threads at once. */
+/* Signals arrive in any thread, two of them possibly in two threads at once. */
 static atomic_int caught;
-static atomic_llong caught_ms; /* on a clock that only goes forward; 0: none came */
+static atomic_llong caught_ms; /* on a monotonic clock; 0: no signal yet */
 static _Atomic(const char *) announcement;
 
-/* Timers, since nothing else of the program may be able to move. */
+/* Timers, because every thread of the program may be blocked. */
 static struct {
-    timer_t end, kill; /* send SIGALRM and, where nothing handles that, SIGKILL */
+    timer_t end, kill; /* send SIGALRM and, if that is not handled, SIGKILL */
     bool has_end, has_kill;
 } timers;
 
@@ -48,9 +48,9 @@ _Static_assert(ATOMIC_INT_LOCK_FREE == 2 && ATOMIC_LLONG_LOCK_FREE == 2 &&
                    ATOMIC_POINTER_LOCK_FREE == 2,
                "a signal's handler must not wait for a lock");
 
-/* ---- leftovers ---- */
+/* ---- cleanup registry ---- */
 
-/* All outputs of a run may be films, and all of them pictures of many frames under way. */
+/* Enough for all outputs as films, and for all of them as pictures with many frames in flight. */
 enum { MAX_GROUPS = 2 * HD_MAX_OUTPUTS, MAX_FILES = 32 * HD_MAX_OUTPUTS };
 
 /* A name that is being removed is never written to again: its slot stays taken. */
@@ -61,7 +61,7 @@ static struct {
     char path[HD_MAX_PATH];
 } files[MAX_FILES];
 
-/* Among threads; the handler of a signal goes by the states alone. */
+/* protects the files among threads; signal handlers use the states alone */
 static pthread_mutex_t files_mutex = PTHREAD_MUTEX_INITIALIZER;
 
 static atomic_int groups[MAX_GROUPS]; /* 0: free */
@@ -104,7 +104,7 @@ void hd_cleanup_forget_group(pid_t leader) {
         swap(&groups[i], (int)leader, 0);
 }
 
-/* The groups first, lest they make their files again. */
+/* Kills the groups first, which could create their files again. */
 void hd_cleanup_remove(void) {
     for (int i = 0; i < MAX_GROUPS; i++) {
         int leader = atomic_exchange(&groups[i], 0);
@@ -143,32 +143,32 @@ static void unblock(int number) {
     pthread_sigmask(SIG_UNBLOCK, &only, NULL);
 }
 
-static void say(const char *text) {
+static void write_message(const char *text) {
     if (text != NULL && write(STDERR_FILENO, text, strlen(text)) < 0)
-        errno = 0; /* and nobody there to be told */
+        errno = 0; /* nobody can read a report */
 }
 
-/* As if the signal had never been caught, so that the parent process sees what ended us. */
-static void die(int number) {
+/* Ends as if the signal had never been caught, so that the parent process sees the signal. */
+static void die_by_signal(int number) {
     set_handler(number, SIG_DFL, 0);
     unblock(number);
     raise(number);
     _exit(128 + number);
 }
 
-/* Removing files may hang too. */
+/* Removing files may block too, so the timers run meanwhile. */
 static void end_at_once(int number, const char *text) {
     atomic_store(&is_removing, true);
     if (timers.has_end)
         set_timer(timers.end, REMOVAL_MS);
     if (timers.has_kill)
         set_timer(timers.kill, 2 * REMOVAL_MS);
-    say(text);
+    write_message(text);
     hd_cleanup_remove();
-    die(number);
+    die_by_signal(number);
 }
 
-/* Also what wakes the main thread, and then does nothing else. */
+/* Also wakes the main thread, and then does nothing else. */
 static void handle_deadline(int unused) {
     int number = atomic_load(&caught);
     long long waited = milliseconds() - atomic_load(&caught_ms);
@@ -176,8 +176,8 @@ static void handle_deadline(int unused) {
     if (number == 0 || waited + CLOCK_SLACK_MS < timeout_ms)
         return;
     if (atomic_load(&is_removing))
-        die(number);
-    end_at_once(number, too_late);
+        die_by_signal(number);
+    end_at_once(number, timeout_message);
 }
 
 static void handle(int number) {
@@ -187,7 +187,7 @@ static void handle(int number) {
         atomic_store(&caught, number);
         if (timers.has_end)
             set_timer(timers.end, timeout_ms);
-        say(atomic_load(&announcement));
+        write_message(atomic_load(&announcement));
     } else if (now - first >= SAME_REQUEST_MS) {
         end_at_once(number, NULL);
     }
@@ -199,10 +199,10 @@ static bool is_ignored(int number) {
     return sigaction(number, NULL, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
-/* The system hands a signal to the main thread if it can, but that one handles none while it waits
-   for a file server that is gone. What was meant for it, it may be missing then. */
+/* The system prefers the main thread for signals, but that handles none while it waits for a file
+   server that is gone. This thread then handles them, and SIGALRM wakes the main thread. */
 static void *watch(void *main_thread) {
-    const struct timespec poll_interval = {.tv_nsec = GLANCE_MS * 1000000};
+    const struct timespec poll_interval = {.tv_nsec = INTERVAL_MS * 1000000};
     sigset_t all, watched;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, NULL);
@@ -222,18 +222,18 @@ static void *watch(void *main_thread) {
     return NULL;
 }
 
-/* False where the system has none left. */
+/* Returns false if the system has no timer left. */
 static bool create_timer(timer_t *timer, int number) {
     struct sigevent event = {.sigev_notify = SIGEV_SIGNAL, .sigev_signo = number};
     return timer_create(CLOCK_MONOTONIC, &event, timer) == 0;
 }
 
-/* A signal that the parent process had ignored stays ignored: so shells start jobs in the
-   background, and nohup its program. */
+/* Keeps signals ignored that the parent process ignored: shells do so for background jobs, and
+   nohup. */
 void hd_interrupt_install(void) {
     static pthread_t main_thread;
     pthread_t watcher;
-    /* It comes again while the first one is handled. */
+    /* SIGALRM may arrive again while the first one is handled. */
     set_handler(SIGALRM, handle_deadline, SA_NODEFER);
     unblock(SIGALRM);
     timers.has_end = create_timer(&timers.end, SIGALRM);
@@ -245,7 +245,7 @@ void hd_interrupt_install(void) {
     set_handler(SIGPIPE, SIG_IGN, 0);
     set_handler(SIGCHLD, SIG_DFL, 0);
     main_thread = pthread_self();
-    /* Without it all but waiting for a file server ends in time. */
+    /* Without this thread the timeout fails only during a wait for a file server. */
     if (pthread_create(&watcher, NULL, watch, &main_thread) == 0)
         pthread_detach(watcher);
 }
@@ -271,7 +271,7 @@ int hd_interrupt_signal(void) {
 bool hd_wait_to_write(int descriptor) {
     struct pollfd ready = {.fd = descriptor, .events = POLLOUT};
     int count;
-    while ((count = poll(&ready, 1, WRITE_GLANCE_MS)) == 0 || (count < 0 && errno == EINTR))
+    while ((count = poll(&ready, 1, WRITE_INTERVAL_MS)) == 0 || (count < 0 && errno == EINTR))
         if (hd_interrupt_signal() != 0)
             return false;
     return true;

@@ -43,12 +43,12 @@ double hd_physical_memory(void) {
 }
 
 int hd_free_descriptors(void) {
-    const unsigned long most = (unsigned long)sysconf(_SC_OPEN_MAX); /* -1: without an end */
+    const unsigned long limit = (unsigned long)sysconf(_SC_OPEN_MAX); /* -1: unlimited */
     const int lowest = open("/dev/null", O_RDONLY | O_CLOEXEC);
     if (lowest < 0)
         return 0;
     close(lowest);
-    return most > INT_MAX ? INT_MAX : (int)most - lowest;
+    return limit > INT_MAX ? INT_MAX : (int)limit - lowest;
 }
 
 void *hd_large_allocate(size_t bytes) {
@@ -58,7 +58,7 @@ void *hd_large_allocate(size_t bytes) {
     const size_t rounded = bytes < unit ? unit : (bytes + unit - 1) / unit * unit;
     void *memory = aligned_alloc(unit, rounded);
 #ifdef MADV_HUGEPAGE
-    /* Only a wish: without it the memory is as good, but slower to get. */
+    /* Only a hint: without it the pages are small and slower to get. */
     if (memory != NULL && unit == LARGE_PAGE)
         (void)madvise(memory, rounded, MADV_HUGEPAGE);
 #endif

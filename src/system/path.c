@@ -50,7 +50,7 @@ HdStatus hd_path_expand_home(const char *path, char out[HD_MAX_PATH], HdError *e
     return join(home, path + 1, out, error);
 }
 
-/* Making first and looking second leaves no gap for another process that makes the same folder. */
+/* Creates first and checks second: another process may create the same folder meanwhile. */
 static HdStatus make_folder(const char *folder, unsigned mode, const char *path, HdError *error) {
     struct stat found;
     if (mkdir(folder, mode) == 0)
@@ -105,8 +105,8 @@ HdStatus hd_path_make_parents(const char *path, unsigned mode, HdError *error) {
     return HD_OK;
 }
 
-/* One step down or up from `path`, "" being the root; links are followed as far as they lead. */
-static bool walk(char path[HD_MAX_PATH], const char *part, size_t length) {
+/* Moves one step down or up from `path` ("" is the root), and follows links as far as they lead. */
+static bool step(char path[HD_MAX_PATH], const char *part, size_t length) {
     size_t used = strlen(path);
     if (length == 0 || (length == 1 && part[0] == '.'))
         return true;
@@ -125,14 +125,14 @@ static bool walk(char path[HD_MAX_PATH], const char *part, size_t length) {
     return fits;
 }
 
-/* The one name that stands for the file, made of what exists and what would be made. */
+/* Finds the one canonical name of a file from folders that exist or would be created. */
 static bool resolve(const char *path, char out[HD_MAX_PATH]) {
     out[0] = '\0';
     if (path[0] != '/' && (getcwd(out, HD_MAX_PATH) == NULL || strcmp(out, "/") == 0))
         out[0] = '\0';
     for (;; path++) {
         const size_t length = strcspn(path, "/");
-        if (!walk(out, path, length))
+        if (!step(out, path, length))
             return false;
         path += length;
         if (*path == '\0')
@@ -149,12 +149,12 @@ bool hd_path_is_same(const char *first, const char *second) {
            strcmp(first_name, second_name) == 0;
 }
 
-/* A pattern's parts; a percent sign stands for itself. */
+/* a part of a pattern; "%%" is a character */
 typedef enum Part { PART_CHARACTER, PART_NUMBER, PART_WRONG } Part;
 
 enum { MAX_DIGITS = 9 };
 
-/* `*text` stands at a percent sign and is moved past the directive if it is one. */
+/* Moves `*text`, which starts with a percent sign, past the directive if it is valid. */
 static Part read_directive(const char **text, int *digits) {
     const char *p = *text + 1;
     if (p[0] == '%') {
@@ -171,25 +171,25 @@ static Part read_directive(const char **text, int *digits) {
     return PART_NUMBER;
 }
 
-/* Moves `*text` past the next part unless that is wrong; `*digits` is a number's least. */
-static Part read_part(const char **text, bool takes_marks, int *digits) {
-    size_t marks = takes_marks ? strspn(*text, "#") : 0;
+/* Moves `*text` past the next part unless it is wrong; sets the least `*digits` of a number. */
+static Part read_part(const char **text, bool counts_hashes, int *digits) {
+    size_t hashes = counts_hashes ? strspn(*text, "#") : 0;
     *digits = 1;
     if (**text == '%')
         return read_directive(text, digits);
-    if (marks > MAX_DIGITS)
+    if (hashes > MAX_DIGITS)
         return PART_WRONG;
-    *text += marks > 0 ? marks : 1;
-    if (marks == 0)
+    *text += hashes > 0 ? hashes : 1;
+    if (hashes == 0)
         return PART_CHARACTER;
-    *digits = (int)marks;
+    *digits = (int)hashes;
     return PART_NUMBER;
 }
 
-static bool has_number(const char *path, bool takes_marks) {
+static bool has_number(const char *path, bool counts_hashes) {
     int digits;
     while (*path != '\0') {
-        const Part part = read_part(&path, takes_marks, &digits);
+        const Part part = read_part(&path, counts_hashes, &digits);
         if (part == PART_NUMBER)
             return true;
         if (part == PART_WRONG)
@@ -202,17 +202,17 @@ bool hd_pattern_has_number(const char *path) {
     return has_number(path, true);
 }
 
-/* Also counts the numbers that it has. */
+/* Expands the pattern and counts its frame numbers. */
 static HdStatus expand(const char *pattern, int frame, char out[HD_MAX_PATH], int *numbers,
                        HdError *error) {
-    /* With "%d" or "%0Nd" a '#' is a character like any other. */
-    const bool takes_marks = !has_number(pattern, false);
+    /* If the pattern has "%d" or "%0Nd", a '#' is an ordinary character. */
+    const bool counts_hashes = !has_number(pattern, false);
     size_t length = 0;
     int digits;
     *numbers = 0;
     for (const char *text = pattern; *text != '\0';) {
         char piece[16];
-        const Part part = read_part(&text, takes_marks, &digits);
+        const Part part = read_part(&text, counts_hashes, &digits);
         if (part == PART_WRONG)
             return hd_fail(error, HD_BAD_INPUT,
                            "the pattern \"%s\" has \"%.*s\", expected %%d, %%0Nd with N from 1 to "
@@ -291,10 +291,10 @@ FILE *hd_file_open(const char *path, struct stat *found, const char **reason) {
 }
 
 static HdStatus read_file(int descriptor, const char *what, const char *path, int64_t has,
-                          int64_t most, unsigned char **bytes, size_t *size, HdError *error) {
-    if (has > most || (uintmax_t)has >= SIZE_MAX)
+                          int64_t max_bytes, unsigned char **bytes, size_t *size, HdError *error) {
+    if (has > max_bytes || (uintmax_t)has >= SIZE_MAX)
         return hd_fail(error, HD_BAD_INPUT, CANNOT_READ "it has %lld bytes, expected at most %lld",
-                       what, path, (long long)has, (long long)most);
+                       what, path, (long long)has, (long long)max_bytes);
     *size = (size_t)has;
     *bytes = malloc(*size + 1);
     if (*bytes == NULL)
@@ -308,7 +308,7 @@ static HdStatus read_file(int descriptor, const char *what, const char *path, in
     return HD_OK;
 }
 
-HdStatus hd_file_read(const char *path, const char *what, int64_t most, unsigned char **bytes,
+HdStatus hd_file_read(const char *path, const char *what, int64_t max_bytes, unsigned char **bytes,
                       size_t *size, HdError *error) {
     struct stat found;
     const char *reason;
@@ -317,7 +317,7 @@ HdStatus hd_file_read(const char *path, const char *what, int64_t most, unsigned
     if (file == NULL)
         return hd_fail(error, HD_BAD_INPUT, CANNOT_READ "%s", what, path, reason);
     const HdStatus status =
-        read_file(fileno(file), what, path, found.st_size, most, bytes, size, error);
+        read_file(fileno(file), what, path, found.st_size, max_bytes, bytes, size, error);
     fclose(file);
     if (status != HD_OK) {
         free(*bytes);

@@ -24,7 +24,7 @@ struct HdThreadPool {
     int thread_count;
     pthread_mutex_t mutex;
     pthread_cond_t work_given, work_done;
-    unsigned generation; /* counts the runs, so that a thread takes part in each once */
+    unsigned generation; /* number of the run, so that a thread takes part in each once */
     int busy;
     bool ending;
     atomic_int next;
@@ -32,7 +32,7 @@ struct HdThreadPool {
     HdThreadWork *work;
     void *context;
     bool (*must_stop)(const void *context);
-    atomic_bool stopped; /* before all items were done */
+    atomic_bool stopped; /* some items were not started */
 };
 
 static void work_off(HdThreadPool *pool, int thread) {
@@ -52,7 +52,7 @@ static void *thread_main(void *argument) {
     const Thread *own = argument;
     HdThreadPool *pool = own->pool;
     unsigned seen = 0;
-    /* The caller may have been started with denormals flushed to zero, which threads inherit. */
+    /* Threads inherit the caller's mode, which may flush denormals to zero. */
     fesetenv(FE_DFL_ENV);
     pthread_mutex_lock(&pool->mutex);
     for (;;) {
@@ -71,8 +71,8 @@ static void *thread_main(void *argument) {
     return NULL;
 }
 
-/* Kernels keep their private arrays on the stack: at the limits of depth, planes and lanes
-   more than 2 MB, which is more than some systems give a thread. */
+/* Kernels keep private arrays on the stack. At the limits of depth, planes and lanes they take more
+   than 2 MB, the whole stack of a thread on some systems. */
 enum { STACK_BYTES = 8 << 20 };
 
 static int init_attributes(pthread_attr_t *attributes) {
@@ -91,10 +91,10 @@ int hd_start_thread(pthread_t *thread, void *(*work)(void *), void *argument) {
     return code;
 }
 
-/* Of the first thread, which computes no pixels; drivers take most of it. */
+/* the first thread's stack, mostly for drivers; it computes no pixels */
 enum { MIN_STACK_BYTES = 1 << 20 };
 
-/* Those of threads that drivers start follow the limit that there was at the program's start. */
+/* Enlarges the stacks of drivers' threads, which follow the limit at the program's start. */
 static void enlarge_other_stacks(void) {
 #ifdef __GLIBC__
     pthread_attr_t attributes;
@@ -195,17 +195,17 @@ void hd_thread_pool_destroy(HdThreadPool *pool) {
 
 /* ---- small items ---- */
 
-/* A chunk of so many items takes some microseconds at least, as long as it takes to wake a thread;
-   so many chunks keep the threads even where some have more work. */
+/* MIN_ITEMS take some microseconds, as long as waking a thread. MAX_CHUNKS balance threads with
+   uneven work. */
 enum { MIN_ITEMS = 1024, MAX_CHUNKS = 256 };
 
 typedef struct Job {
-    int count, each; /* items, and those of a chunk */
+    int count, each; /* items in all and in a chunk */
     HdChunkWork *work;
     HdChunkChoice *choose;
     void *context;
     int *chosen;
-    int found[MAX_CHUNKS]; /* by chunk */
+    int found[MAX_CHUNKS]; /* items chosen in each chunk */
 } Job;
 
 static int end_of(const Job *job, int chunk) {
@@ -225,7 +225,7 @@ static void choose_in_chunk(void *context, int thread, int chunk) {
     job->found[chunk] = job->choose(job->context, first, end_of(job, chunk), job->chosen + first);
 }
 
-/* Returns how many chunks there are. */
+/* Returns the number of chunks. */
 static int run(HdThreadPool *pool, Job *job, HdThreadWork *work) {
     job->each = hd_max(job->count / MAX_CHUNKS + 1, MIN_ITEMS);
     const int chunks = (job->count + job->each - 1) / job->each;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A small pool of threads that work off numbered items. */
+/* A thread pool that processes numbered items. */
 #ifndef HD_SYSTEM_THREAD_POOL_H
 #define HD_SYSTEM_THREAD_POOL_H
 
@@ -11,50 +11,49 @@
 
 typedef struct HdThreadPool HdThreadPool;
 
-/* Starts `threads` threads (at least 1), each in the default floating-point environment. Where the
-   system refuses some, those that it did not refuse do the work, and a note tells (machine.h). */
+/* Starts `threads` threads (at least 1), each in the default floating-point environment. If the
+   system refuses some, the others do the work and a note reports it (machine.h). */
 HdStatus hd_thread_pool_create(HdThreadPool **pool, int threads, HdError *error);
 
-/* How many threads there are. */
+/* Returns the number of threads. */
 int hd_thread_pool_size(const HdThreadPool *pool);
 
-/* What a pool does; `thread` counts from 0, and no two calls with the same number run at once. */
+/* The work on an item; `thread` counts from 0, and no two concurrent calls have the same number. */
 typedef void HdThreadWork(void *context, int thread, int item);
 
-/* Calls work(context, t, i) for i = 0 .. count - 1 on the pool's threads, each once, in no fixed
-   order, and waits for all of them. One caller at a time. Once must_stop(context) is true no
-   further item is begun; false where some were left out so. NULL: nothing stops it. */
+/* Calls work(context, t, i) once for each i = 0 .. count - 1 on the pool's threads, in no fixed
+   order, and blocks until all returned. One caller at a time. Starts no further item once
+   must_stop(context) is true (NULL: never). Returns false if some were not started. */
 bool hd_thread_pool_run(HdThreadPool *pool, int count, HdThreadWork *work, void *context,
                         bool (*must_stop)(const void *context));
 
-/* Ends the threads. NULL is allowed. */
+/* Stops the threads and frees the pool. NULL is allowed. */
 void hd_thread_pool_destroy(HdThreadPool *pool);
 
-/* Works on the items first .. end - 1; calls with other items may run at once. */
+/* Processes the items first .. end - 1; calls with other items may run concurrently. */
 typedef void HdChunkWork(void *context, int first, int end);
 
-/* Calls `work` until it was given each of `count` items once, on the pool's threads, or on the
-   caller's where there are few, and waits. */
+/* Calls `work` for chunks that cover each of `count` items once. Runs on the pool's threads, or on
+   the caller's if there are few items. Blocks until all returned. */
 void hd_chunks_run(HdThreadPool *pool, int count, HdChunkWork *work, void *context);
 
-/* Writes what it chooses of the items first .. end - 1 to `chosen`, at most one number for each
-   item, in their order; returns how many these are. */
+/* Chooses among the items first .. end - 1: writes at most one number for each to `chosen`, in
+   their order, and returns how many. */
 typedef int HdChunkChoice(void *context, int first, int end, int *chosen);
 
-/* Chooses among `count` items as above, with the same outcome as one call for all of them. `chosen`
-   has room for `count` numbers, and may be what a choice reads of its own items. Returns how many
-   were chosen. */
+/* Chooses among `count` items; the result equals that of one call for all of them. `chosen` has
+   capacity for `count` numbers, and may alias what a choice reads of its own items. Returns how
+   many were chosen. */
 int hd_chunks_choose(HdThreadPool *pool, int count, HdChunkChoice *choose, void *context,
                      int *chosen);
 
 /* ---- */
 
-/* Starts a thread with a stack of 8 MiB, whatever the limit of this process gives others. Returns 0
-   or what went wrong, as errno would. */
+/* Starts a thread with a stack of 8 MiB, whatever the process's limit. Returns 0 or an errno. */
 int hd_start_thread(pthread_t *thread, void *(*work)(void *), void *argument);
 
-/* Sees to it that the first thread's stack may grow as far as the program needs. HD_FAILED where
-   the system's limit (ulimit -s) is below that and cannot be raised. */
+/* Ensures that the first thread's stack may grow as needed. HD_FAILED: the system's limit (ulimit
+   -s) is too low and cannot be raised. */
 HdStatus hd_check_stack(HdError *error);
 
 #endif

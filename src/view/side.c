@@ -27,7 +27,7 @@ enum { PART_ROWS = 8 };
 
 /* Returns whether the current work serves an outdated request. */
 static bool is_stale(HdViewSide *side) {
-    return atomic_load(&side->watch.is_unwanted);
+    return atomic_load(&side->watch.is_cancelled);
 }
 
 static void set_description(HdViewSide *side, const char *device) {
@@ -251,7 +251,7 @@ static bool claim_request(HdViewSide *side, HdViewRequest *request) {
     const bool has_work = !side->must_end;
     side->is_busy = has_work;
     side->is_saveable = side->is_saveable && !has_work;
-    atomic_store(&side->watch.is_unwanted, false);
+    atomic_store(&side->watch.is_cancelled, false);
     *request = side->request;
     pthread_mutex_unlock(&side->mutex);
     return has_work;
@@ -269,7 +269,7 @@ static void *work(void *argument) {
 void hd_view_side_show(HdViewSide *side, const HdViewRequest *request) {
     pthread_mutex_lock(&side->mutex);
     side->request = *request;
-    atomic_store(&side->watch.is_unwanted, true);
+    atomic_store(&side->watch.is_cancelled, true);
     side->has_request = true;
     side->is_done = false;
     pthread_cond_broadcast(&side->changed);
@@ -280,7 +280,7 @@ void hd_view_side_show(HdViewSide *side, const HdViewRequest *request) {
 static void stop_work(HdViewSide *side) {
     pthread_mutex_lock(&side->mutex);
     side->has_request = false;
-    atomic_store(&side->watch.is_unwanted, true);
+    atomic_store(&side->watch.is_cancelled, true);
     while (side->is_busy)
         pthread_cond_wait(&side->changed, &side->mutex);
     pthread_mutex_unlock(&side->mutex);
@@ -329,7 +329,7 @@ HdStatus hd_view_side_save(HdViewSide *side, const char *path, HdError *error) {
 static void end_thread(HdViewSide *side) {
     pthread_mutex_lock(&side->mutex);
     side->must_end = true;
-    atomic_store(&side->watch.is_unwanted, true);
+    atomic_store(&side->watch.is_cancelled, true);
     pthread_cond_broadcast(&side->changed);
     pthread_mutex_unlock(&side->mutex);
     pthread_join(side->thread, NULL);

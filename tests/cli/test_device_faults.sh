@@ -38,7 +38,7 @@ expect_end_by() {
     send "$1" "$pid"
     expect_end $((128 + $(kill -l "$1")))
     expect_sentence
-    expect_stderr_contains 'interrupted; what was at work did not end in time'
+    expect_stderr_contains 'interrupted; the running work did not end in time'
     ! find . -name '*.tmp-*' -o -name film.mkv | grep . || fail "there stays $(ls)"
     rm -rf ./*
 }

@@ -40,7 +40,7 @@ remove_folder() {
     rm -r "$work/taken_away"
     expect_sentence
     expect_stdout_lines 0
-    expect_stderr_contains 'its folder gone/ is gone'
+    expect_stderr_contains 'its folder gone/ was removed'
     expect_nothing_temporary 'where the folder is gone,'
     [[ ! -e gone ]] || fail 'the folder was made again'
 }
@@ -134,7 +134,7 @@ for case in 'INT /scene.json' 'TERM 1.data.tmp-' 'HUP 1.data.tmp-'; do
     send "${case% *}" "$pid"
     expect_end $((128 + $(kill -l "${case% *}")))
     expect_sentence
-    expect_stderr_contains 'interrupted; what was at work did not end in time'
+    expect_stderr_contains 'interrupted; the running work did not end in time'
     rm -f 0.data # a frame that was finished before
     expect_files .
 done

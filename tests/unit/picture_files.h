@@ -31,7 +31,7 @@ static inline void write_frame(HdFrame *frame, const HdFormat *format, const HdP
     static HdError error;
     HdAtomicFile file;
     if (hd_picture_prepare(&file, frame, format, style, label, path, &error) != HD_OK ||
-        hd_atomic_file_commit(&file, HD_FLEETING, &error) != HD_OK)
+        hd_atomic_file_commit(&file, HD_WITHOUT_SYNC, &error) != HD_OK)
         fail_msg("%s", error.message);
     hd_frame_free(frame);
 }

@@ -53,7 +53,7 @@ static HdStatus queue_launch(const HdGpuRenderer *renderer, const HdGpuLaunch *l
 }
 
 static HdStatus check_cancelled(const HdFrameTables *tables, HdError *error) {
-    return hd_interrupt_signal() != 0 || hd_watched_is_unwanted(&tables->watched)
+    return hd_interrupt_signal() != 0 || hd_watched_is_cancelled(&tables->watched)
                ? hd_fail(error, HD_INTERRUPTED, "interrupted during a frame")
                : HD_OK;
 }

@@ -30,7 +30,7 @@ TEST(what_a_format_cannot_say_is_refused) {
         HdPictureStyle style;
         const char *refusal;
     } cases[] = {{"a.gif", {HD_CURVE_SRGB, 8}, NULL},
-                 {"a.gif", {HD_CURVE_LINEAR, 8}, "a.gif cannot be linear, for a GIF"},
+                 {"a.gif", {HD_CURVE_LINEAR, 8}, "a.gif cannot be linear, because GIF files"},
                  {"a.png", {HD_CURVE_SRGB, 32}, "a.png cannot have 32 bits a channel"},
                  {"a.exr", {HD_CURVE_LINEAR, 32}, NULL},
                  {"a.mkv", {HD_CURVE_SRGB, 32}, NULL},

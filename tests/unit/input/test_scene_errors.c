@@ -290,7 +290,7 @@ TEST(test_wrong_texts) {
 
 TEST(test_outputs) {
     static const char *const cases[][2] = {
-        {"film.gif", "output.path: film.gif cannot be linear, for a GIF has no way to "},
+        {"film.gif", "output.path: film.gif cannot be linear, because GIF files cannot "},
         {"one.png", "output.path is \"one.png\", which names one picture, but camera.frames is 24, "
                     "expected #### in the name, or a film"},
         {"a/####.pfm", NULL},

@@ -49,7 +49,7 @@ static HdStatus start(const char *first, const char *second, int fails_at, bool 
     told.is_as_expected = true;
     assert_int_equal(
         hd_outputs_settle(&outputs, names, second != NULL ? 2 : 1, &style, FRAMES, &error), HD_OK);
-    outputs.durability = HD_FLEETING;
+    outputs.durability = HD_WITHOUT_SYNC;
     hd_outputs_set_fingerprint(&outputs, 1, resumes);
     assert_int_equal(hd_resume_find(&resume, &outputs, &frames, &error), HD_OK);
     plan = (HdFrameStorePlan){.outputs = &outputs,

@@ -30,7 +30,7 @@ TEST(outputs_suit_the_number_of_frames) {
                  {"a.pfm", NULL, 7, "'a.pfm'"},
                  {"a_%d.mkv", NULL, 7, "numbered films"},
                  {"a_##.gif", NULL, 7, "numbered films"},
-                 {"a_##.png", "b.GIF", 7, "b.GIF cannot be linear, for a GIF has no way to say so"},
+                 {"a_##.png", "b.GIF", 7, "b.GIF cannot be linear, because GIF files cannot"},
                  {"%d_%d.png", NULL, 7, "%d_%d.png"},
                  {"100%.png", NULL, 1, "100%.png"},
                  {"a.mp4", "b.png", 2, "'b.png'"},

@@ -71,7 +71,7 @@ static HdStatus film_frames(const char *path, const HdFrame *frames, int count,
     for (int i = 0; i < count && status == HD_OK; i++)
         status = hd_video_add(video, &frames[i], &error);
     if (status == HD_OK)
-        return hd_video_close(video, HD_FLEETING, &error);
+        return hd_video_close(video, HD_WITHOUT_SYNC, &error);
     hd_video_abort(video);
     return status;
 }

@@ -56,7 +56,7 @@ TEST(all_samples_and_passes_are_told) {
         assert_true(setup.watch.done == HD_WATCH_FRAME);
         assert_int_equal(render(&setup), HD_OK);
         assert_true(hd_watch_frames(&setup.watch) == 2.0);
-        atomic_store(&setup.watch.is_unwanted, true);
+        atomic_store(&setup.watch.is_cancelled, true);
         assert_int_equal(render(&setup), HD_INTERRUPTED);
         assert_true(hd_watch_frames(&setup.watch) < 3.0);
         assert_false(hd_renderer_has_failed(setup.renderer));

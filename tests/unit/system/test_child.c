@@ -61,7 +61,7 @@ TEST(it_tells_how_it_ended_and_what_was_said) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         run(cases[i].script);
         expect_end(strcmp(cases[i].how, "exit code 0") == 0, cases[i].how);
-        assert_string_equal(hd_child_said(&child), cases[i].said);
+        assert_string_equal(hd_child_tail(&child), cases[i].said);
     }
     signal(SIGPIPE, SIG_DFL);
     signal(SIGHUP, SIG_DFL);
@@ -76,16 +76,16 @@ TEST(what_is_sent_comes_back) {
     run("tee copy; echo ' end' >&2; echo; echo ' '"); /* it says as much as it hears */
     assert_true(hd_child_send(&child, bytes, SIZE, 60000));
     expect_end(true, "exit code 0");
-    assert_int_equal(child.said_length, HD_CHILD_MAX_SAID);
-    assert_int_equal(strlen(hd_child_said(&child)), HD_CHILD_MAX_SAID - 4);
-    expect_contains(hd_child_said(&child) + HD_CHILD_MAX_SAID - 8, " end");
+    assert_int_equal(child.tail_length, HD_CHILD_MAX_TAIL);
+    assert_int_equal(strlen(hd_child_tail(&child)), HD_CHILD_MAX_TAIL - 4);
+    expect_contains(hd_child_tail(&child) + HD_CHILD_MAX_TAIL - 8, " end");
     struct stat found;
     assert_int_equal(stat("copy", &found), 0);
     assert_int_equal(found.st_size, SIZE);
     run("exec <&-; echo gone"); /* it does not read */
     assert_false(hd_child_send(&child, bytes, SIZE, 60000));
     expect_end(true, "exit code 0");
-    assert_string_equal(hd_child_said(&child), "gone");
+    assert_string_equal(hd_child_tail(&child), "gone");
     free(bytes);
 }
 
@@ -123,12 +123,12 @@ TEST(a_lock_and_three_streams_are_all_it_has) {
                            lock),
                      HD_OK);
     expect_end(true, "exit code 0");
-    assert_string_equal(hd_child_said(&child), "1\n3");
+    assert_string_equal(hd_child_tail(&child), "1\n3");
     const char *const arguments[] = {"/bin/sh", "-c", "readlink /proc/$$/fd/0", NULL};
     assert_int_equal(hd_child_start(&child, arguments, false, -1, &error), HD_OK);
     assert_int_equal(child.input, -1);
     expect_end(true, "exit code 0");
-    assert_string_equal(hd_child_said(&child), "/dev/null");
+    assert_string_equal(hd_child_tail(&child), "/dev/null");
     close(lock);
     close(other);
 }

@@ -144,7 +144,7 @@ static int outcome_of(void (*act)(void)) {
     return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-static const char too_late[] = "hedron: interrupted; what was at work did not end in time\n";
+static const char too_late[] = "hedron: interrupted; the running work did not end in time\n";
 
 static const struct {
     const char *name;

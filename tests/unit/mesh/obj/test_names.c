@@ -12,7 +12,7 @@ static HdNameTable table;
 static int clear(void **state) {
     (void)state;
     hd_name_table_free(&table);
-    memory = (HdObjMemory){.most = 64 << 20};
+    memory = (HdObjMemory){.max_bytes = 64 << 20};
     return 0;
 }
 

@@ -144,9 +144,8 @@ TEST(long_lines_and_comments_pass) {
         used += (size_t)sprintf(text + used, " 1");
     expect_refused_bytes(text, used, "a.obj: line 11001: it is longer than 65000 bytes");
     memcpy(text + before + 5000, " \\\n ", 4);
-    expect_refused_bytes(
-        text, used,
-        "a.obj: line 11001: with those that continue it, it is longer than 65000 bytes");
+    expect_refused_bytes(text, used,
+                         "a.obj: line 11001: with its continuations it is longer than 65000 bytes");
 }
 
 TEST(files_that_cannot_be_read_are_told_apart) {
@@ -174,12 +173,12 @@ TEST(what_is_no_obj_file_is_told) {
     expect_refused("<!DOCTYPE html>\n<p>", NO_FACES);
     expect_refused(TRIANGLE, "cannot read the mesh a.obj: it has vertices, but no faces");
     expect_refused_bytes("v 0 0 0\n\0f", 10,
-                         "a.obj: line 2: it has a byte 0, so this is no OBJ file");
-    expect_refused_bytes("# \0\n", 4, "a.obj: line 1: it has a byte 0, so this is no OBJ file");
+                         "a.obj: line 2: it has a NUL byte, so it is no OBJ file");
+    expect_refused_bytes("# \0\n", 4, "a.obj: line 1: it has a NUL byte, so it is no OBJ file");
     expect_refused("\x89PNG\r\n\x1a\n",
-                   "a.obj: line 1: it begins with byte 0x89, so this is no OBJ file");
+                   "a.obj: line 1: it begins with byte 0x89, so it is no OBJ file");
     expect_refused("v 0 0 0\n\x1b[0m 1",
-                   "a.obj: line 2: it begins with byte 0x1b, so this is no OBJ file");
+                   "a.obj: line 2: it begins with byte 0x1b, so it is no OBJ file");
 }
 
 TEST(wrong_numbers_are_told) {
@@ -323,7 +322,7 @@ static const char *const material_cases[][3] = {
     {"d 0.75\nTr 0.5", "1 1 1 | 1 1 1 | 0 0.75 0 64 | 0 0.25 1 | 0 0 0"},
     /* Together with the mirror at most all. */
     {"Ks 1 1 1\nd 0\nillum 7", "1 1 1 | 1 1 1 | 0 0 1 64 | 0.5 0.5 1 | 0 0 0",
-     OF_M "Ks makes it reflect 1 and d or Tf lets 1 pass, expected at most 1 together, and both "
+     OF_M "Ks reflects 1 and d or Tf transmits 1, expected at most 1 together, and both "
           "are divided by 2"},
     /* What is made legal; without a highlight the exponent does not matter. */
     {"Kd 2 1 0", "1 1 0 | 1 1 1 | 0 1 0 64 | 0 0 1 | 0 0 0",
@@ -344,7 +343,7 @@ static const char *const material_cases[][3] = {
     {"d 1.5", "1 1 1 | 1 1 1 | 0 1 0 64 | 0 0 1 | 0 0 0",
      OF_M "d is 1.5, expected 0 to 1, and becomes 1"},
     {"Tr 1.5", "1 1 1 | 1 1 1 | 0 0 0 64 | 0 1 1 | 0 0 0",
-     "a.mtl: line 2: Tr is 1.5, expected 0 to 1, and is taken for the nearer of them"},
+     "a.mtl: line 2: Tr is 1.5, expected 0 to 1; the nearer of them is used"},
     {"d 0.5\nNi 0", "1 1 1 | 1 1 1 | 0 0.5 0 64 | 0 0.5 0.1 | 0 0 0",
      OF_M "Ni is 0, expected 0.1 to 10, and becomes 0.1"},
 };
@@ -406,8 +405,8 @@ TEST(what_is_not_used_is_noted) {
     const HdMaterial none = read_material("").material;
     assert_memory_equal(&none, &white, sizeof white);
     assert_true(white.colour.x == 1.0);
-    assert_string_equal(notes.text, "a.obj: no material library has 'm', so the default look is "
-                                    "taken: white, opaque\n");
+    assert_string_equal(notes.text, "a.obj: no material library defines 'm', so the default "
+                                    "applies: white, opaque\n");
     HdMesh mesh = read_text("l 1 2\n" TRIANGLE "p 1\nf 1 2 3\n");
     expect_contains(notes.text,
                     "a.obj: line 1: statements such as 'l' are not used, only faces (f) are\n");
@@ -432,9 +431,9 @@ TEST(materials_are_found_by_name) {
     const HdVec3 colours[5] = {{1, 1, 1}, {0, 0.5, 0}, {0, 0.25, 0}, {0.5, 0, 0}, {1, 1, 1}};
     for (int i = 0; i < 5; i++)
         assert_memory_equal(&mesh.materials[i].material.colour, &colours[i], sizeof *colours);
-    assert_string_equal(notes.text,
-                        "a.obj: no material library has 'default' and others that faces name, so "
-                        "the default look is taken: white, opaque\n");
+    assert_string_equal(
+        notes.text, "a.obj: no material library defines 'default' and others that faces name, so "
+                    "the default applies: white, opaque\n");
     hd_mesh_free(&mesh);
 
     expect_refused("usemtl\n", "a.obj: line 1: the name of a material, expected a name");
@@ -472,7 +471,7 @@ static void expect_note_of(const char *statements, const char *note) {
 }
 
 #define BELOW    "in this file's folder or below it"
-#define RELATIVE "that counts from this file's folder"
+#define RELATIVE "relative to this file's folder"
 
 TEST(libraries_stay_in_the_folder) {
     assert_int_equal(mkdir("sub", 0700), 0);
@@ -498,7 +497,8 @@ TEST(libraries_stay_in_the_folder) {
     expect_note_of("mtllib sub\n",
                    "a.obj: cannot read the material library sub: it is not a regular file");
     write_bytes("zero.mtl", "newmtl m\0\n", 10);
-    expect_note_of("mtllib zero.mtl\n", "zero.mtl: it has bytes 0, so this is no material library");
+    expect_note_of("mtllib zero.mtl\n",
+                   "zero.mtl: it has a NUL byte, so it is no material library");
     write_text("empty.mtl", "");
     mesh = read_triangle("mtllib empty.mtl\n");
     assert_int_equal(notes.count, 0);
@@ -584,8 +584,7 @@ TEST(memory_is_limited) {
             assert_int_equal(status, HD_BAD_INPUT);
             assert_int_equal(least, 0);
             snprintf(expected, sizeof expected,
-                     "big.obj: reading it takes more than the %zu bytes of memory that it may take",
-                     most);
+                     "big.obj: reading it needs more than the %zu bytes of memory allowed", most);
             assert_string_equal(error.message, expected);
             assert_null(mesh.vertices);
         }
