@@ -114,8 +114,8 @@ static int list_edge_lights(const HdBuilder *builder, int solid, HdLightSource *
     return count;
 }
 
-/* The difference of the centres comes first: an edge light keeps all its digits at its own solid,
-   however far from the world's origin that is. */
+/* The difference of the centres comes first: at its own solid an edge light keeps all its digits,
+   at any distance from the world's origin. */
 HdVec3 hd_light_offset(const HdBuilder *builder, const HdLightSource *source, int object) {
     if (source->owner < 0)
         return hd_sub(source->position, builder->centres[object]);
@@ -150,7 +150,7 @@ static double coordinate(HdVec3 v, int axis) {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-/* Ties are broken by number, so that every machine makes the same clusters. */
+/* Orders by key, then by number, so that every machine makes the same clusters. */
 static int compare_keys(const void *a, const void *b) {
     const HdClusteredLight *left = a, *right = b;
     if (left->key != right->key)
@@ -172,7 +172,7 @@ static bool is_between(const HdClusteredLight *lights, int place) {
     return hd_length(hd_sub(lights[place - 1].about, lights[place].about)) > 0.0;
 }
 
-/* The place nearest to `place` that parts no edge's lights, if there is one. */
+/* Returns the place nearest to `place` that separates no edge's lights, otherwise `place`. */
 static int place_between(const HdClusteredLight *lights, int count, int place) {
     for (int off = 0; off < count; off++) {
         if (place - off > 0 && is_between(lights, place - off))
@@ -183,7 +183,7 @@ static int place_between(const HdClusteredLight *lights, int count, int place) {
     return place;
 }
 
-/* There are no more clusters than lights. */
+/* Divides `count` lights into `clusters` clusters, at most `count`. */
 static void split(HdClusteredLight *lights, int count, int first_cluster, int clusters) {
     if (clusters == 1) {
         for (int i = 0; i < count; i++) {
@@ -212,7 +212,7 @@ static bool share_edge(const HdLightSource *a, const HdLightSource *b) {
            a->face[1] == b->face[1];
 }
 
-/* Of the lights on the edge of number `first`, which follow each other; returns the next one. */
+/* Sets `about` of the lights on one edge, from `first` on; returns the next light. */
 static int set_middle(HdBuilder *builder, int first) {
     HdClusteredLight *lights = builder->clustered;
     int next = first + 1;

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* Tables of lights, and what is known beforehand of where objects are to each other and to lights
-   (docs/numerics.md, Beside and apart); compiled for each precision. */
+/* Tables of lights, occlusion masks and isolated solids (docs/numerics.md, Occlusion masks);
+   compiled for each precision. */
 #include "tables/builder.h"
 
 #include <math.h>
 
 #include "scene/contact.h"
 
-/* From the unrounded normals of a solid; a light is exactly on its own two faces. */
+/* Fills a light's coordinates along the unrounded normals of a solid; the light is exactly on its
+   own two faces. */
 static void fill_solid_coordinates(const HdBuilder *builder, int light, int solid,
                                    const Plane *planes, real *out) {
     const HdLightSource *source = &builder->sources[light];
@@ -29,7 +30,7 @@ static void add_side(LightSides *sides, int bit, real distance) {
         sides->on_plane |= (uint)1 << bit;
 }
 
-/* From the rounded coordinates, so that both tables agree. */
+/* Returns a light's sides, from the rounded coordinates, so that both tables agree. */
 static LightSides sides_of_solid(const Object *solid, const Plane *planes,
                                  const real *coordinates) {
     LightSides sides = {0, 0, {0, 0}};
@@ -58,8 +59,8 @@ static void fill_falloff(Light *light, const HdFalloff *falloff) {
     light->inverse_falloff_squared = falloff->end > 0.0 ? -inverse : inverse;
 }
 
-/* The kernels' number of a solid's face, 2 * plane + side, or the group of triangles that it
-   became; -1: the light is on no solid. */
+/* Returns the kernels' number of a solid's face, 2 * plane + side, or its group of triangles; -1:
+   the light is on no solid. */
 static int own_face(const HdBuilder *builder, const HdLightSource *source, int face) {
     const Object *objects = builder->table[HD_TABLE_objects];
     const Instance *instances = builder->table[HD_TABLE_instances];
@@ -89,10 +90,10 @@ static Ball ball_about(const HdBuilder *builder, const HdClusteredLight *first, 
     return ball;
 }
 
-/* Lengths are less, and its square is within a float's range. */
+/* Above all lengths; its square is within a float's range. */
 #define MAX_REACH 1e18
 
-/* As places relative to an object are rounded to either precision. */
+/* Returns the sphere relative to an object, enlarged by rounding to either precision. */
 static LightRun rounded_ball(const Ball *ball, HdVec3 object) {
     HdVec3 place = hd_sub(ball->centre, object);
     return (LightRun){.place = {(real)place.x, (real)place.y, (real)place.z},
@@ -116,7 +117,7 @@ static void fill_cluster(const HdBuilder *builder, int cluster, const HdClustere
     }
 }
 
-/* Whether so many lights end before the middles of solids that it pays to judge runs of them. */
+/* Returns whether enough lights end before the centres of solids for culling of runs to pay. */
 static bool runs_pay(const HdBuilder *builder) {
     enum { MIN_SHARE = 4 };
     int64_t beyond = 0, pairs = (int64_t)builder->light_count * builder->solid_count;
@@ -129,11 +130,11 @@ static bool runs_pay(const HdBuilder *builder) {
     return beyond > 0 && beyond * MIN_SHARE >= pairs;
 }
 
-/* Fewer are looked at sooner than judged. */
+/* Testing fewer lights costs less than culling their run. */
 enum { MIN_RUN = 3 };
 
-/* Within a cluster lights are in their order, but maybe not all that are between them. Packets of
-   several lanes cull the cluster and need only know how far to skip: they have all of its runs. */
+/* Finds the runs of consecutive lights in a cluster, which may have gaps. Packets of several lanes
+   need only the length to skip of a culled cluster, so all of its runs count. */
 static void fill_runs(const HdBuilder *builder, Light *lights, const HdClusteredLight *first,
                       int count) {
     LightRun *runs = builder->table[HD_TABLE_light_runs];
@@ -199,7 +200,7 @@ static void fill_lights(const HdBuilder *builder) {
     fill_clusters(builder, lights);
 }
 
-/* ---- beside and apart ---- */
+/* ---- distances and radii ---- */
 
 static HdVec3 way_between(const HdBuilder *builder, int from, int to) {
     return hd_sub(builder->centres[to], builder->centres[from]);
@@ -218,7 +219,7 @@ static double circumradius(const HdBuilder *builder, int object) {
     return radius;
 }
 
-/* No eye of the flight is further away from a point. */
+/* Returns an upper bound of the distance from a point to the eye on its camera path. */
 static double farthest_eye(const HdPath *path, HdVec3 point) {
     const HdCylinderPath *cylinder = &path->cylinder;
     if (path->is_fixed)
@@ -227,8 +228,8 @@ static double farthest_eye(const HdPath *path, HdVec3 point) {
            fabs(cylinder->z0) + fabs(cylinder->z_amplitude);
 }
 
-/* Of a ball about the centre in which points are where rays meet the object: they are off by what
-   rounding makes of the way that the ray came. */
+/* Returns the radius of a sphere about the centre that contains all computed hits of the object;
+   their error is relative to the ray's length. */
 static double radius_about(const HdBuilder *builder, int object) {
     double way = farthest_eye(&builder->scene->eye, builder->centres[object]);
     for (int i = 0; i < builder->object_count; i++)
@@ -236,20 +237,20 @@ static double radius_about(const HdBuilder *builder, int object) {
     return 1.001 * circumradius(builder, object) + 1e-6 * way;
 }
 
-/* ---- ways of light ---- */
+/* ---- occlusion masks ---- */
 
-/* Distance of a point from the convex hull of a ball about the origin and a light, a cone with a
-   round end. */
+/* Returns the distance of a point from the convex hull of a sphere about the origin and a light: a
+   cone with a round end. */
 static double distance_to_cone(double radius, HdVec3 light, HdVec3 point) {
     double length = hd_length(light), share = 0.0;
     if (length > radius) {
         double along = hd_dot(point, light) / length;
         double across = sqrt(fmax(hd_dot(point, point) - along * along, 0.0));
-        double sine = radius / length; /* of half the cone's angle */
+        double sine = radius / length; /* sine of half the cone's angle */
         along -= across * sine / sqrt(1.0 - sine * sine);
         share = fmin(fmax(along / length, 0.0), 1.0);
     }
-    double left = radius * (1.0 - share); /* of the ball there */
+    double left = radius * (1.0 - share); /* radius of the hull there */
     return hd_length(hd_sub(point, hd_scale(light, share))) - left;
 }
 
@@ -262,14 +263,14 @@ static bool solid_cannot_occlude(const HdBuilder *builder, const HdLightSource *
     return distance_to_cone(radius, hd_light_offset(builder, source, object), centre) > least;
 }
 
-/* The points of an object, as lights see them. */
+/* The lit points of an object. */
 typedef struct {
     int object;
-    double radius; /* of a ball about all of them */
-    int side;      /* of the floor's plane: 1, -1, or 0 for both */
+    double radius; /* radius of a sphere about all of them */
+    int side;      /* side of the floor's plane: 1, -1, or 0 for both */
 } Lit;
 
-/* Corners tell of a solid, its ball of meshes. */
+/* Finds an object's side of the floor, by a solid's corners or the meshes' sphere. */
 static int side_of_floor(const HdBuilder *builder, int object, double radius) {
     HdVec3 normal = hd_floor_frame(&builder->scene->floor).normal;
     HdVec3 centre = way_between(builder, builder->solid_count, object);
@@ -287,7 +288,7 @@ static int side_of_floor(const HdBuilder *builder, int object, double radius) {
 
 static bool floor_cannot_occlude(const HdBuilder *builder, int light, const Lit *lit) {
     if (lit->object == builder->solid_count)
-        return true; /* it is in nobody's light who is on it */
+        return true; /* the floor never occludes its own points */
     const real *row = (const real *)builder->table[HD_TABLE_light_coordinates] +
                       (size_t)light * (size_t)builder->plane_count;
     real height = row[builder->plane_count - HD_FLOOR_PLANES];
@@ -300,7 +301,7 @@ static int occlusion_mask(const HdBuilder *builder, int light, const Lit *lit) {
                               (size_t)light * (size_t)builder->object_count;
     int nonoccluders = 0;
     for (int s = 0; s < builder->solid_count && s < HD_MASKED_OBJECTS; s++) {
-        /* Segments leave their own solid only to where the light is outside of it. */
+        /* A segment leaves its own solid only if the light is outside of a face. */
         bool cannot_occlude =
             s == lit->object ? sides[s].outside == 0
                              : solid_cannot_occlude(builder, source, lit->object, lit->radius, s);
@@ -311,8 +312,8 @@ static int occlusion_mask(const HdBuilder *builder, int light, const Lit *lit) {
     return nonoccluders;
 }
 
-/* Kernels measure nothing for what is beside the ways of all lights: the first number has no bit
-   that the number of some light has not. */
+/* Fills the masks of an object; the first one is the intersection of all lights' masks, since
+   kernels skip its objects altogether. */
 static void fill_occlusion_masks(const HdBuilder *builder, int object) {
     int *nonoccluders = (int *)builder->table[HD_TABLE_occlusion_masks] +
                         (size_t)object * ((size_t)builder->light_count + 1);
@@ -325,9 +326,9 @@ static void fill_occlusion_masks(const HdBuilder *builder, int object) {
     }
 }
 
-/* ---- what reaches into a solid ---- */
+/* ---- isolated solids ---- */
 
-/* Objects with less between them might meet, for all that rounding does. */
+/* Returns the distance below which rounding may make two objects meet. */
 static double min_gap(const HdBuilder *builder, int a, int b) {
     return (radius_about(builder, a) + radius_about(builder, b)) * 1.0001 -
            circumradius(builder, a) - circumradius(builder, b);
