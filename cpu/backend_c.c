@@ -151,7 +151,7 @@ static HdStatus c_open(const HdDevice *device, const HdRenderOptions *options, v
     c->build = find_build(options->lanes, options->precision);
     if (options->math == HD_MATH_FAST)
         hd_fallback_note(
-            "plain C has strict arithmetic alone, so --math fast changes nothing there");
+            "the C backend has only strict arithmetic, so --math fast has no effect on it");
     const bool has_queues = hd_pipeline_is_wavefront(c->pipeline);
     c->queues = has_queues ? calloc((size_t)c->threads, sizeof *c->queues) : NULL;
     HdStatus status = has_queues && c->queues == NULL
@@ -171,8 +171,8 @@ static HdStatus copy_table(HdTable *to, const HdTable *from, const char *content
     hd_byte_text((double)from->bytes, need);
     to->data = hd_large_allocate(from->bytes);
     if (to->data == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: the scene's %s need %s once more", content,
-                       need);
+        return hd_fail(error, HD_FAILED, "out of memory: a copy of the scene's %s needs %s",
+                       content, need);
     memcpy(to->data, from->data, from->bytes);
     to->bytes = from->bytes;
     return HD_OK;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The shared kernels built for plain C: cmake/cpu_kernels.cmake compiles cpu/kernel.c for each
-   instruction set, lane count and precision that it lists, and some once more for plain scenes:
-   those without meshes, refraction and light from behind. */
+   instruction set, lane count and precision in its list. It compiles some again for plain scenes,
+   which have no meshes, refraction or light from behind. */
 #ifndef HD_CPU_KERNEL_H
 #define HD_CPU_KERNEL_H
 

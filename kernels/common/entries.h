@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Entry points for devices, with the parameters of kernel_arguments.h. A language defines KERNEL,
-   which begins each, and SHARED, which precedes memory of a group. It also defines the numbers of a
-   thread (WORKER of WORKERS), of its group (GROUP of GROUPS) and within that (THREAD of THREADS).
-   SMALL_TABLES lists the tables that DEFINE_CONSTANT and USE_CONSTANT put into constant memory.
-   Without a group size each work item renders by itself, which suits CPUs. */
+   which begins each, SHARED for memory of a group, and the numbers of a thread (WORKER of WORKERS),
+   of its group (GROUP of GROUPS) and within that (THREAD of THREADS). SMALL_TABLES lists the tables
+   that DEFINE_CONSTANT and USE_CONSTANT put into constant memory. Without a group size each work
+   item renders by itself, which suits CPUs. */
 #ifndef HD_ENTRIES_H
 #define HD_ENTRIES_H
 
@@ -71,9 +71,9 @@ KERNEL hedron_render(SCENE_PARAMETERS HD_RENDER_ARGUMENTS(HD_PARAMETER, HD_LAST_
 
 #else
 
-/* Maps `number` of `count` to an item. CPU drivers give each thread hundreds of consecutive items,
-   and neighbours cost alike. So runs of neighbours, which share caches, are laid out in rows of a
-   table and read by columns; a rest comes last. */
+/* Maps `number` of `count` to an item. CPU drivers give each thread hundreds of items in a row, and
+   neighbours cost alike: so runs of neighbours, which share caches, are read by columns of a table;
+   a rest comes last. */
 FN int spread_item(int number, int count) {
     enum { RUN = 8, COLUMNS = 8 };
     int rows = count / (RUN * COLUMNS), run = number / RUN;

@@ -126,7 +126,7 @@ FN Crossing crossing(real distance, real slope, int plane) {
     return c;
 }
 
-/* Intersects the slabs between a solid's parallel planes (Kay and Kajiya 1986): a ray leaves each
+/* Intersects the slabs between a solid's parallel planes (Kay and Kajiya 1986). A ray leaves each
    by the plane that it runs towards from inside, and enters it by the other one. */
 FN void hit_solid(SCENE_PARAMETERS const Ray *ray, LocalOrigin local_origin, int object, Hit *hit) {
     GLOBAL const Object *solid = objects + object;
@@ -169,8 +169,7 @@ FN void hit_solid(SCENE_PARAMETERS const Ray *ray, LocalOrigin local_origin, int
     vmask enters = ~own & ~lt_int(entry.plane, splat_int(0));
     vmask meets = outside & ~beyond & is_before(entry, exit);
     Crossing met = select_crossing(enters, entry, exit);
-    /* The slope is negative where the ray enters by the first of two planes or leaves by the
-     * second. */
+    /* The slope is negative if the ray enters by the first plane or leaves by the second. */
     vint face = met.plane + met.plane;
     face = vselect_int(enters ^ lt(met.slope, zero), face + 1, face);
     keep_closer(hit, meets | own_inside, crossing_time(met), object, face, enters);

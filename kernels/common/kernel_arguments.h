@@ -116,8 +116,8 @@
     X(nothing, "a - a")                                                                            \
     X(plus_zero, "a + 0")                                                                          \
     X(absolute, "the absolute value of a")                                                         \
-    X(vmin, "the lesser of a and b")                                                               \
-    X(vmax, "the greater of a and b")                                                              \
+    X(vmin, "the minimum of a and b")                                                              \
+    X(vmax, "the maximum of a and b")                                                              \
     X(signed, "a times the sign of b")                                                             \
     X(picked, "a <= b ? c : a")                                                                    \
     X(of_int, "(real) n")                                                                          \

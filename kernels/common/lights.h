@@ -58,7 +58,7 @@ FN int run_is_culled(SCENE_PARAMETERS Vec3 point, Vec3 normal, int object, int l
 typedef struct {
     Vec3 middle, normal;
     vreal radius, spread;
-} PointBall;
+} PointSphere;
 
 FN Vec3 lane_of(const Vec3 *v, int lane) {
     return vec3_splat(lane_real(&v->x, lane), lane_real(&v->y, lane), lane_real(&v->z, lane));
@@ -73,14 +73,14 @@ FN vreal max_distance(const Vec3 *points, Vec3 from, vmask m) {
     return square_root(splat(max_lane(vec3_dot(way, way), m)));
 }
 
-FN PointBall ball_about(const Vec3 *points, const Vec3 *normals, vmask active) {
-    PointBall ball;
+FN PointSphere sphere_about(const Vec3 *points, const Vec3 *normals, vmask active) {
+    PointSphere sphere;
     int lane = first_lane(active);
-    ball.middle = lane_of(points, lane);
-    ball.normal = lane_of(normals, lane);
-    ball.radius = max_distance(points, ball.middle, active);
-    ball.spread = max_distance(normals, ball.normal, active);
-    return ball;
+    sphere.middle = lane_of(points, lane);
+    sphere.normal = lane_of(normals, lane);
+    sphere.radius = max_distance(points, sphere.middle, active);
+    sphere.spread = max_distance(normals, sphere.normal, active);
+    return sphere;
 }
 
 /* One cluster in each lane. */
@@ -101,19 +101,19 @@ FN Clusters load_clusters(GLOBAL const real *light_clusters, int object, int fir
 }
 
 /* Returns clusters that are out of reach, or behind the points. */
-FN vmask culled_clusters(const PointBall *ball, const Clusters *clusters) {
-    Vec3 way = vec3_sub(clusters->place, ball->middle);
-    vreal distance = length_of(way), size = clusters->radius + ball->radius;
-    vreal slack = (distance + size + length_of(ball->middle)) * R(1e-4);
-    vreal height = vec3_dot(ball->normal, way);
-    vreal max_height = multiply_add(ball->spread, distance + size, height + size);
+FN vmask culled_clusters(const PointSphere *sphere, const Clusters *clusters) {
+    Vec3 way = vec3_sub(clusters->place, sphere->middle);
+    vreal distance = length_of(way), size = clusters->radius + sphere->radius;
+    vreal slack = (distance + size + length_of(sphere->middle)) * R(1e-4);
+    vreal height = vec3_dot(sphere->normal, way);
+    vreal max_height = multiply_add(sphere->spread, distance + size, height + size);
     return lt(clusters->reach + size + slack, distance) | lt(max_height + slack, splat(R(0.0)));
 }
 
 /* Returns clusters that one plane separates, with all segments to the points, from a sphere about
    the solid. The plane is perpendicular to the line from the solid's centre, which places are
    relative to, to the middle segment. */
-FN vmask unoccluded_clusters(vreal solid_radius, const PointBall *ball, Vec3 middle,
+FN vmask unoccluded_clusters(vreal solid_radius, const PointSphere *sphere, Vec3 middle,
                              const Clusters *clusters) {
     Vec3 way = vec3_sub(clusters->place, middle);
     vreal squared = vmax(vec3_dot(way, way), splat(R(1e-30)));
@@ -121,8 +121,9 @@ FN vmask unoccluded_clusters(vreal solid_radius, const PointBall *ball, Vec3 mid
     Vec3 across = vec3_scale_add(way, vmax(along, splat(R(0.0))), middle);
     vreal length = length_of(across),
           min_length = splat(R(1e-15)); /* below it, rounding may have hidden 0 */
-    vreal least = solid_radius + (length_of(middle) + ball->radius) * R(1e-4);
-    return lt(min_length, length) & lt(length * (least + ball->radius), vec3_dot(across, middle)) &
+    vreal least = solid_radius + (length_of(middle) + sphere->radius) * R(1e-4);
+    return lt(min_length, length) &
+           lt(length * (least + sphere->radius), vec3_dot(across, middle)) &
            lt(length * (least + clusters->radius), vec3_dot(across, clusters->place));
 }
 
@@ -134,10 +135,10 @@ FN_NOINLINE void cull_clusters(SCENE_PARAMETERS const Vec3 *points, const Vec3 *
     vint numbers = object_of(SCENE_ARGUMENTS lit_points->object);
     int object = lane_int(&numbers, 0);
     int solids = header->solid_count < HD_MASKED_OBJECTS ? header->solid_count : HD_MASKED_OBJECTS;
-    PointBall ball = ball_about(points, normals, lit_points->active);
+    PointSphere sphere = sphere_about(points, normals, lit_points->active);
     for (int first = 0; first < count; first += HD_LANES) {
         Clusters clusters = load_clusters(light_clusters, object, first, count);
-        vmask dark = culled_clusters(&ball, &clusters);
+        vmask dark = culled_clusters(&sphere, &clusters);
         vint found = vselect_int(dark, splat_int(CLUSTER_IS_CULLED), splat_int(0));
         for (int s = 0; s < solids && any_lane(~dark); s++) {
             vmask nonoccluders = mask_all();
@@ -147,8 +148,9 @@ FN_NOINLINE void cull_clusters(SCENE_PARAMETERS const Vec3 *points, const Vec3 *
                 GLOBAL const Vector *offset = object_offsets + object * header->object_count + s;
                 clusters = load_clusters(light_clusters, s, first, count);
                 nonoccluders = unoccluded_clusters(
-                    splat(objects[s].radius_about), &ball,
-                    vec3_add(ball.middle, vec3_splat(offset->x, offset->y, offset->z)), &clusters);
+                    splat(objects[s].radius_about), &sphere,
+                    vec3_add(sphere.middle, vec3_splat(offset->x, offset->y, offset->z)),
+                    &clusters);
             }
             found = found | vselect_int(nonoccluders, splat_int((int)1 << s), splat_int(0));
         }
@@ -480,7 +482,7 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
     int common_shininess = HD_LANES > 1 && all_same(shininess) ? lane_int(&shininess, 0) : 0;
     int shines = any_lane(points->active & lt(zero, surface->material.specular));
     /* Bits of the solids and the floor. */
-    const int judged =
+    const int masked_objects =
         header->floor_end < HD_MASKED_OBJECTS ? ((int)1 << header->floor_end) - 1 : -1;
 #if HD_LANES > 1
     int cluster_masks[HD_MAX_LIGHT_CLUSTERS];
@@ -520,7 +522,7 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
         *shadow_tests = count_lanes(*shadow_tests, lit);
         known |= occlusion_mask(SCENE_ARGUMENTS & rows, i + 1);
         Vec3 light = vec3_of(lights[i].intensity);
-        if (MESHES(header) || ~known & judged)
+        if (MESHES(header) || ~known & masked_objects)
             light = passing_light(SCENE_ARGUMENTS i, light, to_light, surface, coordinates,
                                   outside_planes, some_outside, may_cross, points, known, lit);
         vreal share = vselect(lit, falloff_at(lights + i, squared), zero);

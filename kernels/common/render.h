@@ -249,9 +249,9 @@ FN void add_parts(PixelAccumulator *whole, int part, int parts, LOCAL fixed64 *o
 }
 
 /* Renders the items [first_item, first_item + item_count) by work groups: `parts` neighbouring
-   threads share the samples of an item, and the first one adds up their results. `scratch` has
-   GROUP_SCRATCH numbers for each thread of the group, all of which must call this. Sums are
-   integers: the split of the samples changes no bit. */
+   threads share the samples of an item, and the first one adds up their results. All threads must
+   call this; `scratch` has GROUP_SCRATCH numbers for each. Sums are integers: the split of the
+   samples changes no bit. */
 FN void render_by_group(SCENE_PARAMETERS int first_item, int item_count, int parts, int group_index,
                         int group_count, int thread, int thread_count, LOCAL fixed64 *scratch,
                         GLOBAL float *pixels, GLOBAL RayCounts *counts) {

@@ -224,9 +224,9 @@ typedef struct ALIGNED_16 {
     real u, v, unused[2];
 } TextureCoordinates;
 
-/* One frame. The direction to the image point (i, j) is forward + i * right + j * down, in half
-   steps of a sample grid from the middle of the whole picture. The grid has grid_side x grid_side
-   places for samples in each pixel.
+/* One frame. The direction to the image point (i, j) is forward + i * right + j * down; i and j
+   count half steps of a sample grid from the middle of the whole picture. The grid has grid_side x
+   grid_side places for samples in each pixel.
 
    An ordinary frame samples all places of the grid, row by row. In a listed frame, pixel e is
    entries[2 e] = x | y << 16 of the whole picture. Its samples are sample_places[entries[2 e + 1] +

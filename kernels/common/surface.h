@@ -112,10 +112,10 @@ FN Vec3 sample_picture(GLOBAL const Picture *picture, GLOBAL const uint *texels,
 
 /* ---- materials ---- */
 
-/* The terms of a material in lanes, X(type, select, name, of, none): the function that selects it,
-   its value from the row `material`, and its value if a surface reflects and transmits nothing.
-   Rays in the lanes of `entering` hit the outer side. Reflection, transmission and the relative
-   index are those of the side that the ray comes from. */
+/* The terms of a material in lanes, X(type, select, name, of, none). They give the function that
+   selects it, its value from the row `material`, and that of a surface that reflects and transmits
+   nothing. Rays in the lanes of `entering` hit the outer side. Reflection, transmission and the
+   relative index are those of the side that the ray comes from. */
 #define HD_LANE_TERMS(X)                                                                           \
     X(Vec3, vec3_select, colour, vec3_of(material->colour), vec3_zero())                           \
     X(Vec3, vec3_select, mirror_tint, vec3_of(material->mirror_tint), vec3_zero())                 \

@@ -3,11 +3,11 @@
    corner, a ray through it crosses one, or one on its way in and one on its way out. Lanes are rays
    against one triangle, or triangles against one ray.
 
-   The corners are sheared so that the ray runs along an axis through the origin (Woop, Benthin and
-   Wald 2013, Watertight Ray/Triangle Intersection), each corner by the same arithmetic in all of
-   its triangles. The signs of the edge functions are exact: a fused multiplication gives the error
-   of a product. If one is zero, the ray moves by an infinitely small step (Edelsbrunner and Muecke
-   1990, Simulation of Simplicity). */
+   A shear puts the ray on an axis through the origin (Woop, Benthin and Wald 2013, Watertight
+   Ray/Triangle Intersection). It treats a corner alike in all of its triangles. The signs of the
+   edge functions are exact: a fused multiplication gives the error of a product. If one is zero,
+   the ray moves by an infinitely small step (Edelsbrunner and Muecke 1990, Simulation of
+   Simplicity). */
 #ifndef HD_TRIANGLE_H
 #define HD_TRIANGLE_H
 

@@ -168,7 +168,7 @@ static void fill_fixed_bound(View *view, double max_left_out, int samples) {
     view->bound_from_fixed = (real)ldexp(1.0, view->bound_shift - bits);
 }
 
-/* A contribution is at most 2^16 and the weights at one depth add up to at most 1, so a sample's
+/* A contribution is at most 2^16 and the weights at one depth add up to at most 1. So a sample's
    sum is at most (depth + 1) 2^16; 62 bits hold a pixel's sum of samples. */
 static void fill_fixed_point(View *view, const HdScene *scene, int samples) {
     int sum_bits = 16 + ceil_log2(scene->depth + 1);

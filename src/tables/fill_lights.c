@@ -76,37 +76,38 @@ static int own_face(const HdBuilder *builder, const HdLightSource *source, int f
 typedef struct {
     HdVec3 centre; /* world space */
     double radius, reach;
-} Ball;
+} LightSphere;
 
-static Ball ball_about(const HdBuilder *builder, const HdClusteredLight *first, int count) {
-    Ball ball = {{0.0, 0.0, 0.0}, 0.0, 0.0};
+static LightSphere sphere_about(const HdBuilder *builder, const HdClusteredLight *first,
+                                int count) {
+    LightSphere sphere = {{0.0, 0.0, 0.0}, 0.0, 0.0};
     for (int i = 0; i < count; i++)
-        ball.centre = hd_add(ball.centre, hd_scale(first[i].position, 1.0 / count));
+        sphere.centre = hd_add(sphere.centre, hd_scale(first[i].position, 1.0 / count));
     for (int i = 0; i < count; i++) {
         double end = builder->sources[first[i].light].falloff.end;
-        ball.reach = fmax(ball.reach, end > 0.0 ? end : (double)REAL_LARGE);
-        ball.radius = fmax(ball.radius, hd_length(hd_sub(first[i].position, ball.centre)));
+        sphere.reach = fmax(sphere.reach, end > 0.0 ? end : (double)REAL_LARGE);
+        sphere.radius = fmax(sphere.radius, hd_length(hd_sub(first[i].position, sphere.centre)));
     }
-    return ball;
+    return sphere;
 }
 
 /* Above all lengths; its square is within a float's range. */
 #define MAX_REACH 1e18
 
 /* Returns the sphere relative to an object, enlarged by rounding to either precision. */
-static LightRun rounded_ball(const Ball *ball, HdVec3 object) {
-    HdVec3 place = hd_sub(ball->centre, object);
+static LightRun rounded_sphere(const LightSphere *sphere, HdVec3 object) {
+    HdVec3 place = hd_sub(sphere->centre, object);
     return (LightRun){.place = {(real)place.x, (real)place.y, (real)place.z},
-                      .radius = (real)(ball->radius * 1.0001 + hd_length(place) * 1e-5),
-                      .reach = (real)fmin(ball->reach, MAX_REACH)};
+                      .radius = (real)(sphere->radius * 1.0001 + hd_length(place) * 1e-5),
+                      .reach = (real)fmin(sphere->reach, MAX_REACH)};
 }
 
 static void fill_cluster(const HdBuilder *builder, int cluster, const HdClusteredLight *first,
                          int count) {
     size_t clusters = (size_t)HD_LIGHT_CLUSTERS(builder->light_count);
-    Ball ball = ball_about(builder, first, count);
+    LightSphere sphere = sphere_about(builder, first, count);
     for (int object = 0; object < builder->object_count; object++) {
-        LightRun rounded = rounded_ball(&ball, builder->centres[object]);
+        LightRun rounded = rounded_sphere(&sphere, builder->centres[object]);
         real *out = (real *)builder->table[HD_TABLE_light_clusters] +
                     (size_t)object * HD_CLUSTER_ROWS * clusters + cluster;
         out[HD_CLUSTER_X * clusters] = rounded.place[0];
@@ -147,10 +148,10 @@ static void fill_runs(const HdBuilder *builder, Light *lights, const HdClustered
         lights[light].run = next - i;
         if (builder->lanes > 1)
             continue;
-        Ball ball = ball_about(builder, first + i, next - i);
+        LightSphere sphere = sphere_about(builder, first + i, next - i);
         for (int object = 0; object < builder->object_count; object++)
             runs[object * builder->light_count + light] =
-                rounded_ball(&ball, builder->centres[object]);
+                rounded_sphere(&sphere, builder->centres[object]);
     }
 }
 
@@ -202,7 +203,7 @@ static void fill_lights(const HdBuilder *builder) {
 
 /* ---- distances and radii ---- */
 
-static HdVec3 way_between(const HdBuilder *builder, int from, int to) {
+static HdVec3 vector_between(const HdBuilder *builder, int from, int to) {
     return hd_sub(builder->centres[to], builder->centres[from]);
 }
 
@@ -228,12 +229,12 @@ static double farthest_eye(const HdPath *path, HdVec3 point) {
            fabs(cylinder->z0) + fabs(cylinder->z_amplitude);
 }
 
-/* Returns the radius of a sphere about the centre that contains all computed hits of the object;
-   their error is relative to the ray's length. */
+/* Returns the radius of a sphere about all computed hits of an object; their error is relative to
+   the ray's length. */
 static double radius_about(const HdBuilder *builder, int object) {
     double way = farthest_eye(&builder->scene->eye, builder->centres[object]);
     for (int i = 0; i < builder->object_count; i++)
-        way = fmax(way, hd_length(way_between(builder, object, i)) + circumradius(builder, i));
+        way = fmax(way, hd_length(vector_between(builder, object, i)) + circumradius(builder, i));
     return 1.001 * circumradius(builder, object) + 1e-6 * way;
 }
 
@@ -256,7 +257,7 @@ static double distance_to_cone(double radius, HdVec3 light, HdVec3 point) {
 
 static bool solid_cannot_occlude(const HdBuilder *builder, const HdLightSource *source, int object,
                                  double radius, int solid) {
-    HdVec3 centre = way_between(builder, object, solid);
+    HdVec3 centre = vector_between(builder, object, solid);
     double slack = (hd_length(centre) + radius) * 1e-4 +
                    hd_length(hd_light_offset(builder, source, solid)) * 1e-5;
     double least = builder->scene->solids[solid].circumradius * 1.001 + slack;
@@ -268,12 +269,12 @@ typedef struct {
     int object;
     double radius; /* radius of a sphere about all of them */
     int side;      /* side of the floor's plane: 1, -1, or 0 for both */
-} Lit;
+} LitObject;
 
 /* Finds an object's side of the floor, by a solid's corners or the meshes' sphere. */
 static int side_of_floor(const HdBuilder *builder, int object, double radius) {
     HdVec3 normal = hd_floor_frame(&builder->scene->floor).normal;
-    HdVec3 centre = way_between(builder, builder->solid_count, object);
+    HdVec3 centre = vector_between(builder, builder->solid_count, object);
     double reach = radius;
     if (object < builder->solid_count) {
         const HdPlatonic *shape = &builder->shapes[object];
@@ -286,7 +287,7 @@ static int side_of_floor(const HdBuilder *builder, int object, double radius) {
     return (height > least) - (height < -least);
 }
 
-static bool floor_cannot_occlude(const HdBuilder *builder, int light, const Lit *lit) {
+static bool floor_cannot_occlude(const HdBuilder *builder, int light, const LitObject *lit) {
     if (lit->object == builder->solid_count)
         return true; /* the floor never occludes its own points */
     const real *row = (const real *)builder->table[HD_TABLE_light_coordinates] +
@@ -295,7 +296,7 @@ static bool floor_cannot_occlude(const HdBuilder *builder, int light, const Lit 
     return lit->side > 0 ? height > R(0.0) : lit->side < 0 && height < R(0.0);
 }
 
-static int occlusion_mask(const HdBuilder *builder, int light, const Lit *lit) {
+static int occlusion_mask(const HdBuilder *builder, int light, const LitObject *lit) {
     const HdLightSource *source = &builder->sources[light];
     const LightSides *sides = (const LightSides *)builder->table[HD_TABLE_light_sides] +
                               (size_t)light * (size_t)builder->object_count;
@@ -318,7 +319,8 @@ static void fill_occlusion_masks(const HdBuilder *builder, int object) {
     int *nonoccluders = (int *)builder->table[HD_TABLE_occlusion_masks] +
                         (size_t)object * ((size_t)builder->light_count + 1);
     double radius = radius_about(builder, object);
-    Lit lit = {object, radius, builder->has_floor ? side_of_floor(builder, object, radius) : 0};
+    LitObject lit = {object, radius,
+                     builder->has_floor ? side_of_floor(builder, object, radius) : 0};
     nonoccluders[0] = -1;
     for (int i = 0; i < builder->light_count; i++) {
         nonoccluders[i + 1] = occlusion_mask(builder, i, &lit);
@@ -342,7 +344,7 @@ static bool reaches_into(const HdBuilder *builder, int other, int solid) {
     if (builder->has_floor && other == builder->solid_count)
         return hd_floor_depth(&scene->solids[solid], &scene->floor, least) > least;
     double sum = circumradius(builder, solid) + circumradius(builder, other);
-    return !(hd_length(way_between(builder, solid, other)) - sum > -least);
+    return !(hd_length(vector_between(builder, solid, other)) - sum > -least);
 }
 
 static bool is_isolated(const HdBuilder *builder, int solid) {

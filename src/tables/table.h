@@ -91,8 +91,7 @@ typedef struct HdMemoryBudget {
     double at_once;     /* maximum bytes of one table; 0: unknown */
 } HdMemoryBudget;
 
-/* Fails with HD_UNAVAILABLE if a table, or all of them, cannot fit even in free memory; the message
-   names the table, its need and the memory. */
+/* Fails with HD_UNAVAILABLE if a table, or all of them, exceed the budget. */
 HdStatus hd_check_budget(const HdSceneTables *tables, const HdMemoryBudget *capacity,
                          HdError *error);
 
@@ -100,8 +99,8 @@ HdStatus hd_check_budget(const HdSceneTables *tables, const HdMemoryBudget *capa
    a message: "scene's triangles". */
 HdStatus hd_table_allocate(HdTable *table, const char *what, HdError *error);
 
-/* Compiles a scene that hd_scene_validate accepted. Geometry and differences of centres are
-   computed in double, then rounded to the kernels' precision. `lanes` is that of hd_renderer_lanes;
+/* Compiles a scene that hd_scene_validate accepted; rounds geometry to the kernels' precision after
+   computing it, and differences of centres, in double. `lanes` is that of hd_renderer_lanes;
    without meshes any number does. Fails with HD_UNAVAILABLE if the tables need more than this
    machine's memory, with HD_FAILED if the allocation fails. */
 HdStatus hd_compile_scene(HdSceneTables *tables, const HdScene *scene, HdPrecision precision,

@@ -22,7 +22,7 @@ static double greatest(HdVec3 a) {
 }
 
 /* The weights of rays that end, and those of all hits at one depth, add up to at most 1 in each
-   channel; the bound uses the maximum channel of each. */
+   channel. The bound uses the maximum channel of each. */
 double hd_max_left_out(const HdScene *scene) {
     double rays = greatest(hd_max_radiance(scene));
     double lights = greatest(hd_surface_bound(scene));
