@@ -120,7 +120,7 @@ FN vmask unoccluded_clusters(vreal solid_radius, const PointSphere *sphere, Vec3
     vreal along = vmin(-vec3_dot(middle, way) * reciprocal(squared), splat(R(1.0)));
     Vec3 across = vec3_scale_add(way, vmax(along, splat(R(0.0))), middle);
     vreal length = length_of(across),
-          min_length = splat(R(1e-15)); /* below it, rounding may have hidden 0 */
+          min_length = splat(R(1e-15)); /* a shorter one may be rounding alone */
     vreal least = solid_radius + (length_of(middle) + sphere->radius) * R(1e-4);
     return lt(min_length, length) &
            lt(length * (least + sphere->radius), vec3_dot(across, middle)) &
