@@ -25,7 +25,7 @@ typedef struct CpuBuild {
     int lanes;
     HdPrecision precision;
     HdCpuKernel *kernel;
-    HdCpuKernel *plain_kernel; /* the same for plain scenes; NULL: there is none */
+    HdCpuKernel *plain_kernel; /* for plain scenes, or NULL */
     HdCpuFirstHits *first_hits;
 } CpuBuild;
 
@@ -58,7 +58,7 @@ const char *hd_cpu_best_instruction_set(void) {
             return builds[i].instruction_set;
 }
 
-/* The best build with `lanes` lanes; 0: with as many as suit the processor. NULL: there is none. */
+/* Returns the best build with `lanes` lanes, 0: any count; NULL if there is none. */
 static const CpuBuild *find_build(int lanes, HdPrecision precision) {
     for (const CpuBuild *build = builds; build < builds + BUILD_COUNT; build++)
         if ((lanes == 0 || build->lanes == lanes) && build->precision == precision &&
@@ -76,7 +76,7 @@ static int max_lanes(HdPrecision precision) {
     return most;
 }
 
-/* The processor's name, for people. */
+/* Writes the processor's name. */
 static void name_processor(char *name, size_t capacity) {
     char line[512];
     snprintf(name, capacity, "processor");
@@ -96,19 +96,19 @@ static void name_processor(char *name, size_t capacity) {
 
 /* ---- the backend ---- */
 
-/* A thread's rays should stay in its processor's own cache. */
+/* A thread's rays should fit in its core's cache. */
 enum { QUEUE_BYTES = 512 << 10 };
 
 typedef struct CRenderer {
     HdThreadPool *pool;
     int threads;
     HdPipeline pipeline;
-    size_t queue_budget; /* for each thread */
-    HdCpuQueue *queues;  /* one for each thread; their memory is the first one's */
-    size_t queue_bytes;  /* of all of them */
+    size_t queue_budget; /* bytes for each thread */
+    HdCpuQueue *queues;  /* one for each thread; the first one owns their memory */
+    size_t queue_bytes;  /* bytes of all queues */
     const CpuBuild *build;
-    HdCpuKernel *kernel; /* of the build, for the scene */
-    HdSceneTables scene; /* our own copy */
+    HdCpuKernel *kernel; /* kernel of the build for the scene */
+    HdSceneTables scene; /* owned copy */
     HdRayCounts *counts; /* one for each item of the last frame size */
     int item_capacity;
 } CRenderer;
@@ -151,7 +151,7 @@ static HdStatus c_open(const HdDevice *device, const HdRenderOptions *options, v
     c->build = find_build(options->lanes, options->precision);
     if (options->math == HD_MATH_FAST)
         hd_fallback_note(
-            "plain C has strict arithmetic alone, so --math fast changes nothing there");
+            "the C backend has only strict arithmetic, so --math fast has no effect on it");
     const bool has_queues = hd_pipeline_is_wavefront(c->pipeline);
     c->queues = has_queues ? calloc((size_t)c->threads, sizeof *c->queues) : NULL;
     HdStatus status = has_queues && c->queues == NULL
@@ -171,8 +171,8 @@ static HdStatus copy_table(HdTable *to, const HdTable *from, const char *content
     hd_byte_text((double)from->bytes, need);
     to->data = hd_large_allocate(from->bytes);
     if (to->data == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: the scene's %s need %s once more", content,
-                       need);
+        return hd_fail(error, HD_FAILED, "out of memory: a copy of the scene's %s needs %s",
+                       content, need);
     memcpy(to->data, from->data, from->bytes);
     to->bytes = from->bytes;
     return HD_OK;
@@ -206,7 +206,7 @@ static HdStatus reserve_queues(CRenderer *c, size_t bytes, HdError *error) {
     return HD_OK;
 }
 
-/* Whole lines of a cache. */
+/* Returns `bytes` rounded up to cache lines. */
 static size_t padded(size_t bytes) {
     return (bytes + 63) / 64 * 64;
 }
@@ -237,7 +237,7 @@ static HdStatus prepare_queues(CRenderer *c, int samples, HdError *error) {
     return HD_OK;
 }
 
-/* A frame is rendered when it is collected. */
+/* Does nothing: c_collect renders the frame. */
 static HdStatus c_submit(void *renderer, const HdFrameTables *tables, const HdFrameRequest *request,
                          HdError *error) {
     (void)renderer, (void)tables, (void)request, (void)error;

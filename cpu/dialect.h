@@ -54,7 +54,7 @@ FN void prefetch_bytes(const char *from, int count) {
         __builtin_prefetch(from + i);
 }
 
-/* How the tables that the host hands over become the kernels' variables of the same names. */
+/* Declare a kernel's variable for the host's table of the same name. */
 #define HD_TABLE_FROM_SCENE(type, name)                                                            \
     const type *name = hd_scene_tables[HD_TABLE_##name].data;                                      \
     (void)name;
@@ -62,7 +62,7 @@ FN void prefetch_bytes(const char *from, int count) {
     const type *name = hd_frame_tables[HD_TABLE_##name].data;                                      \
     (void)name;
 
-/* Declares all of them, for SCENE_ARGUMENTS; `scene` and `frame` are const HdTable *. */
+/* Declares all tables, for SCENE_ARGUMENTS; `scene` and `frame` are const HdTable *. */
 #define HD_DECLARE_TABLES(scene, frame)                                                            \
     const HdTable *hd_scene_tables = (scene), *hd_frame_tables = (frame);                          \
     HD_SCENE_TABLES(HD_TABLE_FROM_SCENE)                                                           \

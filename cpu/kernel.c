@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Entry points for plain C, named by HD_KERNEL_NAME. With HD_PLAIN they render plain scenes alone:
-   what other scenes need takes registers, even where it never runs. */
+/* Entry points for plain C, named by HD_KERNEL_NAME. With HD_PLAIN they render only plain scenes:
+   code for others takes registers even if it never runs. */
 #include "cpu/kernel.h"
 
 #include "cpu/dialect.h"
@@ -8,7 +8,7 @@
 
 HdCpuKernel HD_KERNEL_NAME;
 
-/* Two functions: in one of both the compiler makes slower code for each. */
+/* Separate functions, as compilers make slower code of a joint one. */
 FN_NOINLINE RayCounts render_by_trees(const HdTable *scene, const HdTable *frame, int item,
                                       float *pixels) {
     HD_DECLARE_TABLES(scene, frame)

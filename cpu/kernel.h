@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The shared kernels built for plain C: cmake/cpu_kernels.cmake compiles cpu/kernel.c for each
-   instruction set, lane count and precision that it lists, and some once more for plain scenes:
-   those without meshes, refraction and light from behind. */
+   instruction set, lane count and precision in its list. It compiles some again for plain scenes,
+   which have no meshes, refraction or light from behind. */
 #ifndef HD_CPU_KERNEL_H
 #define HD_CPU_KERNEL_H
 
@@ -9,7 +9,7 @@
 
 #include "tables/table.h"
 
-/* The queue that a thread works off its rays with (kernels/common/wavefront.h). */
+/* A thread's queue of rays (kernels/common/wavefront.h). */
 typedef struct HdCpuQueue {
     void *reals; /* of the kernel's precision */
     int *ints;
@@ -18,17 +18,16 @@ typedef struct HdCpuQueue {
     int compact;
 } HdCpuQueue;
 
-/* Renders one work item: its pixels, and number `item` of `counts`, which are HdRayCounts. Without
-   a queue (NULL) a packet follows its whole tree of rays, with one the tree is traced level by
-   level. */
+/* Renders the pixels of one work item and sets counts[item], an HdRayCounts. Without a queue (NULL)
+   each packet traces its whole ray tree; with one, the kernel traces one ray depth at a time. */
 typedef void HdCpuKernel(const HdTable *scene, const HdTable *frame, int item,
                          const HdCpuQueue *queue, float *pixels, void *counts);
 
-/* Finds what is met first in the pixels of an item, `floats` numbers of each (HdFrame.first). */
+/* Stores the first hits of an item's pixels, `floats` numbers for each (HdFrame.first). */
 typedef void HdCpuFirstHits(const HdTable *scene, const HdTable *frame, int item, int floats,
                             float *hits);
 
-/* The best instruction set of which this processor can run builds: "avx512", "avx2" or "generic".
+/* Returns the best instruction set with a build for this processor: "avx512", "avx2" or "generic".
  */
 const char *hd_cpu_best_instruction_set(void);
 

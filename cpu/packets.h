@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Packets of several lanes in C, by the vector extension of GCC and Clang, and by intrinsics where
-   they fill a register of the machine. */
+/* Packets of several lanes in C, by the vector extension of GCC and Clang; by intrinsics if they
+   fill a machine register. */
 #ifndef HD_CPU_PACKETS_H
 #define HD_CPU_PACKETS_H
 
 #include "kernels/host/shared.h"
 
-/* Whether a packet fills a register, and what its instructions begin with. */
+/* Defined if a packet fills a register: the prefix of its intrinsics. */
 #if defined(__AVX512DQ__) && HD_LANES * (HD_DOUBLE + 1) == 16
 #define HD_INTRINSIC(name) _mm512_##name
 #define HD_OWN_MASKS
@@ -31,7 +31,7 @@ typedef vint vbits;
 
 #include "kernels/common/lanes.h"
 
-/* Compilers are not to see through the array: they take its numbers from where it has them. */
+/* Hides the array's origin from compilers, so that they read its numbers from memory. */
 #define HD_KEEP_IN_MEMORY(array) __asm__("" : "+m"(array))
 
 FN vreal splat(real a) {
@@ -101,7 +101,7 @@ FN vreal built_in_root(vreal a) {
     return HD_REALS(sqrt)(a);
 }
 
-#define HD_OWN_LESSER
+#define HD_OWN_MIN_MAX
 FN vreal vmin(vreal a, vreal b) {
     return HD_REALS(min)(a, b);
 }
@@ -111,7 +111,7 @@ FN vreal vmax(vreal a, vreal b) {
 
 #ifdef HD_OWN_MASKS
 
-/* A mask has a bit for each lane; bits above have no meaning. */
+/* A bit for each lane; bits above have no meaning. */
 typedef uint32_t vmask;
 #if HD_DOUBLE
 #define HD_MASK(m)               ((__mmask8)(m))
@@ -211,7 +211,7 @@ typedef __m512i Row;
 typedef __m256i Row;
 #endif
 
-/* The 4 x 4 words in each 128 bits of the registers. */
+/* Transposes the 4 x 4 words in each 128 bits of the registers. */
 FN FourWords transpose_words(const Row row[4]) {
     Row a = HD_INTRINSIC(unpacklo_epi32)(row[0], row[1]);
     Row b = HD_INTRINSIC(unpacklo_epi32)(row[2], row[3]);
@@ -228,10 +228,10 @@ FN FourWords transpose_words(const Row row[4]) {
 
 #if !HD_DOUBLE && HD_LANES == 8
 
-/* Two lanes to a register. */
+/* Loads two lanes to a register. */
 FN FourWords fetch_four_words(const uint *table, vint index) {
     __m256i row[4];
-    int at[HD_LANES]; /* read one by one they are cheaper than taken out of the register */
+    int at[HD_LANES]; /* cheaper than extracting lanes from the register */
     _mm256_storeu_si256((void *)at, (__m256i)index);
     HD_KEEP_IN_MEMORY(at);
     for (int i = 0; i < 4; i++) {
@@ -244,7 +244,7 @@ FN FourWords fetch_four_words(const uint *table, vint index) {
 
 #elif !HD_DOUBLE && HD_LANES == 16
 
-/* Lanes as numbers of entries: read one by one they are cheaper than taken out of the register. */
+/* Stores lanes to memory, from which reading them is cheaper than extracting them. */
 FN void store_places(int64_t at[HD_LANES], vint index) {
     __m512i all = (__m512i)index;
     _mm512_storeu_si512(at, _mm512_cvtepi32_epi64(_mm512_castsi512_si256(all)));
@@ -252,7 +252,7 @@ FN void store_places(int64_t at[HD_LANES], vint index) {
     HD_KEEP_IN_MEMORY(*(int64_t(*)[HD_LANES])at);
 }
 
-/* Four lanes to a register. */
+/* Loads four lanes to a register. */
 FN FourWords fetch_four_words(const uint *table, vint index) {
     __m512i lanes[4];
     int64_t at[HD_LANES];
@@ -288,7 +288,7 @@ FN FourReals load_rows(const real *table, vint index, int count) {
 
 #else
 
-/* ---- others, lane by lane: neither compiler has that for vectors ---- */
+/* ---- other packets, lane by lane: compilers lack these vector operations ---- */
 
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     vreal r;

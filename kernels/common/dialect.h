@@ -1,47 +1,46 @@
 /* SPDX-License-Identifier: MIT */
-/* The dialect of the shared kernels: the contract of what each language has for them, and what is
-   built from that. Kernel text is written for a packet of HD_LANES lanes: with one lane a packet is
-   a scalar, with more it is a vector of the language. docs/development/dialect.md is the manual.
+/* The dialect of the shared kernels: the contract that each language fulfils, and functions built
+   on it. Kernel text is written for a packet of HD_LANES lanes: a scalar with one lane, otherwise a
+   vector of the language. docs/development/dialect.md is the manual.
 
-   A language has, in a dialect.h beside its entry point (kernels/cuda, kernels/opencl, cpu):
+   A language defines in the dialect.h next to its entry points (kernels/cuda, kernels/opencl, cpu):
 
-   words    FN begins every function (static and inlined); FN_NOINLINE one that is kept out of its
-            callers where that helps. GLOBAL and LOCAL stand before the type that a pointer to a
-            table, or to memory of a group, points to. RESTRICT, ALIGNED_16. BARRIER() waits for the
-            group.
+   words    FN begins every function (static and inlined); FN_NOINLINE a function that stays out of
+            line if that helps. GLOBAL and LOCAL precede the type of a pointer to a table or to
+            memory of a group. RESTRICT, ALIGNED_16. BARRIER() waits for the group.
    scalars  uint, uint64 and fixed64 of 32, 64 and 64 bits; real_bits: an integer as wide as real
    packets  vreal of real; vint: int, or with several lanes integers as wide as real, to be used as
             if they had 32 bits; vmask: opaque, 0 or -1 in each lane, or a bit for each; vfix of
             fixed64; vbits of real_bits
 
-   Operators + - * and, on integers and masks, & | ^ ~ >> work on packets as on scalars; a scalar
-   real may stand beside a vreal. Everything else is a function, division too, which is correctly
-   rounded in strict builds like the rest. Of each language:
+   Operators + - * and, on integers and masks, & | ^ ~ >> work on packets as on scalars; a vreal may
+   be combined with a scalar real. Everything else is a function, also division, which in strict
+   builds is correctly rounded like the rest. Each language defines:
 
    splat(a), splat_int(a)         the same value in every lane
-   lt(a, b), le(a, b)             mask of a < b, a <= b; false where either is NaN
+   lt(a, b), le(a, b)             mask of a < b, a <= b; false if either is NaN
    eq_int(a, b), lt_int(a, b)     masks of integers
-   vselect(m, a, b), vselect_int        a where m is set, else b, bit for bit; both are evaluated
-   any_lane(m)                    non-zero where a lane of m is set
+   vselect(m, a, b), vselect_int  a if m is set, else b, bit for bit; both are evaluated
+   any_lane(m)                    non-zero if a lane of m is set
    lane_real(&a, i), lane_int, lane_fix    read one lane; not of a mask
    set_lane_int(&a, i, x)         writes one lane
    multiply_add(a, b, c)          a * b + c with one rounding
-   built_in_root(a)               the square root as the language has it; the kernels ask for
-                                  square_root(a), and for quotient(a, b)
+   built_in_root(a)               the language's square root; kernels call square_root(a), and
+                                  quotient(a, b)
    absolute(a)                    without its sign
    to_int(a)                      truncates; a must be within the range of int: clamp first
    to_real(a)                     integer to real, rounded to nearest
    truncate_to_fix(a)             truncates to 64 bits; a must be within range
    bits_of(a), from_bits(b)       a vreal as integers and back, bit for bit
    splat_bits(x)                  the same integer in every lane
-   lowest_bit(u), count_bits(u)   number of the lowest set bit, not for 0; how many are set
-   load_reals(p), load_ints(p)    as many consecutive numbers as there are lanes, from anywhere
+   lowest_bit(u), count_bits(u)   number of the lowest set bit, not for 0; count of set bits
+   load_reals(p), load_ints(p)    as many consecutive numbers as lanes, at any alignment
    gather_reals(p)                likewise of a private array
    add_shared(p, x)               with HD_GROUP_SIZE: adds to a fixed64 that all groups share
-   take_shared(p, n)              likewise: adds to a counter, returns what it was
+   take_shared(p, n)              likewise: adds to a counter, returns its previous value
 
-   What follows here may have a better form where registers are known: such a dialect defines it
-   itself, and HD_OWN_..., which this file asks. Both forms have the same bits. */
+   A dialect that knows registers may define better forms of the functions below itself, together
+   with the HD_OWN_... that this file tests. Both forms give the same bits. */
 #ifndef HD_DIALECT_H
 #define HD_DIALECT_H
 
@@ -57,7 +56,7 @@ FN vmask mask_all(void) {
     return splat_int(-1);
 }
 
-/* The number of the first lane whose mask is set; only for masks with any_lane(m). */
+/* Returns the first lane that is set; requires any_lane(m). */
 FN int first_lane(vmask m) {
 #ifdef HD_OWN_LANE_BITS
     return lowest_bit(lane_bits(m));
@@ -74,7 +73,7 @@ FN vmask vselect_mask(vmask m, vmask a, vmask b) {
     return (m & a) | (~m & b);
 }
 
-/* A bit for each lane of a mask, the first lane's the lowest. */
+/* Returns a bit for each lane of a mask, the first lane in the lowest bit. */
 #ifndef HD_OWN_LANE_BITS
 FN uint lane_bits(vmask m) {
     vint chosen = vselect_int(m, splat_int(1), splat_int(0));
@@ -85,8 +84,8 @@ FN uint lane_bits(vmask m) {
 }
 #endif
 
-/* The lanes of `left` without those of `done`, which has the first of them. One lane leaves none:
-   so compilers see that a loop over groups of lanes is none there. */
+/* Returns `left` without `done`, which contains its first lane. With one lane it returns none, so
+   that compilers remove loops over groups of lanes. */
 FN vmask lanes_after(vmask left, vmask done) {
 #if HD_LANES == 1
     (void)left, (void)done;
@@ -96,9 +95,9 @@ FN vmask lanes_after(vmask left, vmask done) {
 #endif
 }
 
-/* Whether to do what only the lanes of `m` need. GPUs do it in any case: where other threads of the
-   warp need it, it costs nothing, and a branch less within others is one barrier less
-   (docs/lost-light.md). */
+/* Returns whether to do work that only the lanes of `m` need. GPUs always do it: it is free if
+   other threads of the warp need it, and each nested branch costs a barrier (docs/lost-light.md).
+   */
 FN int must_visit(vmask m) {
 #if HD_GROUP_SIZE
     (void)m;
@@ -108,12 +107,12 @@ FN int must_visit(vmask m) {
 #endif
 }
 
-/* `counts`, one more in the lanes of `m`. */
+/* Returns `counts`, one more in the lanes of `m`. */
 FN vint count_lanes(vint counts, vmask m) {
     return counts + vselect_int(m, splat_int(1), splat_int(0));
 }
 
-/* All lanes added up. */
+/* Returns the sum of all lanes. */
 #ifndef HD_OWN_SUM_LANES
 FN fixed64 sum_lanes(vint a) {
     fixed64 sum = 0;
@@ -123,7 +122,7 @@ FN fixed64 sum_lanes(vint a) {
 }
 #endif
 
-/* 0, 1, 2, ... */
+/* Returns 0, 1, 2, ... */
 FN vint lane_numbers(void) {
     vint numbers = splat_int(0);
     for (int lane = 0; lane < HD_LANES; lane++)
@@ -131,16 +130,16 @@ FN vint lane_numbers(void) {
     return numbers;
 }
 
-/* The first `count` lanes. */
+/* Returns the mask of the first `count` lanes. */
 FN vmask lanes_below(int count) {
     return lt_int(lane_numbers(), splat_int(count));
 }
 
-/* ---- the lesser, the greater, signs ---- */
+/* ---- minimum, maximum, signs ---- */
 
-/* Selects: vendors differ in what their min and max make of NaN and -0. Where a is NaN or both are
-   0, the result is b, as x86's instructions have it. */
-#ifndef HD_OWN_LESSER
+/* Selects, since vendors' min and max differ for NaN and -0. If a is NaN or both are 0 the result
+   is b, as in x86's instructions. */
+#ifndef HD_OWN_MIN_MAX
 FN vreal vmin(vreal a, vreal b) {
     return vselect(lt(a, b), a, b);
 }
@@ -156,13 +155,12 @@ FN vint max_int(vint a, vint b) {
     return vselect_int(lt_int(b, a), a, b);
 }
 
-/* `a`, negated where `sign` is negative. */
+/* Returns `a`, negated in the lanes whose `sign` is negative. */
 FN vreal times_sign_of(vreal a, vreal sign) {
     return from_bits(bits_of(a) ^ (bits_of(sign) & bits_of(splat(R(-0.0)))));
 }
 
-/* The least and the greatest of the lanes of `m`, of which there are some; numbers but infinite
-   ones or NaN. */
+/* Return the minimum and maximum of the lanes of `m`; any_lane(m), and all are finite. */
 #ifndef HD_OWN_MIN_LANE
 FN real min_lane(vreal a, vmask m) {
     vreal kept = vselect(m, a, splat(REAL_LARGE));
@@ -181,7 +179,7 @@ FN real max_lane(vreal a, vmask m) {
 /* ---- memory ---- */
 
 #ifndef HD_OWN_ROWS
-/* The four words of a table from number `index` of each lane on. */
+/* Returns table[index] to table[index + 3] for each lane. */
 FN FourWords fetch_four_words(GLOBAL const uint *table, vint index) {
     FourWords words;
     for (int i = 0; i < 4; i++)
@@ -194,7 +192,7 @@ FN FourWords fetch_four_words(GLOBAL const uint *table, vint index) {
     return words;
 }
 
-/* Likewise numbers. */
+/* Likewise for reals. */
 FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
     real rows[4][HD_LANES];
     FourReals reals;
@@ -218,7 +216,7 @@ FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
 }
 #endif
 
-/* The same for the first `count` lanes; what the others get is of no account. */
+/* Does the same for the first `count` lanes; the others are undefined. */
 #ifndef HD_OWN_LOAD_ROWS
 FN FourReals load_rows(GLOBAL const real *table, vint index, int count) {
     (void)count;
@@ -226,7 +224,7 @@ FN FourReals load_rows(GLOBAL const real *table, vint index, int count) {
 }
 #endif
 
-/* Asks for memory that is needed soon, where a processor can be asked. */
+/* Prefetches memory, if the processor can. */
 #ifndef HD_OWN_PREFETCH
 FN void prefetch_bytes(GLOBAL const char *from, int count) {
     (void)from;
@@ -234,7 +232,7 @@ FN void prefetch_bytes(GLOBAL const char *from, int count) {
 }
 #endif
 
-/* Where each lane of `m` is when they are stored side by side; returns how many these are. */
+/* Computes each lane's place when the lanes of `m` are stored contiguously; returns their count. */
 FN int lane_offsets(vmask m, int offset[HD_LANES]) {
     vint chosen = vselect_int(m, splat_int(1), splat_int(0));
     int count = 0;
@@ -245,7 +243,7 @@ FN int lane_offsets(vmask m, int offset[HD_LANES]) {
     return count;
 }
 
-/* Stores them so, which may overwrite as much as a packet. */
+/* Stores lanes at these offsets; may overwrite up to a packet. */
 #ifndef HD_OWN_STORE_LANES
 FN void store_lanes(GLOBAL real *to, vmask m, const int offset[HD_LANES], const vreal *a) {
     (void)m;
@@ -258,8 +256,8 @@ FN void store_lanes_int(GLOBAL int *to, const int offset[HD_LANES], const vint *
         to[offset[lane]] = lane_int(a, lane);
 }
 
-/* What threads share. Where no group of threads works together (HD_GROUP_SIZE is 0), each has
-   memory of its own, and an addition is a plain one. */
+/* Adds to memory that threads share. Without groups (HD_GROUP_SIZE is 0) each thread has its own
+   memory, so a plain addition does. */
 #if !HD_GROUP_SIZE
 FN void add_shared(GLOBAL fixed64 *sum, fixed64 amount) {
     *sum += amount;

@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* Division and roots: quick ones of positive numbers, and correctly rounded ones. These can be made
-   of fused operations, for devices whose own are not: digits are found to within a unit of their
-   last place, what is left is known exactly, and its size tells the way to round; docs/numerics.md
-   has the proof. */
+/* Division and roots: fast ones of positive numbers, and correctly rounded ones. Fused operations
+   replace those that a device does not round correctly. They find digits within a unit of the last
+   place; the exact remainder decides the rounding (docs/numerics.md has the proof). */
 #ifndef HD_DIVISION_H
 #define HD_DIVISION_H
 
 #include "dialect.h"
 
-/* 1 / a of normal a > 0 whose reciprocal is normal too, within 1 unit in the last place: a guess by
-   the exponent's bits (Blinn 1997, Floating-Point Tricks), then two steps of third order (three of
-   doubles), which on CPUs cost a fraction of a division. Not a loop, for PoCL leaves it one. */
+/* Returns 1 / a of normal a > 0 whose reciprocal is normal too, within 1 unit in the last place. A
+   guess by the exponent's bits (Blinn 1997, Floating-Point Tricks) and two steps of third order,
+   three for doubles, cost a fraction of a division on CPUs. Not a loop: PoCL does not unroll it. */
 FN vreal better_reciprocal(vreal a, vreal guess) {
     vreal error = multiply_add(-a, guess, splat(R(1.0)));
     return multiply_add(guess, multiply_add(error, error, error), guess);
@@ -25,7 +24,7 @@ FN vreal reciprocal(vreal a) {
     return better_reciprocal(a, better_reciprocal(a, guess));
 }
 
-/* 1 / square root of a, likewise (steps by Halley's method), within 1.5 units in the last place. */
+/* Returns 1 / square root of a, by steps of Halley's method, within 1.5 units in the last place. */
 FN vreal better_root(vreal a, vreal guess) {
     vreal error = multiply_add(-a, guess * guess, splat(R(1.0)));
     vreal part = error * multiply_add(error, splat(R(0.375)), splat(R(0.5)));
@@ -41,9 +40,8 @@ FN vreal reciprocal_root(vreal a) {
     return better_root(a, better_root(a, guess));
 }
 
-/* Correctly rounded are quotient, square_root and shared_quotient, which is of numbers that all
-   lanes share: by the device's own, or by fused operations where HD_ROUNDED_BY_FMA says that it has
-   none. */
+/* Correctly rounded: quotient, square_root and shared_quotient, whose operands all lanes share.
+   With HD_ROUNDED_BY_FMA they use fused operations in place of the device's own. */
 #if HD_ROUNDED_BY_FMA
 
 #if HD_DOUBLE
@@ -72,14 +70,14 @@ FN vreal reciprocal_root(vreal a) {
 #define INVERSE_ROOT   R(2.44140625e-4) /* 2^-12 */
 #endif
 
-/* 2^n of a whole n that is a normal number's exponent. */
+/* Returns 2^n of a whole n that is a normal number's exponent. */
 FN vreal power_of_two(vreal n) {
     vbits field = bits_of(n + splat(EXPONENT_BASE + R(1.0) * EXPONENT_BIAS));
     return from_bits((field & splat_bits(2 * EXPONENT_BIAS + 1)) *
                      splat_bits((real_bits)1 << MANTISSA_BITS));
 }
 
-/* A positive number as digits in [1, 2), returned, times 2^exponent. */
+/* Splits a positive number into digits in [1, 2), which it returns, times 2^exponent. */
 FN vreal split_number(vreal a, vreal *exponent) {
     vmask is_small = lt(a, splat(MIN_NORMAL));
     vbits bits = bits_of(vselect(is_small, a * splat(NORMALISER), a));
@@ -89,8 +87,8 @@ FN vreal split_number(vreal a, vreal *exponent) {
     return from_bits((bits & splat_bits(BITS_OF_FIRST)) | splat_bits(BITS_OF_ONE));
 }
 
-/* The quotient's digits, in [1, 2), of a in [b, 2b) and b in [1, 2), rounded, and what is left of
-   a, exactly. */
+/* Returns the rounded digits of a / b, in [1, 2), for a in [b, 2b) and b in [1, 2); `left` is the
+   exact remainder. */
 FN vreal quotient_digits(vreal a, vreal b, vreal *left) {
     vreal inverse = reciprocal(b), guess = a * inverse, step = splat(LAST_PLACE);
     vreal digits = multiply_add(multiply_add(-b, guess, a), inverse, guess);
@@ -102,8 +100,8 @@ FN vreal quotient_digits(vreal a, vreal b, vreal *left) {
     return digits;
 }
 
-/* `digits` * 2^exponent below the least normal number, rounded from digits and a remainder, of
-   which the sign counts. */
+/* Returns `digits` * 2^exponent below the minimum normal number, rounded by the remainder's sign.
+ */
 FN vreal small_quotient(vreal digits, vreal left, vreal exponent) {
     vreal one = splat(R(1.0)), zero = splat(R(0.0)), step = splat(LAST_PLACE);
     vreal middle = splat(R(0.5) * LAST_PLACE);
@@ -116,7 +114,7 @@ FN vreal small_quotient(vreal digits, vreal left, vreal exponent) {
     return (sum - one) * splat(MIN_NORMAL);
 }
 
-/* a / b of positive numbers, neither 0 nor infinite. */
+/* Returns a / b of positive numbers, neither 0 nor infinite. */
 FN vreal positive_quotient(vreal a, vreal b) {
     vreal exponent_a, exponent_b, left;
     vreal digits_a = split_number(a, &exponent_a), digits_b = split_number(b, &exponent_b);
@@ -146,7 +144,7 @@ FN vreal quotient(vreal a, vreal b) {
     return from_bits(bits_of(found) ^ sign);
 }
 
-/* The root of a in [1, 4), rounded. */
+/* Returns the rounded root of a in [1, 4). */
 FN vreal root_digits(vreal a) {
     vreal inverse = reciprocal_root(a), guess = a * inverse, step = splat(LAST_PLACE);
     vreal rest = multiply_add(-guess, guess, a);

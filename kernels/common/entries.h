@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* Entry points for devices; their parameters are those of kernel_arguments.h, by the names there. A
-   language defines KERNEL, which begins each, SHARED before what threads of a group share, and the
-   numbers of a thread (WORKER of WORKERS), of its group (GROUP of GROUPS) and within that (THREAD
-   of THREADS). SMALL_TABLES lists the tables that DEFINE_CONSTANT and USE_CONSTANT put into
-   constant memory. Without a group size every work item renders for itself, which suits CPUs. */
+/* Entry points for devices, with the parameters of kernel_arguments.h. A language defines KERNEL,
+   which begins each, SHARED for memory of a group, and the numbers of a thread (WORKER of WORKERS),
+   of its group (GROUP of GROUPS) and within that (THREAD of THREADS). SMALL_TABLES lists the tables
+   that DEFINE_CONSTANT and USE_CONSTANT put into constant memory. Without a group size each work
+   item renders by itself, which suits CPUs. */
 #ifndef HD_ENTRIES_H
 #define HD_ENTRIES_H
 
-/* The text has each file once, where it is asked for first: what either part needs comes before. */
+/* The assembled source holds each file once, at its first include: files that both parts need come
+   first. */
 #include "division.h"
 #include "kernel_arguments.h"
 #include "scene_tables.h"
@@ -70,9 +71,9 @@ KERNEL hedron_render(SCENE_PARAMETERS HD_RENDER_ARGUMENTS(HD_PARAMETER, HD_LAST_
 
 #else
 
-/* The item that is number `number` of `count`. Drivers for CPUs hand each thread hundreds of items
-   in a row, and neighbours cost alike: so runs of neighbours, which share what is in caches, are
-   read column by column of a table, and a rest comes last. */
+/* Maps `number` of `count` to an item. CPU drivers give each thread hundreds of items in a row, and
+   neighbours cost alike: so runs of neighbours, which share caches, are read by columns of a table;
+   a rest comes last. */
 FN int spread_item(int number, int count) {
     enum { RUN = 8, COLUMNS = 8 };
     int rows = count / (RUN * COLUMNS), run = number / RUN;

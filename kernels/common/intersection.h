@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Closest hit of a packet of rays with the solids and the floor. There is no epsilon: a ray carries
-   the object it touched last and the side it runs on (docs/numerics.md). */
+   its last hit and the side it runs on (docs/numerics.md). */
 #ifndef HD_INTERSECTION_H
 #define HD_INTERSECTION_H
 
@@ -8,12 +8,12 @@
 #include "vectors.h"
 
 typedef struct {
-    Vec3 origin; /* relative to the object touched last, of meshes to the instance, or to the eye */
+    Vec3 origin;    /* relative to the last hit object or mesh instance, or to the eye */
     Vec3 direction; /* unit, up to rounding */
-    Vec3 weight;    /* what this ray's radiance is multiplied by on its way to the eye */
-    vint last_hit;  /* number of the object touched last; only in rays that left an object */
-    vint face;      /* and of its face; of account in scenes with meshes only */
-    vmask inside;   /* runs inside the solid touched last */
+    Vec3 weight;    /* factor of this ray's radiance on its way to the eye */
+    vint last_hit;  /* number of the last hit object; only in rays that left an object */
+    vint face;      /* and of its face; used in scenes with meshes only */
+    vmask inside;   /* runs inside the last hit solid */
     vmask alive;
 } Ray;
 
@@ -21,24 +21,24 @@ typedef struct {
     vreal t;     /* along the ray */
     vint object; /* -1: none */
     vint face;
-    vmask entering; /* meets a solid from outside */
+    vmask entering; /* hits a solid from outside */
 } Hit;
 
-/* Where the rays' origins are relative to: the eye (every lane) or the object touched last. */
+/* The local origin of rays: the eye (in every lane) or the last hit object. */
 typedef struct {
     int is_eye;
-    int same;      /* every lane has the same object */
+    int same;      /* whether every lane has the same object */
     vint row;      /* first entry of the lane's object in object_offsets */
     int first_row; /* the first lane's */
-    Vec3 start; /* where the lane's mesh instance is, relative to its object, the meshes' centre */
+    Vec3 start;    /* place of the lane's mesh instance, relative to the meshes' centre */
 } LocalOrigin;
 
-/* Where numbers may be those of mesh instances: the object that these belong to. */
+/* Returns the object of a number, which may be a mesh instance's. */
 FN vint object_of(SCENE_PARAMETERS vint number) {
     return MESHES(header) ? min_int(number, splat_int(header->floor_end)) : number;
 }
 
-/* Where mesh instances are, relative to the meshes' centre; other objects: zero. */
+/* Returns the place of mesh instances, relative to the meshes' centre; zero for other objects. */
 FN Vec3 start_of_instance(SCENE_PARAMETERS vint number) {
     enum { STRIDE = sizeof(Instance) / sizeof(real) };
     vint instance = number - header->floor_end;
@@ -65,7 +65,7 @@ FN LocalOrigin local_origin_of(SCENE_PARAMETERS vint object, int is_eye) {
     return local_origin;
 }
 
-/* The point `point`, relative to `local_origin`, made relative to the object `to`. */
+/* Returns a point that is relative to `local_origin`, made relative to the object `to`. */
 FN Vec3 move_to_object(SCENE_PARAMETERS LocalOrigin local_origin, Vec3 point, int to) {
     GLOBAL const Vector *table = local_origin.is_eye ? eye_offsets : object_offsets;
     if (MESHES(header))
@@ -83,9 +83,9 @@ FN void keep_closer(Hit *hit, vmask candidate, vreal t, int object, vint face, v
     hit->entering = vselect_mask(closer, entering, hit->entering);
 }
 
-/* Lanes whose rays certainly miss a sphere about the object's centre: they pass it by, or are
-   outside and run away from it. The margin covers the rounding of both sides and directions that
-   are not quite unit, so that no ray is taken for a miss that the planes would call a hit. */
+/* Returns lanes whose rays certainly miss a sphere about the object's centre. The margin covers the
+   rounding of both sides and of unit directions, so that no ray counts as a miss that hits the
+   planes. */
 FN vmask misses_sphere(vreal radius_squared, Vec3 origin, Vec3 direction) {
     vreal along = vec3_dot(origin, direction), away = vec3_dot(origin, origin);
     vreal bound = multiply_add(away, splat(R(0.001)), radius_squared);
@@ -93,15 +93,15 @@ FN vmask misses_sphere(vreal radius_squared, Vec3 origin, Vec3 direction) {
     return runs_away | lt(bound, multiply_add(-along, along, away));
 }
 
-/* Where a ray crosses a plane: t = distance / |slope|. Two of them are compared by products, which
-   leaves one division to the end of a search. */
+/* A ray's crossing of a plane: t = distance / |slope|. Products compare two of them, which leaves
+   one division to the end of a search. */
 typedef struct {
     vreal distance; /* along the normal, not negative */
     vreal slope;
     vint plane;
 } Crossing;
 
-/* Where it is one at all: lanes without a slope get some number. */
+/* Returns the crossing's t; undefined in lanes without a slope. */
 FN vreal crossing_time(Crossing c) {
     return c.distance * reciprocal(absolute(c.slope));
 }
@@ -126,15 +126,14 @@ FN Crossing crossing(real distance, real slope, int plane) {
     return c;
 }
 
-/* The slabs between a solid's parallel planes (Kay and Kajiya 1986): a ray leaves each by the plane
-   that it runs towards from inside, and enters it by the other one. Lanes of `inside` start in the
-   solid; whether others are beyond a plane is found on the way. */
+/* Intersects the slabs between a solid's parallel planes (Kay and Kajiya 1986). A ray leaves each
+   by the plane that it runs towards from inside, and enters it by the other one. */
 FN void hit_solid(SCENE_PARAMETERS const Ray *ray, LocalOrigin local_origin, int object, Hit *hit) {
     GLOBAL const Object *solid = objects + object;
     vmask own = local_origin.is_eye ? mask_none() : eq_int(ray->last_hit, splat_int(object));
     vmask own_inside = own & ray->inside;
     if (!any_lane(ray->alive & (~own | own_inside)))
-        return; /* a convex solid is not met again from its outside */
+        return; /* rays that leave a convex solid do not hit it again */
 
     Vec3 origin = move_to_object(SCENE_ARGUMENTS local_origin, ray->origin, object);
     vmask outside = ray->alive & ~own &
@@ -143,7 +142,7 @@ FN void hit_solid(SCENE_PARAMETERS const Ray *ray, LocalOrigin local_origin, int
     if (!from_outside && !any_lane(ray->alive & own_inside))
         return;
     vreal zero = splat(R(0.0));
-    Crossing exit = crossing(R(1.0), R(0.0), solid->first_plane); /* never */
+    Crossing exit = crossing(R(1.0), R(0.0), solid->first_plane); /* never reached */
     Crossing entry = crossing(R(0.0), R(1.0), -1);                /* at the origin */
     vmask beyond = mask_none();
     for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++) {
@@ -170,8 +169,7 @@ FN void hit_solid(SCENE_PARAMETERS const Ray *ray, LocalOrigin local_origin, int
     vmask enters = ~own & ~lt_int(entry.plane, splat_int(0));
     vmask meets = outside & ~beyond & is_before(entry, exit);
     Crossing met = select_crossing(enters, entry, exit);
-    /* The slope is negative where the ray enters by the first of two planes or leaves by the
-     * second. */
+    /* The slope is negative if the ray enters by the first plane or leaves by the second. */
     vint face = met.plane + met.plane;
     face = vselect_int(enters ^ lt(met.slope, zero), face + 1, face);
     keep_closer(hit, meets | own_inside, crossing_time(met), object, face, enters);
@@ -183,7 +181,7 @@ FN void hit_floor(SCENE_PARAMETERS const Ray *ray, LocalOrigin local_origin, int
         return;
     int first = objects[object].first_plane;
     Vec3 origin = move_to_object(SCENE_ARGUMENTS local_origin, ray->origin, object);
-    vreal zero = splat(R(0.0)), least = splat(R(1e-30)); /* of a slope that is none */
+    vreal zero = splat(R(0.0)), least = splat(R(1e-30)); /* smaller slopes count as 0 */
     vreal distance = along_normal(planes + first, origin);
     vreal slope = along_normal(planes + first, ray->direction);
     vmask crossing =

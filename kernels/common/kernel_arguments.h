@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The arguments of each kernel, in their order: the kernels' parameters and what a host hands over
-   are made of the same lists.
+/* The arguments of each kernel, in order: the lists define both the kernels' parameters and what a
+   host passes.
 
    X(kind, type, name) stands for an argument, LAST(kind, type, name) for the last one of a kernel,
    which no comma follows in a list of parameters. The kinds are
@@ -12,8 +12,8 @@
 #ifndef HD_KERNEL_ARGUMENTS_H
 #define HD_KERNEL_ARGUMENTS_H
 
-/* hedron_render: TABLES, then these. Items [first_item, first_item + item_count) are rendered, each
-   by `parts` threads. */
+/* hedron_render: TABLES, then these. Renders items [first_item, first_item + item_count), each by
+   `parts` threads. */
 #define HD_RENDER_ARGUMENTS(X, LAST)                                                               \
     X(NUMBER, int, first_item)                                                                     \
     X(NUMBER, int, item_count)                                                                     \
@@ -22,9 +22,8 @@
     LAST(BUFFER, RayCounts, counts)
 
 /* The queue and the batch's sums as structures of arrays: ray_reals has WAVE_REALS arrays of
-   queue_stride numbers, ray_ints WAVE_INTS, sums WAVE_SUMS of sum_stride. `compact` is 0 where rays
-   are appended with the dead ones of their packet or group, to see what leaving them out is worth.
- */
+   queue_stride numbers, ray_ints WAVE_INTS, sums WAVE_SUMS of sum_stride. If `compact` is 0, rays
+   are appended with the dead ones of their packet or group, to measure what compaction gains. */
 #define HD_QUEUE_ARGUMENTS(X)                                                                      \
     X(BUFFER, real, ray_reals)                                                                     \
     X(BUFFER, int, ray_ints)                                                                       \
@@ -45,7 +44,7 @@
     X(BUFFER, uint, taken)                                                                         \
     LAST(BUFFER, RayCounts, counts)
 
-/* hedron_store_batch: `sums` and `sum_stride` are the queue's. */
+/* hedron_store_batch: `sums` and `sum_stride` belong to the queue. */
 #define HD_STORE_BATCH_ARGUMENTS(X, LAST)                                                          \
     X(INPUT, Header, header)                                                                       \
     X(INPUT, View, view)                                                                           \
@@ -55,8 +54,8 @@
     X(NUMBER, int, item_count)                                                                     \
     LAST(BUFFER, float, pixels)
 
-/* hedron_render_by_waves, of devices without groups: TABLES, HD_QUEUE_ARGUMENTS, then these. Items
-   [first_item, end_item) are rendered. */
+/* hedron_render_by_waves, for devices without groups: TABLES, HD_QUEUE_ARGUMENTS, then these.
+   Renders items [first_item, end_item). */
 #define HD_RENDER_BY_WAVES_ARGUMENTS(X, LAST)                                                      \
     X(NUMBER, int, first_item)                                                                     \
     X(NUMBER, int, end_item)                                                                       \
@@ -71,24 +70,24 @@
     X(NUMBER, int, floats)                                                                         \
     LAST(BUFFER, float, hits)
 
-/* hedron_sum_counts: `count` of `counts` become `workers` sums. */
+/* hedron_sum_counts: adds `count` of `counts` up to `workers` sums. */
 #define HD_SUM_COUNTS_ARGUMENTS(X, LAST)                                                           \
     X(INPUT, RayCounts, counts)                                                                    \
     X(NUMBER, int, count)                                                                          \
     X(BUFFER, RayCounts, sums)                                                                     \
     LAST(NUMBER, int, workers)
 
-/* hedron_encode: `pixels` are floats, by their bits; `thresholds` as encode8 takes them. */
+/* hedron_encode: `pixels` are the bits of floats; `thresholds` as in encode8. */
 #define HD_ENCODE_ARGUMENTS(X, LAST)                                                               \
     X(INPUT, int, pixels)                                                                          \
     X(NUMBER, int, count)                                                                          \
     X(INPUT, int, thresholds)                                                                      \
     LAST(BUFFER, uint, image)
 
-/* hedron_probe: each of `count` tuples of numbers (first, second, third), and of their bits, goes
-   through every primitive. `numbers` gets those results that are numbers, `integers` the others:
-   `count` of each primitive, in the order of the lists below. Where threads work in groups, `sums`
-   and `counters`, which all share, get what is added atomically. */
+/* hedron_probe: applies every primitive to each of `count` tuples of numbers (first, second, third)
+   and of bits. Results that are numbers go to `numbers`, others to `integers`: `count` for each
+   primitive, in the order of the lists below. With groups, atomic additions go to `sums` and
+   `counters`, which all threads share. */
 #define HD_PROBE_ARGUMENTS(X, LAST)                                                                \
     X(INPUT, real, first)                                                                          \
     X(INPUT, real, second)                                                                         \
@@ -100,8 +99,8 @@
     X(BUFFER, fixed64, sums)                                                                       \
     LAST(BUFFER, uint, counters)
 
-/* What a probe's results are: a name, and words for people. a, b and c are a tuple's numbers, x
-   its bits as an integer of 64, n those below 32. */
+/* The probe's results: a name and a description for messages. a, b and c are a tuple's numbers, x
+   its 64 bits as an integer, n the lower 32. */
 #define HD_PROBE_NUMBERS(X)                                                                        \
     X(sum, "a + b")                                                                                \
     X(difference, "a - b")                                                                         \
@@ -117,8 +116,8 @@
     X(nothing, "a - a")                                                                            \
     X(plus_zero, "a + 0")                                                                          \
     X(absolute, "the absolute value of a")                                                         \
-    X(vmin, "the lesser of a and b")                                                               \
-    X(vmax, "the greater of a and b")                                                              \
+    X(vmin, "the minimum of a and b")                                                              \
+    X(vmax, "the maximum of a and b")                                                              \
     X(signed, "a times the sign of b")                                                             \
     X(picked, "a <= b ? c : a")                                                                    \
     X(of_int, "(real) n")                                                                          \
@@ -137,12 +136,12 @@
     X(bit_count, "the number of bits of n")
 
 enum {
-    HD_PROBE_SUMS = 8,     /* that threads add to */
+    HD_PROBE_SUMS = 8,     /* sums that threads add to */
     HD_PROBE_COUNTERS = 8, /* likewise */
-    HD_PROBE_GRAIN = 16    /* tuples come in multiples of it: the most lanes */
+    HD_PROBE_GRAIN = 16    /* the count of tuples is a multiple: the maximum of lanes */
 };
 
-/* What a list of kernel_arguments.h is in a list of parameters and in a call. */
+/* Turn a list of arguments into parameters and into a call's arguments. */
 #define HD_PARAMETER_INPUT(type, name)      GLOBAL const type *RESTRICT name
 #define HD_PARAMETER_BUFFER(type, name)     GLOBAL type *RESTRICT name
 #define HD_PARAMETER_NUMBER(type, name)     type name
@@ -157,14 +156,14 @@ enum {
 #define SCENE_PARAMETERS HD_SCENE_TABLES(HD_TABLE_PARAMETER) HD_FRAME_TABLES(HD_TABLE_PARAMETER)
 #define SCENE_ARGUMENTS  HD_SCENE_TABLES(HD_TABLE_ARGUMENT) HD_FRAME_TABLES(HD_TABLE_ARGUMENT)
 
-/* Likewise of what tells where a frame's samples are. */
+/* Likewise for the tables that locate a frame's samples. */
 #define SAMPLE_PARAMETERS                                                                          \
     GLOBAL const View *RESTRICT view, GLOBAL const int *RESTRICT entries,                          \
         GLOBAL const int *RESTRICT sample_places,
 #define SAMPLE_ARGUMENTS view, entries, sample_places,
 
-/* Every solid has three planes at least. Constants where the kernels are built at run time,
- * otherwise the scene's own numbers. */
+/* Bounds: constants if the kernels are built at run time, otherwise the scene's own numbers. Every
+   solid has at least three planes. */
 #ifdef HD_PLANE_BOUND
 #define PLANE_BOUND(header)     HD_PLANE_BOUND
 #define SOLID_BOUND(header)     (HD_PLANE_BOUND / 3 + 1)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What languages do not differ in of the contract (dialect.h): all of it where a packet is one
-   lane; masks of more where a language compares vectors by its operators; and rows. Packets of more
-   lanes have their types before this, and HD_OWN_MASKS where their masks are others. */
+/* The part of the contract (dialect.h) that is the same in all languages: packets of one lane,
+   masks of vectors that compare by operators, and rows. A dialect with more lanes defines its types
+   first, and HD_OWN_MASKS if its masks differ. */
 #ifndef HD_LANES_H
 #define HD_LANES_H
 
@@ -104,7 +104,7 @@ FN vmask lt_int(vint a, vint b) {
 
 #endif
 
-/* Four numbers that follow each other in a table, for each lane. */
+/* Four consecutive numbers of a table, for each lane. */
 typedef struct {
     vint word[4];
 } FourWords;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Direct light by Phong's model, and what passes coloured glass on its way. */
+/* Direct light by Phong's model, with shadows that coloured glass filters. */
 #ifndef HD_LIGHTS_H
 #define HD_LIGHTS_H
 
@@ -7,21 +7,21 @@
 
 /* ---- clusters of lights ----
 
-   What is decided for a packet of points and many lights near each other: that none of these can
-   reach any of the points, or, for packets of several lanes, that nothing of a solid lies between.
-   All of it is conservative (docs/numerics.md, Light culling): lights are left out, and solids
-   not looked at, only where each pair by itself would come to the same. */
+   Tests of a packet of points against many lights near each other: whether none of these can reach
+   any of the points and, for packets of several lanes, whether a solid cannot occlude. All are
+   conservative (docs/numerics.md, Light culling): they skip lights and solids only if each pair by
+   itself gives the same result. */
 
 /* The lit points of a packet. */
 typedef struct {
-    vint object;  /* what the points lie on */
-    vint face;    /* and which face of it */
-    vmask inside; /* light reaches the point from inside that solid */
+    vint object;  /* object that the points lie on */
+    vint face;    /* and its face */
+    vmask inside; /* whether light reaches the point from inside that solid */
     vmask active;
 } LitPoints;
 
-/* Of a light or a cluster of lights: a bit for each of the first objects, that it is not between;
-   and one more, that the cluster is culled. */
+/* Masks of a light or a cluster have a bit for each of the first objects that cannot occlude, and
+   this one if the cluster is culled. */
 #define CLUSTER_IS_CULLED ((int)1 << HD_MASKED_OBJECTS)
 
 FN int cannot_occlude(int nonoccluders, int object) {
@@ -35,12 +35,12 @@ FN int floor_may_block(GLOBAL const Header *header, int nonoccluders) {
 
 #if HD_LANES == 1
 
-/* A length is at most that. */
+/* Returns an upper bound of a vector's length. */
 FN vreal sum_of_sides(Vec3 v) {
     return absolute(v.x) + absolute(v.y) + absolute(v.z);
 }
 
-/* Whether all lights of the run that begins with number `light` are too far away from a point on an
+/* Returns whether all lights of the run that begins with `light` are out of reach of a point on an
    object, or behind it. */
 FN int run_is_culled(SCENE_PARAMETERS Vec3 point, Vec3 normal, int object, int light) {
     GLOBAL const LightRun *run = light_runs + object * header->light_count + light;
@@ -54,11 +54,11 @@ FN int run_is_culled(SCENE_PARAMETERS Vec3 point, Vec3 normal, int object, int l
 
 #else
 
-/* A ball about the active points, and their normals: first lane's and how far others are off. */
+/* A sphere about the active points; their first normal and the maximum deviation from it. */
 typedef struct {
     Vec3 middle, normal;
     vreal radius, spread;
-} PointBall;
+} PointSphere;
 
 FN Vec3 lane_of(const Vec3 *v, int lane) {
     return vec3_splat(lane_real(&v->x, lane), lane_real(&v->y, lane), lane_real(&v->z, lane));
@@ -73,17 +73,17 @@ FN vreal max_distance(const Vec3 *points, Vec3 from, vmask m) {
     return square_root(splat(max_lane(vec3_dot(way, way), m)));
 }
 
-FN PointBall ball_about(const Vec3 *points, const Vec3 *normals, vmask active) {
-    PointBall ball;
+FN PointSphere sphere_about(const Vec3 *points, const Vec3 *normals, vmask active) {
+    PointSphere sphere;
     int lane = first_lane(active);
-    ball.middle = lane_of(points, lane);
-    ball.normal = lane_of(normals, lane);
-    ball.radius = max_distance(points, ball.middle, active);
-    ball.spread = max_distance(normals, ball.normal, active);
-    return ball;
+    sphere.middle = lane_of(points, lane);
+    sphere.normal = lane_of(normals, lane);
+    sphere.radius = max_distance(points, sphere.middle, active);
+    sphere.spread = max_distance(normals, sphere.normal, active);
+    return sphere;
 }
 
-/* As many clusters as there are lanes. */
+/* One cluster in each lane. */
 typedef struct {
     Vec3 place; /* relative to an object */
     vreal radius, reach;
@@ -100,54 +100,57 @@ FN Clusters load_clusters(GLOBAL const real *light_clusters, int object, int fir
     return clusters;
 }
 
-/* Groups that are too far away, or behind the points. */
-FN vmask culled_clusters(const PointBall *ball, const Clusters *clusters) {
-    Vec3 way = vec3_sub(clusters->place, ball->middle);
-    vreal distance = length_of(way), size = clusters->radius + ball->radius;
-    vreal slack = (distance + size + length_of(ball->middle)) * R(1e-4);
-    vreal height = vec3_dot(ball->normal, way);
-    vreal max_height = multiply_add(ball->spread, distance + size, height + size);
+/* Returns clusters that are out of reach, or behind the points. */
+FN vmask culled_clusters(const PointSphere *sphere, const Clusters *clusters) {
+    Vec3 way = vec3_sub(clusters->place, sphere->middle);
+    vreal distance = length_of(way), size = clusters->radius + sphere->radius;
+    vreal slack = (distance + size + length_of(sphere->middle)) * R(1e-4);
+    vreal height = vec3_dot(sphere->normal, way);
+    vreal max_height = multiply_add(sphere->spread, distance + size, height + size);
     return lt(clusters->reach + size + slack, distance) | lt(max_height + slack, splat(R(0.0)));
 }
 
-/* Groups whose segments to the points all lie beyond one plane that a sphere about the solid is
-   before: a plane across the way from the solid's centre, which places are relative to, to the
-   middle segment. */
-FN vmask unoccluded_clusters(vreal solid_radius, const PointBall *ball, Vec3 middle,
+/* Returns clusters that one plane separates, with all segments to the points, from a sphere about
+   the solid. The plane is perpendicular to the line from the solid's centre, which places are
+   relative to, to the middle segment. */
+FN vmask unoccluded_clusters(vreal solid_radius, const PointSphere *sphere, Vec3 middle,
                              const Clusters *clusters) {
     Vec3 way = vec3_sub(clusters->place, middle);
     vreal squared = vmax(vec3_dot(way, way), splat(R(1e-30)));
     vreal along = vmin(-vec3_dot(middle, way) * reciprocal(squared), splat(R(1.0)));
     Vec3 across = vec3_scale_add(way, vmax(along, splat(R(0.0))), middle);
-    vreal length = length_of(across), told = splat(R(1e-15)); /* from one that rounded to 0 */
-    vreal least = solid_radius + (length_of(middle) + ball->radius) * R(1e-4);
-    return lt(told, length) & lt(length * (least + ball->radius), vec3_dot(across, middle)) &
+    vreal length = length_of(across),
+          min_length = splat(R(1e-15)); /* a shorter one may be rounding alone */
+    vreal least = solid_radius + (length_of(middle) + sphere->radius) * R(1e-4);
+    return lt(min_length, length) &
+           lt(length * (least + sphere->radius), vec3_dot(across, middle)) &
            lt(length * (least + clusters->radius), vec3_dot(across, clusters->place));
 }
 
-/* What is known of each cluster, for points that lie on one object; `may_cross` are the points from
-   which segments may cross a solid. */
+/* Fills `known`, a mask for each cluster, for points that lie on one object. `may_cross` holds the
+   points from which segments may cross a solid. */
 FN_NOINLINE void cull_clusters(SCENE_PARAMETERS const Vec3 *points, const Vec3 *normals,
                                const LitPoints *lit_points, const vmask *may_cross, int *known) {
     const int count = HD_LIGHT_CLUSTERS(header->light_count);
     vint numbers = object_of(SCENE_ARGUMENTS lit_points->object);
     int object = lane_int(&numbers, 0);
     int solids = header->solid_count < HD_MASKED_OBJECTS ? header->solid_count : HD_MASKED_OBJECTS;
-    PointBall ball = ball_about(points, normals, lit_points->active);
+    PointSphere sphere = sphere_about(points, normals, lit_points->active);
     for (int first = 0; first < count; first += HD_LANES) {
         Clusters clusters = load_clusters(light_clusters, object, first, count);
-        vmask dark = culled_clusters(&ball, &clusters);
+        vmask dark = culled_clusters(&sphere, &clusters);
         vint found = vselect_int(dark, splat_int(CLUSTER_IS_CULLED), splat_int(0));
         for (int s = 0; s < solids && any_lane(~dark); s++) {
             vmask nonoccluders = mask_all();
             if (any_lane(may_cross[s])) {
                 if (s == object)
-                    continue; /* from inside of it */
+                    continue; /* the points are inside it */
                 GLOBAL const Vector *offset = object_offsets + object * header->object_count + s;
                 clusters = load_clusters(light_clusters, s, first, count);
                 nonoccluders = unoccluded_clusters(
-                    splat(objects[s].radius_about), &ball,
-                    vec3_add(ball.middle, vec3_splat(offset->x, offset->y, offset->z)), &clusters);
+                    splat(objects[s].radius_about), &sphere,
+                    vec3_add(sphere.middle, vec3_splat(offset->x, offset->y, offset->z)),
+                    &clusters);
             }
             found = found | vselect_int(nonoccluders, splat_int((int)1 << s), splat_int(0));
         }
@@ -159,14 +162,12 @@ FN_NOINLINE void cull_clusters(SCENE_PARAMETERS const Vec3 *points, const Vec3 *
 
 /* ---- one light after the other ---- */
 
-/* Where the points are as to the planes of the scene, found once for all lights:
-     coordinates[plane]   n.X of a solid's plane, the distance to a floor's
-     outer[solid]         a bit for each face, from the solid's first one on, that the point is not
-                          strictly inside of
-     some_outside[solid]    joined over all lanes
-     may_cross[solid]       the points from which a segment may cross it
-   A point seen from inside its own solid is inside, whatever rounding says, and has no bits there.
- */
+/* Classifies the points against the planes of the scene, once for all lights:
+     coordinates[plane]    n.X of a solid's plane, the distance to a floor's
+     outside_planes[solid] a bit for each face that the point is not strictly inside of
+     some_outside[solid]   the bits of all lanes
+     may_cross[solid]      the points from which a segment may cross it
+   A point seen from inside its own solid counts as inside, without bits, despite rounding. */
 FN void classify_against_planes(SCENE_PARAMETERS const Surface *surface, const LitPoints *points,
                                 int nonoccluders, vreal *coordinates, vint *outside_planes,
                                 uint *some_outside, vmask *may_cross) {
@@ -215,7 +216,7 @@ FN void classify_against_planes(SCENE_PARAMETERS const Surface *surface, const L
     }
 }
 
-/* Lanes whose segment to the light crosses the floor. */
+/* Returns the lanes whose segment to the light crosses the floor. */
 FN vmask floor_blocks(SCENE_PARAMETERS int object, GLOBAL const real *light_row,
                       const vreal *distances, const LitPoints *points) {
     int first = objects[object].first_plane;
@@ -237,8 +238,8 @@ FN vmask floor_blocks(SCENE_PARAMETERS int object, GLOBAL const real *light_row,
     return blocked;
 }
 
-/* Multiplies `light` by what one face lets through where the segments cross it: its colour times
-   `transmission`, or nothing at the rim. */
+/* Multiplies `light` by one face's transmittance at the crossing: its colour times `transmission`,
+   or 0 on the rim. */
 FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const real *light_row,
                    const vreal *coordinates, vmask crossing, Crossing where, real transmission,
                    Vec3 *light) {
@@ -262,7 +263,7 @@ FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const rea
     *light = vec3_select(crossing, filtered, *light);
 }
 
-/* Where the segments enter a solid, as a quotient: only planes count that a point is outside of. */
+/* Returns where the segments enter a solid; only planes matter that a point is outside of. */
 FN Crossing segment_entry(SCENE_PARAMETERS GLOBAL const Object *solid, uint some_outside,
                           GLOBAL const real *light_row, const vreal *coordinates) {
     Crossing entry = crossing(R(0.0), R(1.0), 0); /* at the point */
@@ -277,8 +278,8 @@ FN Crossing segment_entry(SCENE_PARAMETERS GLOBAL const Object *solid, uint some
     return entry;
 }
 
-/* Where they leave it: only planes count that the light is outside of. Points are not, where
-   segments cross it, so these run outwards through all of them and no slope is negative. */
+/* Returns where the segments leave a solid; only planes matter that the light is outside of. Points
+   whose segments cross are inside of these planes, so no slope is negative. */
 FN Crossing segment_exit(SCENE_PARAMETERS GLOBAL const Object *solid, uint light_outside,
                          GLOBAL const real *light_row, const vreal *coordinates) {
     Crossing exit = crossing(R(1.0), R(1.0), 0); /* at the light */
@@ -296,8 +297,8 @@ FN Crossing segment_exit(SCENE_PARAMETERS GLOBAL const Object *solid, uint light
     return exit;
 }
 
-/* Lets the segments from the points to the light pass one solid. A segment misses it when neither
-   end is inside of one plane, which settles most of them before anything is computed. */
+/* Filters `light` by one solid on the segments from the points to the light. A segment misses it if
+   neither end is inside of one plane, which settles most without arithmetic. */
 FN void cross_solid(SCENE_PARAMETERS int object, GLOBAL const LightSides *sides,
                     GLOBAL const real *light_row, const vreal *coordinates, vint outside_planes,
                     uint some_outside, vmask open, Vec3 *light) {
@@ -313,7 +314,7 @@ FN void cross_solid(SCENE_PARAMETERS int object, GLOBAL const LightSides *sides,
         if (!any_lane(crosses))
             return;
     }
-    /* Sides are named as for a ray that looks from the point to the light. */
+    /* The outer side is the one that a ray from the point to the light enters. */
     GLOBAL const Material *face = materials + solid->face_material;
     if (some_outside)
         cross_face(SCENE_ARGUMENTS solid, light_row, coordinates,
@@ -323,9 +324,9 @@ FN void cross_solid(SCENE_PARAMETERS int object, GLOBAL const LightSides *sides,
                    face->inner_transmission, light);
 }
 
-/* x to the power n, n >= 1, by squaring; `common` is n where all lanes share it, else 0. Nothing is
-   squared in vain: from powers of at least 2^-60 no denormal number comes, which some processors
-   are slow with. */
+/* Returns x to the power n, n >= 1, by squaring; `common` is n if all lanes share it, else 0. No
+   square is computed without use: powers of at least 2^-60 give no denormals, which are slow on
+   some processors. */
 FN vreal power(vreal x, vint n, int common) {
     if (common) {
         int rest = common;
@@ -348,9 +349,9 @@ FN vreal power(vreal x, vint n, int common) {
     return result;
 }
 
-/* Phong's model for one light: what leaves towards the viewer, for each channel, where `share` of
-   the light arrives. `cosine` is N.L times the light's distance, `squared` that distance squared;
-   without `shines` no lane has a highlight. */
+/* Returns the reflected share of one light by Phong's model, if `share` of the light arrives.
+   `cosine` is N.L times the light's distance, `squared` that distance squared; without `shines` no
+   lane has a highlight. */
 FN Vec3 phong(const LaneMaterial *material, int shines, vint shininess, int common_shininess,
               vreal cosine, vreal mirror_cosine, vreal squared, vreal share) {
     vreal inverse = reciprocal_root(squared);
@@ -366,10 +367,10 @@ FN Vec3 phong(const LaneMaterial *material, int shines, vint shininess, int comm
     return vec3_add(reflected, vec3(specular, specular, specular));
 }
 
-/* What is left of a light at a squared distance, as a share of its intensity. */
+/* Returns a light's share of its intensity at a squared distance. */
 FN vreal falloff_at(GLOBAL const Light *light, vreal squared) {
     vreal one = splat(R(1.0)), scale = splat(light->inverse_falloff_squared);
-    vreal most = splat(REAL_LARGE); /* beyond it nothing is left to be told apart */
+    vreal most = splat(REAL_LARGE); /* keeps the reciprocal normal */
     if (light->inverse_falloff_squared < R(0.0)) {
         vreal rest = vmax(multiply_add(squared, scale, one), splat(R(0.0)));
         return rest * rest;
@@ -379,15 +380,14 @@ FN vreal falloff_at(GLOBAL const Light *light, vreal squared) {
     return one;
 }
 
-/* Lanes at a squared distance at which nothing is left of the light. */
+/* Returns the lanes whose squared distance is beyond the light's end. */
 FN vmask beyond_falloff(GLOBAL const Light *light, vreal squared) {
     if (!(light->inverse_falloff_squared < R(0.0)))
         return mask_none();
     return le(squared * splat(light->inverse_falloff_squared), splat(R(-1.0)));
 }
 
-/* What of `light`, of any colour, passes the solids, the floor and the meshes on its way to the
-   points of `lit`. */
+/* Returns `light` as the solids, the floor and the meshes transmit it to the points of `lit`. */
 FN Vec3 passing_light(SCENE_PARAMETERS int number, Vec3 light, Vec3 to_light,
                       const Surface *surface, const vreal *coordinates, const vint *outside_planes,
                       const uint *some_outside, const vmask *may_cross, const LitPoints *points,
@@ -413,7 +413,7 @@ FN Vec3 passing_light(SCENE_PARAMETERS int number, Vec3 light, Vec3 to_light,
     return light;
 }
 
-/* A face that holds the light gets nothing from it: N.L is 0, whatever rounding says. */
+/* Returns the lanes on a face that holds the light: N.L is 0 there, whatever rounding gives. */
 FN vmask holds_light(GLOBAL const Light *light, const LitPoints *points) {
     if (light->own_face[0] < 0)
         return mask_none();
@@ -421,7 +421,7 @@ FN vmask holds_light(GLOBAL const Light *light, const LitPoints *points) {
            eq_int(points->face, splat_int(light->own_face[1]));
 }
 
-/* The objects that a packet's points lie on, each once, and its points. */
+/* The different objects that a packet's points lie on, each with its points. */
 typedef struct {
     int count;
     int object[HD_LANES];
@@ -443,7 +443,7 @@ FN LightRows light_rows(vint object) {
     return rows;
 }
 
-/* Where a light is, relative to the objects that the points lie on. */
+/* Returns a light's place, relative to the objects that the points lie on. */
 FN Vec3 light_position(SCENE_PARAMETERS const LightRows *rows, int light) {
     GLOBAL const Vector *v = light_offsets + rows->object[0] * header->light_count + light;
     Vec3 position = vec3_splat(v->x, v->y, v->z);
@@ -454,16 +454,15 @@ FN Vec3 light_position(SCENE_PARAMETERS const LightRows *rows, int light) {
     return position;
 }
 
-/* What is beside the ways to a packet's points of light number `entry` - 1, or, of entry 0, of all
-   lights. */
+/* Returns the occlusion mask of light `entry` - 1 for a packet's points; entry 0: of all lights. */
 FN int occlusion_mask(SCENE_PARAMETERS const LightRows *rows, int entry) {
     return rows->count > 1 ? 0
                            : occlusion_masks[rows->object[0] * (header->light_count + 1) + entry];
 }
 
-/* Radiance that the points send to the viewer by diffuse and specular reflection of all lights.
-   Lights are the outer loop and lanes the points, so that everything about a light is the same for
-   a packet. `mirrored` is the viewing ray's mirror direction, unit. */
+/* Returns the radiance towards the viewer by diffuse and specular reflection of all lights. The
+   outer loop runs over lights and lanes are points, so that a packet shares all data of a light.
+   `mirrored` is the viewing ray's mirror direction, unit. */
 FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *points,
                      Vec3 mirrored, vint *shadow_tests) {
     Vec3 sum = vec3_zero();
@@ -482,14 +481,14 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
     vint shininess = spread_first(surface->material.shininess, points->active);
     int common_shininess = HD_LANES > 1 && all_same(shininess) ? lane_int(&shininess, 0) : 0;
     int shines = any_lane(points->active & lt(zero, surface->material.specular));
-    /* Of the solids and the floor. */
-    const int judged =
+    /* Bits of the solids and the floor. */
+    const int masked_objects =
         header->floor_end < HD_MASKED_OBJECTS ? ((int)1 << header->floor_end) - 1 : -1;
 #if HD_LANES > 1
     int cluster_masks[HD_MAX_LIGHT_CLUSTERS];
-    cluster_masks[0] = 0; /* of all lights, where there are no clusters */
+    cluster_masks[0] = 0; /* for all lights, if there are no clusters */
     if (HD_LIGHT_CLUSTERS(header->light_count) > 0 && rows.count == 1) {
-        /* Copies: what a pointer is handed out to cannot stay in registers. */
+        /* Copies, as a variable whose address is passed cannot stay in registers. */
         Vec3 at = point, normal = surface->normal;
         LitPoints lit_points = *points;
         cull_clusters(SCENE_ARGUMENTS & at, &normal, &lit_points, may_cross, cluster_masks);
@@ -523,7 +522,7 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
         *shadow_tests = count_lanes(*shadow_tests, lit);
         known |= occlusion_mask(SCENE_ARGUMENTS & rows, i + 1);
         Vec3 light = vec3_of(lights[i].intensity);
-        if (MESHES(header) || ~known & judged)
+        if (MESHES(header) || ~known & masked_objects)
             light = passing_light(SCENE_ARGUMENTS i, light, to_light, surface, coordinates,
                                   outside_planes, some_outside, may_cross, points, known, lit);
         vreal share = vselect(lit, falloff_at(lights + i, squared), zero);

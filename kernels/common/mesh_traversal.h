@@ -1,49 +1,48 @@
 /* SPDX-License-Identifier: MIT */
-/* Triangles tried with rays of one mesh: which count as met, and what is kept of those: the closest
-   hit, or all that filters light. Then what all walks through hierarchies share, and the walk of a
-   single lane; that of packets is in mesh_traversal_packet.h. */
+/* Tests of triangles against rays in one mesh, for the closest hit or for all filters of light.
+   Then the parts that all traversals share, and that of a single lane; that of packets is in
+   mesh_traversal_packet.h. */
 #ifndef HD_MESH_TRAVERSAL_H
 #define HD_MESH_TRAVERSAL_H
 
 #include "triangle.h"
 
-/* What the rays look for, and what was found. */
+/* The state of a search. */
 typedef struct {
     vmask alive;
-    vreal limit;           /* nothing is looked for from here on: the closest hit so far, or
-                              the light */
-    vint object, triangle; /* the closest hit's */
+    vreal limit;           /* maximum t: the closest hit so far, or the light */
+    vint object, triangle; /* the closest hit */
     vmask entering;
-    vint density[3], rest[3]; /* what filters light, added up (MeshMaterial.filter) */
+    vint density[3], rest[3]; /* sum of optical densities (MeshMaterial.filter) */
 } Findings;
 
 /* The rays in a mesh's own coordinates. */
 typedef struct {
-    DominantAxis last; /* origins and directions are turned by it (triangle.h) */
+    DominantAxis last; /* permutes origins and directions (triangle.h) */
     RayFrame frame;
     Slabs slabs;
-    vmask own;     /* leaves this very mesh, */
-    vint own_face; /* this face of it, or -1, */
-    vmask inside;  /* and on its inner side */
+    vmask own;     /* leaves this mesh */
+    vint own_face; /* the face that it leaves, or -1 */
+    vmask inside;  /* leaves on the inner side */
     int object;    /* number of the mesh among the objects */
     int first_face, first_mesh_material;
-    int is_shadow;     /* all that filters light is looked for, not the closest hit */
-    int light_face[2]; /* a light's own faces are not in its way; -1: none */
+    int is_shadow;     /* collects filters of light, not the closest hit */
+    int light_face[2]; /* the light's own faces, which do not occlude it; -1: none */
     real contact_squared;
 } MeshRays;
 
 /* ---- sides ---- */
 
-/* The rays' origin is as near to the triangle's plane as rounding may put it. */
+/* Returns lanes whose origin is within rounding of the triangle's plane. */
 FN vmask is_in_contact(const MeshRays *rays, const TriangleLanes *triangle) {
     Vec3 normal = normal_of(triangle);
     vreal away = vec3_dot(normal, vec3_sub(triangle->a, rays->frame.origin));
     return le(away * away, vec3_dot(normal, normal) * rays->contact_squared);
 }
 
-/* What of `met` rays cross that left a face of this mesh. They meet its outer side next if they run
-   outside, its inner side if they run inside: where rounding has put their origin past a neighbour
-   of what they left, they meet that from the wrong side, nearby. */
+/* Returns `met` without false hits of rays that left a face of this mesh. Rays outside next hit an
+   outer side, rays inside an inner side. If rounding puts their origin past a neighbouring face,
+   they hit that from the wrong side, nearby. */
 FN vmask leave_face(const MeshRays *rays, const TriangleLanes *triangle, vmask met,
                     vmask entering) {
     met = met & ~(rays->own & eq_int(triangle->face, rays->own_face));
@@ -51,9 +50,9 @@ FN vmask leave_face(const MeshRays *rays, const TriangleLanes *triangle, vmask m
     return any_lane(wrong) ? met & ~(wrong & is_in_contact(rays, triangle)) : met;
 }
 
-/* Tries triangles, with the rays of `m`, for what is no further away than `limit`. The closest
-   hit's search takes the wrong side of a surface to be further away by what the distance is
-   uncertain: at an edge where both sides are met at once the right one is first. */
+/* Tests triangles against the rays of `m` up to `limit`. A closest-hit search adds the distance's
+   uncertainty to hits of the wrong side: if a ray hits both sides at an edge, the right one comes
+   first. */
 FN vmask meet_triangles(const MeshRays *rays, const TriangleLanes *triangle, vreal limit, vmask m,
                         TriangleCrossing *crossing) {
     vmask met = cross_triangle(&rays->frame, &rays->slabs, m, triangle->a, triangle->b, triangle->c,
@@ -70,7 +69,7 @@ FN vmask meet_triangles(const MeshRays *rays, const TriangleLanes *triangle, vre
 
 /* ---- the closest hit ---- */
 
-/* Of two hits at one distance that of the lower number counts. */
+/* Returns lanes with a closer hit; at equal distance the lower number wins. */
 FN vmask is_closer(const Findings *found, vreal t, int object, vint triangle) {
     vmask level = ~lt(t, found->limit) & ~lt(found->limit, t);
     vmask same = eq_int(found->object, splat_int(object));
@@ -88,7 +87,7 @@ FN void keep_closest(Findings *found, const MeshRays *rays, const TriangleLanes 
     found->entering = vselect_mask(closer, crossing->entering, found->entering);
 }
 
-/* ---- what filters light ---- */
+/* ---- filters of light ---- */
 
 FN void keep_filter(GLOBAL const MeshMaterial *mesh_materials, Findings *found,
                     const MeshRays *rays, const TriangleLanes *triangle, vmask met,
@@ -135,16 +134,17 @@ FN void keep_crossing(SCENE_PARAMETERS Findings *found, const MeshRays *rays,
         keep_closest(found, rays, triangle, met, &crossing);
 }
 
-/* ---- which way rays run ---- */
+/* ---- ray octants ---- */
 
-/* Which way rays run: what packets have in common that share a walk. */
+/* The octant and dominant axis that rays share in a traversal. */
 typedef struct {
-    int axis[3];           /* of the mesh, the one nearest to the rays last */
-    int entry[3], exit[3]; /* of a box they enter by the lower (0) or the upper bound of each */
-    int backward;          /* a bit for each axis of the mesh: they run against it */
+    int axis[3];           /* axes of the mesh, the dominant one last */
+    int entry[3], exit[3]; /* bound by which rays enter and leave a box on each axis: lower (0) or
+                              upper (1) */
+    int backward;          /* a bit for each axis of the mesh that rays run against */
 } RayOctant;
 
-/* The lanes of `m` whose rays run the same way as the first one's. */
+/* Returns the lanes of `m` in the octant of the first one, and this octant. */
 FN vmask same_octant(const Slabs *slabs, DominantAxis last, vmask m, RayOctant *octant) {
     int lane = first_lane(m);
     int x = (int)(lane_bits(last.x) >> lane & 1), y = (int)(lane_bits(last.y) >> lane & 1);
@@ -162,7 +162,7 @@ FN vmask same_octant(const Slabs *slabs, DominantAxis last, vmask m, RayOctant *
     return m;
 }
 
-/* Tries `count` triangles, one at least, with rays that run one way. */
+/* Tests `count` triangles, at least one, against rays of one octant. */
 FN void try_triangles(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
                       const RayOctant *octant, int first, int count) {
     int i = first;
@@ -199,12 +199,12 @@ FN vreal exit_of_child(GLOBAL const MeshNode *node, const Slabs *slabs, const Ra
 
 #if HD_LANES == 1
 
-/* In place of nodes and leaves, of which none that holds anything has these numbers: nothing, and
-   all triangles of a mesh without a hierarchy. */
+/* Special nodes, with numbers that no node or leaf has: none, and all triangles of a mesh without a
+   hierarchy. */
 enum { NO_NODE = -1, WHOLE_MESH = -2147483647 };
 
-/* The ray of `m`. Down to a leaf, then its triangles: so threads of a warp do the same at a time
-   (Aila and Laine 2009). */
+/* Searches one mesh with the ray of `m`: descends to a leaf, then tests its triangles, so that
+   threads of a warp stay in step (Aila and Laine 2009). */
 FN void search_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
                     GLOBAL const Instance *instance) {
     int stack[NODE_STACK(header)];
@@ -228,7 +228,7 @@ FN void search_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmas
                 vmask alive = m & found->alive;
                 int meets0 = any_lane(alive & le(near0, far0));
                 int meets1 = any_lane(alive & le(near1, far1));
-                int last = octant.backward >> node->axis & 1 ? 0 : 1; /* further along the rays */
+                int last = octant.backward >> node->axis & 1 ? 0 : 1; /* the farther child */
                 if (meets0 && meets1) {
                     stack[waiting] = node->child[last];
                     stack_near[waiting] = last ? near1 : near0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The walk of packets through a mesh. Nodes are wide: the lanes are a node's children, which all
-   rays of a walk are tested against at once; where few rays are left each walks by itself
-   afterwards, and the lanes are a leaf's triangles too. */
+/* Traversal of a mesh by packets. Nodes are wide: lanes are a node's children, tested against all
+   rays at once. When few rays are left, each traverses singly afterwards, and lanes are a leaf's
+   triangles too. */
 #ifndef HD_MESH_TRAVERSAL_PACKET_H
 #define HD_MESH_TRAVERSAL_PACKET_H
 
@@ -9,10 +9,10 @@
 
 #if HD_LANES > 1
 
-/* Reals in the bounds of a wide node: a lower and an upper one of each axis for each child. */
+/* Reals in the bounds of a wide node: lower and upper of each axis for each child. */
 enum { WIDE_STRIDE = 6 * HD_LANES };
 
-/* Begins to load what a walk comes to later: a node, or the triangles of a leaf. */
+/* Prefetches a node, or the triangles of a leaf. */
 FN void prefetch_place(SCENE_PARAMETERS int place) {
     enum { NODE_BYTES = WIDE_STRIDE * (int)sizeof(real), LEAF_BYTES = 192 };
     if (place < 0) {
@@ -25,12 +25,12 @@ FN void prefetch_place(SCENE_PARAMETERS int place) {
                    HD_LANES * (int)sizeof(int));
 }
 
-/* Where the bounds of an axis begin in a wide node, those of one side each. */
+/* Returns where the bounds of an axis and side begin in a wide node. */
 FN int place_of_bounds(const int side[3], const RayOctant *octant, int axis) {
     return (3 * side[axis] + octant->axis[axis]) * HD_LANES;
 }
 
-/* ---- a ray by itself ---- */
+/* ---- one ray in all lanes ---- */
 
 FN vreal spread_real(vreal a, int lane) {
     return splat(lane_real(&a, lane));
@@ -44,7 +44,7 @@ FN vmask spread_mask(uint bits, int lane) {
     return bits >> lane & 1 ? mask_all() : mask_none();
 }
 
-/* One lane's ray in all lanes. */
+/* Returns one lane's ray in all lanes. */
 FN MeshRays spread_rays(const MeshRays *rays, int lane) {
     MeshRays one = *rays;
     one.frame.origin = spread_vector(rays->frame.origin, lane);
@@ -75,7 +75,7 @@ FN Findings spread_findings(const Findings *found, int lane) {
     return one;
 }
 
-/* Triangles that lie at `number` in the table, one for each lane. */
+/* Returns the triangles `number` of the table, one in each lane. */
 FN TriangleLanes triangles_at(GLOBAL const Triangle *triangles, vint number, int count,
                               const int axis[3], int first_face, int first_mesh_material) {
     GLOBAL const real *table = (GLOBAL const real *)triangles;
@@ -91,7 +91,7 @@ FN TriangleLanes triangles_at(GLOBAL const Triangle *triangles, vint number, int
     return lanes;
 }
 
-/* Puts a leaf's triangles beside the `count` that are there; returns how many they are then. */
+/* Appends a leaf's triangles to `count` others in the lanes; returns the new count. */
 FN int add_leaf(vint *number, int count, int leaf) {
     int first = ~leaf >> HD_LEAF_ITEM_BITS, more = ~leaf & HD_LEAF_ITEM_MASK;
     vint added = min_int(lane_numbers() + (first - count), splat_int(first + more - 1));
@@ -99,10 +99,10 @@ FN int add_leaf(vint *number, int count, int leaf) {
     return count + more;
 }
 
-/* Tries `count` triangles side by side. What is found in the lanes is brought together, so that all
-   of them hold it. Returns whether anything is met. */
-FN int try_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, const RayOctant *octant,
-                   vint number, int count) {
+/* Tests `count` triangles, one in each lane, and merges the findings into all lanes. Returns
+   whether the ray hits anything. */
+FN int try_triangle_lanes(SCENE_PARAMETERS Findings *found, const MeshRays *ray,
+                          const RayOctant *octant, vint number, int count) {
     vmask m = lanes_below(count);
     TriangleCrossing crossing;
     TriangleLanes triangle = triangles_at(triangles, number, count, octant->axis, ray->first_face,
@@ -133,25 +133,26 @@ FN int try_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, const 
     return 1;
 }
 
-/* ---- rays that walk alone, in turns ---- */
+/* ---- single-ray traversal, interleaved ---- */
 
-/* Nodes that a lane's ray may put off at most. */
+/* Maximum of nodes that a lane's ray defers. */
 enum { MAX_SINGLES = 24 };
 
-/* What rays have left to walk through alone: `room` entries for each lane, the nearest one last. */
+/* The nodes left for single-ray traversal: `capacity` entries for each lane, the nearest one last.
+ */
 typedef struct {
     int waiting[HD_LANES];
     RayOctant octant[HD_LANES];
     int *stack;
     real *stack_near;
-    int room;
-    uint lanes; /* that have any */
+    int capacity;
+    uint lanes; /* lanes with entries */
 } SingleRays;
 
-/* What is put off comes in the order in which the ray meets it. */
+/* Defers a node; nodes arrive in the order in which the ray meets them. */
 FN void queue_single(SingleRays *singles, const RayOctant *octant, int lane, int node, real near) {
-    int *stack = singles->stack + lane * singles->room;
-    real *stack_near = singles->stack_near + lane * singles->room;
+    int *stack = singles->stack + lane * singles->capacity;
+    real *stack_near = singles->stack_near + lane * singles->capacity;
     int i = singles->waiting[lane]++;
     singles->octant[lane] = *octant;
     singles->lanes |= 1u << lane;
@@ -170,8 +171,8 @@ FN int can_queue_single(const SingleRays *singles, uint bits) {
     return 1;
 }
 
-/* Takes over what was found by the ray of `lane` alone. */
-FN void take_over(Findings *found, const Findings *one, int is_shadow, int lane) {
+/* Merges the findings of a single ray into `lane`. */
+FN void merge_findings(Findings *found, const Findings *one, int is_shadow, int lane) {
     vmask m = eq_int(lane_numbers(), splat_int(lane));
     if (is_shadow) {
         for (int channel = 0; channel < 3; channel++) {
@@ -197,46 +198,46 @@ FN void take_over(Findings *found, const Findings *one, int is_shadow, int lane)
     found->entering = vselect_mask(m, one->entering, found->entering);
 }
 
-/* What one lane's ray has left to walk through. */
+/* The stack of one lane's ray. */
 typedef struct {
     int *node;
     real *near;
     int waiting;
-} Pile;
+} NodeStack;
 
-/* Takes the leaf on top of the pile and those that wait next to it, as many as there are lanes for
-   their triangles, whose numbers it gives; returns how many these are. */
-FN int take_leaves(Pile *pile, real limit, vint *number) {
-    int current = pile->node[pile->waiting];
+/* Pops the top leaf and the leaves next to it while lanes are free for their triangles; returns the
+   count of triangles, whose numbers it sets. */
+FN int pop_leaves(NodeStack *stack, real limit, vint *number) {
+    int current = stack->node[stack->waiting];
     int count = add_leaf(number, 0, current);
     if (count > HD_LANES) {
         int next = (~current >> HD_LEAF_ITEM_BITS) + HD_LANES;
-        pile->node[pile->waiting++] = ~(next << HD_LEAF_ITEM_BITS | (count - HD_LANES));
+        stack->node[stack->waiting++] = ~(next << HD_LEAF_ITEM_BITS | (count - HD_LANES));
         count = HD_LANES;
     }
-    while (pile->waiting > 0 && pile->node[pile->waiting - 1] < 0 &&
-           count + (~pile->node[pile->waiting - 1] & HD_LEAF_ITEM_MASK) <= HD_LANES) {
-        pile->waiting--;
-        if (pile->near[pile->waiting] <= limit)
-            count = add_leaf(number, count, pile->node[pile->waiting]);
+    while (stack->waiting > 0 && stack->node[stack->waiting - 1] < 0 &&
+           count + (~stack->node[stack->waiting - 1] & HD_LEAF_ITEM_MASK) <= HD_LANES) {
+        stack->waiting--;
+        if (stack->near[stack->waiting] <= limit)
+            count = add_leaf(number, count, stack->node[stack->waiting]);
     }
     return count;
 }
 
-/* Returns whether the ray goes on. */
+/* Tests leaves; returns whether the ray continues. */
 FN int try_leaves(SCENE_PARAMETERS Findings *found, const MeshRays *rays, const RayOctant *octant,
-                  Pile *pile, real limit, int lane) {
+                  NodeStack *stack, real limit, int lane) {
     vint number = splat_int(0);
-    int count = take_leaves(pile, limit, &number);
+    int count = pop_leaves(stack, limit, &number);
     MeshRays ray = spread_rays(rays, lane);
     Findings one = spread_findings(found, lane);
-    if (!try_at_once(SCENE_ARGUMENTS & one, &ray, octant, number, count))
+    if (!try_triangle_lanes(SCENE_ARGUMENTS & one, &ray, octant, number, count))
         return 1;
-    take_over(found, &one, rays->is_shadow, lane);
+    merge_findings(found, &one, rays->is_shadow, lane);
     return !ray.is_shadow || any_lane(one.alive);
 }
 
-/* The children of a node whose boxes one lane's ray meets, and where it enters them. */
+/* Returns the children of a node whose boxes one lane's ray meets, and their `entry`. */
 FN vmask meet_children(const Slabs *slabs, const RayOctant *octant, GLOBAL const real *bounds,
                        real limit, int lane, vreal *entry) {
     int lower[3], upper[3];
@@ -258,56 +259,56 @@ FN vmask meet_children(const Slabs *slabs, const RayOctant *octant, GLOBAL const
     return le(near, far);
 }
 
-/* Puts children of node number `parent` on the pile, the nearest one last. */
-FN void put_children(SCENE_PARAMETERS Pile *pile, int parent, vmask met, vreal entry) {
-    int bottom = pile->waiting;
+/* Pushes children of node `parent`, the nearest one last. */
+FN void push_children_of(SCENE_PARAMETERS NodeStack *stack, int parent, vmask met, vreal entry) {
+    int bottom = stack->waiting;
     for (uint left = lane_bits(met); left; left &= left - 1) {
         int number = lowest_bit(left);
         real at = lane_real(&entry, number);
-        int place = pile->waiting;
-        while (place > bottom && pile->near[place - 1] < at) {
-            pile->node[place] = pile->node[place - 1];
-            pile->near[place] = pile->near[place - 1];
+        int place = stack->waiting;
+        while (place > bottom && stack->near[place - 1] < at) {
+            stack->node[place] = stack->node[place - 1];
+            stack->near[place] = stack->near[place - 1];
             place--;
         }
         int child = wide_children[(uint64)parent * HD_LANES + (uint64)number];
         prefetch_place(SCENE_ARGUMENTS child);
-        pile->node[place] = child;
-        pile->near[place] = at;
-        pile->waiting++;
+        stack->node[place] = child;
+        stack->near[place] = at;
+        stack->waiting++;
     }
 }
 
-/* The next step of a lane's ray: leaves that wait next to each other, or a node. Returns how many
-   entries wait then. */
+/* Advances a lane's ray by adjacent leaves or by a node; returns the height of its stack. */
 FN int step_single(SCENE_PARAMETERS Findings *found, const MeshRays *rays, SingleRays *singles,
                    int lane) {
-    Pile pile;
-    pile.node = singles->stack + lane * singles->room;
-    pile.near = singles->stack_near + lane * singles->room;
-    pile.waiting = singles->waiting[lane];
+    NodeStack stack;
+    stack.node = singles->stack + lane * singles->capacity;
+    stack.near = singles->stack_near + lane * singles->capacity;
+    stack.waiting = singles->waiting[lane];
     real limit = lane_real(&found->limit, lane);
     const RayOctant *octant = &singles->octant[lane];
     do {
-        if (pile.waiting == 0)
+        if (stack.waiting == 0)
             return 0;
-        pile.waiting--;
-    } while (limit < pile.near[pile.waiting]);
-    int current = pile.node[pile.waiting];
+        stack.waiting--;
+    } while (limit < stack.near[stack.waiting]);
+    int current = stack.node[stack.waiting];
     if (current < 0) {
-        if (!try_leaves(SCENE_ARGUMENTS found, rays, octant, &pile, limit, lane))
+        if (!try_leaves(SCENE_ARGUMENTS found, rays, octant, &stack, limit, lane))
             return 0;
     } else {
         vreal entry;
         vmask met = meet_children(&rays->slabs, octant, wide_bounds + (uint64)current * WIDE_STRIDE,
                                   limit, lane, &entry);
-        put_children(SCENE_ARGUMENTS & pile, current, met, entry);
+        push_children_of(SCENE_ARGUMENTS & stack, current, met, entry);
     }
-    singles->waiting[lane] = pile.waiting;
-    return pile.waiting;
+    singles->waiting[lane] = stack.waiting;
+    return stack.waiting;
 }
 
-/* Each ray takes a step in its turn: what it has asked memory for comes while others work. */
+/* Advances the rays interleaved, one step each: memory that a ray prefetched arrives while others
+   work. */
 FN void traverse_singles_interleaved(SCENE_PARAMETERS Findings *found, const MeshRays *rays,
                                      SingleRays *singles) {
     uint lanes = singles->lanes & lane_bits(found->alive);
@@ -319,19 +320,18 @@ FN void traverse_singles_interleaved(SCENE_PARAMETERS Findings *found, const Mes
         }
 }
 
-/* ---- rays that share a walk ---- */
+/* ---- packet traversal ---- */
 
-/* Fewer rays than these walk alone, and so do those that all put off something that is nearer: what
-   they find there may spare them the rest. */
+/* Fewer rays traverse singly, and so do rays that all deferred nearer nodes: a hit there may make
+   the rest needless. */
 enum { FEW_RAYS = HD_LANES / 8 + 1 };
 
-/* What holds for all rays of a packet, whose directions have the same signs: between which origins
-   they begin, for where they enter and leave a box, and the least and greatest inverse of their
-   directions. */
+/* Bounds of all rays of a packet, which share an octant: origins, for entry and exit of a box, and
+   the minimum and maximum inverse of their directions. */
 typedef struct {
     vreal first[3], last[3];
     vreal least[3], greatest[3];
-    int entry[3], exit[3]; /* where the bounds begin in a node that they enter and leave by */
+    int entry[3], exit[3]; /* offsets of the bounds in a node by which rays enter and leave */
 } Beam;
 
 FN void bound_axis(Beam *beam, int axis, vreal origin, vreal inverse, vmask m,
@@ -350,7 +350,7 @@ FN Beam beam_of(const MeshRays *rays, vmask m, const RayOctant *octant) {
     Vec3 origin = rays->frame.origin, inverse = rays->slabs.inverse;
     real far_out =
         max_lane(vmax(absolute(origin.x), vmax(absolute(origin.y), absolute(origin.z))), m);
-    /* Twice what ray_slabs allows for each ray, since this rounds otherwise. */
+    /* Twice the margin of ray_slabs, as this rounds differently. */
     real slack = (far_out + R(1.0)) * (R(2.0) * ROUNDING_MARGIN);
     Beam beam;
     bound_axis(&beam, 0, origin.x, inverse.x, m, octant, slack);
@@ -359,7 +359,7 @@ FN Beam beam_of(const MeshRays *rays, vmask m, const RayOctant *octant) {
     return beam;
 }
 
-/* No ray of the beam meets the children's bounds of an axis earlier, or later. */
+/* Return bounds of t at which rays of the beam enter and leave the children's slab of an axis. */
 FN vreal beam_entry(const Beam *beam, GLOBAL const real *bounds, int axis) {
     vreal octant = load_reals(bounds + beam->entry[axis]) - beam->first[axis];
     return vmin(octant * beam->least[axis], octant * beam->greatest[axis]);
@@ -369,7 +369,7 @@ FN vreal beam_exit(const Beam *beam, GLOBAL const real *bounds, int axis) {
     return vmax(octant * beam->least[axis], octant * beam->greatest[axis]);
 }
 
-/* Where each ray enters the box of a child, and leaves it. */
+/* Return t at which each ray enters and leaves the box of a child. */
 FN vreal ray_entry(const Beam *beam, GLOBAL const real *bounds, const Slabs *slabs) {
     vreal x = multiply_add(splat(bounds[beam->entry[0]]), slabs->inverse.x, slabs->near.x);
     vreal y = multiply_add(splat(bounds[beam->entry[1]]), slabs->inverse.y, slabs->near.y);
@@ -383,11 +383,11 @@ FN vreal ray_exit(const Beam *beam, GLOBAL const real *bounds, const Slabs *slab
     return vmin(vmin(x, y), z);
 }
 
-/* The rays of `m`, which all run that way; what they have to walk through alone is put off. */
+/* Traverses a mesh with the rays of `m`, all of one octant; defers single rays. */
 FN void traverse_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
                       const RayOctant *octant, int root, SingleRays *singles) {
     int stack[WIDE_STACK(header)];
-    vreal stack_near[WIDE_STACK(header)]; /* beyond every limit in lanes that miss */
+    vreal stack_near[WIDE_STACK(header)]; /* above every limit in lanes that miss */
     real stack_key[WIDE_STACK(header)];
     Beam beam = beam_of(rays, m, octant);
     vreal furthest = splat(max_lane(found->limit, m));
@@ -455,7 +455,7 @@ FN void search_hierarchy(SCENE_PARAMETERS Findings *found, const MeshRays *rays,
     singles.lanes = 0;
     for (int lane = 0; lane < HD_LANES; lane++)
         singles.waiting[lane] = 0;
-    singles.room = WIDE_STACK(header) + MAX_SINGLES;
+    singles.capacity = WIDE_STACK(header) + MAX_SINGLES;
     singles.stack = stack;
     singles.stack_near = stack_near;
     vmask left = m;
@@ -469,7 +469,7 @@ FN void search_hierarchy(SCENE_PARAMETERS Findings *found, const MeshRays *rays,
         traverse_singles_interleaved(SCENE_ARGUMENTS found, rays, &singles);
 }
 
-/* Tries all triangles of a mesh with rays that run any way. */
+/* Tests all triangles of a mesh against rays of any octant. */
 FN void try_all(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m, int first,
                 int count) {
     const int axis[3] = {0, 1, 2};
@@ -483,7 +483,7 @@ FN void try_all(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
     }
 }
 
-/* Searches one mesh with the rays of `m`, whichever way it is laid out. */
+/* Searches one mesh, with or without a hierarchy, with the rays of `m`. */
 FN void search_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
                     GLOBAL const Instance *instance) {
     if (instance->root >= 0)

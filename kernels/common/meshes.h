@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* All meshes of a scene: what rays meet first, and what filters light on its way. */
+/* All meshes of a scene: closest hits and transmittance. */
 #ifndef HD_MESHES_H
 #define HD_MESHES_H
 
@@ -9,14 +9,14 @@
 /* Rays relative to the meshes' centre. */
 typedef struct {
     Vec3 origin, direction;
-    Vec3 own_origin;     /* relative to the instance that was touched last */
-    vint last_hit, face; /* the object touched last, -1: none, and which face of it */
+    Vec3 own_origin;     /* relative to the last hit instance */
+    vint last_hit, face; /* the last hit object, -1: none, and its face */
     vmask inside;
-    int is_shadow;     /* for what filters light, not for what is hit first */
-    int light_face[2]; /* a light's own faces, -1: none */
+    int is_shadow;     /* collects filters of light, not the closest hit */
+    int light_face[2]; /* the light's own faces, -1: none */
 } WorldRays;
 
-/* A point relative to the instance's start, or a direction. */
+/* Transforms a point relative to the instance's start, or a direction. */
 FN Vec3 transform_vector(const GLOBAL real (*rows)[3], Vec3 v) {
     vreal at[3];
     for (int i = 0; i < 3; i++)
@@ -25,7 +25,7 @@ FN Vec3 transform_vector(const GLOBAL real (*rows)[3], Vec3 v) {
     return vec3(at[0], at[1], at[2]);
 }
 
-/* Normals of a mesh in the world, by the transpose of the rows that lead to the mesh. */
+/* Transforms a mesh's normals to the world, by the transpose of `to_mesh`. */
 FN Vec3 transform_normal(const GLOBAL real (*rows)[3], Vec3 n) {
     vreal at[3];
     for (int i = 0; i < 3; i++)
@@ -34,8 +34,8 @@ FN Vec3 transform_normal(const GLOBAL real (*rows)[3], Vec3 n) {
     return vec3(at[0], at[1], at[2]);
 }
 
-/* Where rays begin, in the instance's own coordinates: those that left it, as exactly as they did.
- */
+/* Returns the rays' origins in mesh coordinates; those that left the instance keep their exact
+   origin. */
 FN Vec3 origin_in_mesh(GLOBAL const Instance *instance, Vec3 origin, vmask own, Vec3 own_origin) {
     Vec3 start = vec3_of(instance->start);
     return transform_vector(instance->to_mesh,
@@ -71,8 +71,8 @@ FN_NOINLINE void search_instance(SCENE_PARAMETERS Findings *found, const WorldRa
     search_mesh(SCENE_ARGUMENTS found, &rays, *m, instances + number);
 }
 
-/* Puts the children of a node that rays of `m` meet on the stack, the nearer one on top; returns
-   how many nodes then wait there. */
+/* Pushes the children of a node that rays of `m` meet, the nearer one on top; returns the height of
+   the stack. */
 FN int push_children(SCENE_PARAMETERS const Findings *found, const Slabs *slabs, vmask m,
                      const RayOctant *octant, int number, int *stack, int waiting) {
     GLOBAL const MeshNode *node = mesh_nodes + number;
@@ -89,11 +89,11 @@ FN int push_children(SCENE_PARAMETERS const Findings *found, const Slabs *slabs,
     return waiting;
 }
 
-/* The rays of `m`, which all run that way, through the hierarchy over the instances. */
+/* Traverses the hierarchy over the instances with the rays of `m`, all of one octant. */
 FN void traverse_instances(SCENE_PARAMETERS Findings *found, const WorldRays *world,
                            const Slabs *slabs, vmask m, const RayOctant *octant) {
     int stack[NODE_STACK(header)];
-    int waiting = 1, item = 0, end = 0; /* of a leaf */
+    int waiting = 1, item = 0, end = 0; /* items of a leaf */
     stack[0] = header->top_root;
     do {
         while (item == end && waiting > 0) {
@@ -137,9 +137,9 @@ FN void search_meshes(SCENE_PARAMETERS Findings *found, const WorldRays *world) 
     } while (any_lane(left));
 }
 
-/* ---- what rays meet ---- */
+/* ---- closest hits ---- */
 
-/* Adds the meshes to a search; a hit's face is then the number of the triangle. */
+/* Adds the meshes to a closest-hit search; a hit's face is then the number of the triangle. */
 FN_NOINLINE void closest_mesh_hit(SCENE_PARAMETERS const Ray *ray, const LocalOrigin *local_origin,
                                   Hit *hit) {
     WorldRays world;
@@ -164,9 +164,10 @@ FN_NOINLINE void closest_mesh_hit(SCENE_PARAMETERS const Ray *ray, const LocalOr
     hit->entering = found.entering;
 }
 
-/* ---- what light passes ---- */
+/* ---- transmittance ---- */
 
-/* 2^-x of x = octaves 2^-24 + rest 2^-48: the Taylor series about the middle of an octave. */
+/* Returns 2^-x of x = density 2^-24 + rest 2^-48, by the Taylor series about the middle of a factor
+   of two. */
 FN vreal passing_share(vint density, vint rest) {
     vreal one = splat(R(1.0));
     vint whole = density >> HD_DENSITY_BITS;
@@ -180,12 +181,11 @@ FN vreal passing_share(vint density, vint rest) {
     share = share * splat(R(0.70710678118654752440));
     for (vint left = whole; any_lane(lt_int(splat_int(0), left)); left = left - 1)
         share = vselect(lt_int(splat_int(0), left), share * splat(R(0.5)), share);
-    share =
-        vselect(lt_int(splat_int(0), density), share, one); /* exactly, as where nothing filters */
+    share = vselect(lt_int(splat_int(0), density), share, one); /* exactly 1 without filters */
     return vselect(lt_int(density, splat_int(HD_DARK_DENSITY)), share, splat(R(0.0)));
 }
 
-/* What the meshes let through of the light that `world` looks for, in the lanes of `lit`. */
+/* Computes the meshes' transmittance on the segments of `world`, in the lanes of `lit`. */
 FN_NOINLINE void filter_by_meshes(SCENE_PARAMETERS const WorldRays *world, const vmask *lit,
                                   Vec3 *transmittance) {
     Findings found;
@@ -206,8 +206,8 @@ FN_NOINLINE void filter_by_meshes(SCENE_PARAMETERS const WorldRays *world, const
     transmittance->z = open * passing_share(found.density[2], found.rest[2]);
 }
 
-/* The same of the light of number `light` on its way to points of a surface; `to_light` leads from
-   each point to the light. */
+/* Returns the meshes' transmittance between points of a surface and light number `light`;
+   `to_light` is the vector from each point to the light. */
 FN Vec3 transmittance_of_meshes(SCENE_PARAMETERS Vec3 point, Vec3 to_light, vint object, vint face,
                                 vmask inside, int light, vmask lit) {
     WorldRays world;

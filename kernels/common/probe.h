@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The arithmetic probe: every primitive of the dialect, once for each tuple of operands, so that a
+/* The arithmetic probe: applies every primitive of the dialect to each tuple of operands, so that a
    host can compare the results with its own (docs/numerics.md). */
 #ifndef HD_PROBE_H
 #define HD_PROBE_H
@@ -66,7 +66,7 @@ FN void probe_conversions(vreal a, vint n, int count, GLOBAL real *to, GLOBAL fi
         integers[PROBE_to_fixed * count + lane] = lane_fix(&fixed, lane);
 }
 
-/* Of one tuple, for what no packet has. */
+/* Probes the scalar primitives with one tuple. */
 FN void probe_scalars(fixed64 x, int count, GLOBAL real *to, GLOBAL fixed64 *integers) {
     uint n = (uint)x;
     to[PROBE_of_fixed * count] = (real)x;
@@ -84,7 +84,7 @@ FN void probe_atomics(fixed64 x, int place, GLOBAL fixed64 *sums, GLOBAL uint *c
 #endif
 }
 
-/* The share of one of several workers. */
+/* Probes one worker's share of the tuples. */
 FN void probe_tuples(GLOBAL const real *first, GLOBAL const real *second, GLOBAL const real *third,
                      GLOBAL const fixed64 *bits, int count, GLOBAL real *numbers,
                      GLOBAL fixed64 *integers, GLOBAL fixed64 *sums, GLOBAL uint *counters,

@@ -6,7 +6,7 @@
 
 #include "lights.h"
 
-/* The solid that all rays run in, if nothing else reaches into it; otherwise -1. */
+/* Returns the isolated solid that all rays run in; otherwise -1. */
 FN int only_within(SCENE_PARAMETERS const Ray *ray, const LocalOrigin *local_origin) {
     if (local_origin->is_eye || !local_origin->same || any_lane(ray->alive & ~ray->inside))
         return -1;
@@ -14,8 +14,8 @@ FN int only_within(SCENE_PARAMETERS const Ray *ray, const LocalOrigin *local_ori
     return object < header->floor_end && objects[object].isolated ? object : -1;
 }
 
-/* For the floor, `entering` says that it is met from above its normal. Of a mesh the
-   hit names the triangle, until surface_at makes a face of it. */
+/* Returns the closest hit. On the floor, `entering` means from the side of its normal. On a mesh,
+   `face` is the triangle until surface_at replaces it. */
 FN Hit closest_hit(SCENE_PARAMETERS const Ray *ray, LocalOrigin local_origin) {
     Hit hit;
     hit.t = splat(REAL_LARGE);
@@ -37,15 +37,15 @@ FN Hit closest_hit(SCENE_PARAMETERS const Ray *ray, LocalOrigin local_origin) {
     return hit;
 }
 
-/* What a packet of samples gathered. Sums are fixed point, so that their order does not matter. */
+/* The results of a packet of samples. Sums are fixed point, so that their order does not matter. */
 typedef struct {
     vfix r, g, b;
     vint mirrored, transmitted; /* rays */
     vint shadow_tests, clamps;
-    vfix bound; /* of surveyed scenes: of what was left out, times view->bound_to_fixed */
+    vfix bound; /* in scenes with an error bound: that bound, times view->bound_to_fixed */
 } Sample;
 
-/* The one conversion to fixed point; truncates. NaN counts as 0. */
+/* Converts a contribution to fixed point, truncated; the only such conversion. NaN counts as 0. */
 FN vfix contribution(vmask m, vreal radiance, vreal weight, real to_fixed, vint *clamps) {
     vreal limit = splat((real)HD_CONTRIBUTION_LIMIT);
     vmask over = m & lt(limit, radiance);
@@ -66,20 +66,20 @@ FN vreal max_component(Vec3 a) {
     return vmax(a.x, vmax(a.y, a.z));
 }
 
-/* Adds to the bound of what was left out, in the lanes of `m`; rounded up. No ray adds more than
-   HD_RADIANCE_LIMIT. */
+/* Adds to the error bound in the lanes of `m`, rounded up. No ray adds more than HD_RADIANCE_LIMIT.
+ */
 FN void add_to_bound(SCENE_PARAMETERS Sample *sample, vmask m, vreal bound) {
     vreal ceiling = multiply_add(vmin(bound, splat((real)HD_RADIANCE_LIMIT)),
                                  splat(view->bound_to_fixed), splat(R(1.0)));
     sample->bound += truncate_to_fix(vselect(m, ceiling, splat(R(0.0))));
 }
 
-/* The most that `radiance` can add to a channel of the picture. */
+/* Returns the maximum that `radiance` can add to a channel of the picture. */
 FN vreal bound_of(SCENE_PARAMETERS Vec3 weight, Vec3 radiance) {
     return max_component(vec3_mul(weight, radiance)) * splat(header->exposure);
 }
 
-/* The most that rays see which go on from surfaces: by the object that they leave, and the side. */
+/* Returns the bound of radiance that secondary rays see, by the object and side that they leave. */
 FN Vec3 max_seen(SCENE_PARAMETERS const Ray *ray, vmask left) {
     Vec3 most = vec3_zero();
     while (any_lane(left)) {
@@ -96,14 +96,14 @@ FN Vec3 max_seen(SCENE_PARAMETERS const Ray *ray, vmask left) {
     return most;
 }
 
-/* Ends the rays whose weight is too small, or that are the last of the scene's depth. */
+/* Ends the rays whose weight is too small or that exceed the scene's ray depth. */
 FN void end_rays(SCENE_PARAMETERS int level, Ray *next, Sample *sample) {
     vmask weak = mask_none();
     if (view->cutoff > R(0.0))
         weak = ~le(splat(view->cutoff), max_component(next->weight));
     if (level == view->depth)
         weak = mask_all();
-    /* Without a cut-off by bounds only what ended anyway needs one. */
+    /* Without a cut-off by bounds, only rays that end anyway need a bound. */
     if (BOUNDED(header)) {
         vmask asked = next->alive & (view->bound_cutoff > R(0.0) ? mask_all() : weak);
         vreal bound = bound_of(SCENE_ARGUMENTS next->weight, max_seen(SCENE_ARGUMENTS next, asked));
@@ -113,7 +113,7 @@ FN void end_rays(SCENE_PARAMETERS int level, Ray *next, Sample *sample) {
     next->alive = next->alive & ~weak;
 }
 
-/* The lanes of `lit` whose lights are worth a look; the others' are added to the bound. */
+/* Returns the lanes of `lit` whose lights matter; adds the others' to the error bound. */
 FN vmask end_lights(SCENE_PARAMETERS vmask lit, Vec3 weight, const LaneMaterial *material,
                     Sample *sample) {
     Vec3 arriving =
@@ -128,7 +128,7 @@ FN vmask end_lights(SCENE_PARAMETERS vmask lit, Vec3 weight, const LaneMaterial 
     return lit & ~dim;
 }
 
-/* A ray that goes on from the points of a surface. */
+/* Returns a secondary ray from the points of a surface. */
 FN Ray next_ray(const Ray *ray, const Surface *surface, const Hit *hit, Vec3 direction, Vec3 weight,
                 vmask inside, vmask alive) {
     Ray next;
@@ -142,10 +142,9 @@ FN Ray next_ray(const Ray *ray, const Surface *surface, const Hit *hit, Vec3 dir
     return next;
 }
 
-/* The direction of a ray that passes a surface by Snell's law (Glassner 1989, An Introduction to
-   Ray Tracing, chapter 2, section 5.2); `facing` is the cosine between `normal` and the ray. Where
-   the two sides have one index the direction stays as it is, bit by bit. Lanes of `total` reflect
-   totally instead. */
+/* Returns the direction of a transmitted ray by Snell's law (Glassner 1989, An Introduction to Ray
+   Tracing, chapter 2, section 5.2). `facing` is the cosine between `normal` and the ray. If both
+   sides have one index the direction keeps its bits. Lanes of `total` reflect totally instead. */
 FN Vec3 refract(Vec3 direction, Vec3 normal, vreal facing, vreal relative_index, vmask *total) {
     vreal one = splat(R(1.0)), zero = splat(R(0.0));
     vmask bends = lt(relative_index, one) | lt(one, relative_index);
@@ -158,7 +157,7 @@ FN Vec3 refract(Vec3 direction, Vec3 normal, vreal facing, vreal relative_index,
     return vec3_select(bends & ~*total, vec3_normalize(bent), direction);
 }
 
-/* Turns a lit surface over, for what shines through it from behind. */
+/* Flips a lit surface, for light from behind. */
 FN void flip_surface(Surface *surface, LitPoints *points) {
     LaneMaterial *material = &surface->material;
     surface->normal = vec3_scale(surface->normal, splat(R(-1.0)));
@@ -169,8 +168,7 @@ FN void flip_surface(Surface *surface, LitPoints *points) {
     points->inside = ~points->inside;
 }
 
-/* Shades the lanes that hit something, whose radiance it returns, and prepares the two rays that
-   may go on. */
+/* Returns the radiance of the lanes that hit something; prepares their two secondary rays. */
 FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, LocalOrigin local_origin, Hit *hit, vmask struck,
               Sample *sample, Ray *mirror, Ray *through) {
     Surface surface = surface_at(SCENE_ARGUMENTS ray, local_origin, hit, struck);
@@ -226,8 +224,8 @@ FN Ray eye_ray(Vec3 direction, vmask alive) {
     return ray;
 }
 
-/* Adds to `sample` what the rays see and the rays that go on, which come back in `mirror` and
-   `through`; no lane of these is alive where the tree of rays ends. */
+/* Adds the radiance and the counts of rays to `sample`; fills the secondary rays `mirror` and
+   `through`, with no live lane if the ray tree ends. */
 FN void trace_and_shade(SCENE_PARAMETERS const Ray *ray, int level, Sample *sample, Ray *mirror,
                         Ray *through) {
     Vec3 radiance = vec3_splat(header->background[0], header->background[1], header->background[2]);
@@ -248,9 +246,9 @@ FN void trace_and_shade(SCENE_PARAMETERS const Ray *ray, int level, Sample *samp
     sample->transmitted = count_lanes(sample->transmitted, through->alive);
 }
 
-/* Adds to `sample` what the eye sees in `direction` (unit) in the lanes of `alive`. At most one ray
-   for each level waits on the stack. The inner loop follows rays down to where none goes on, the
-   outer one takes the next that waits: so threads of a warp go down together. */
+/* Adds to `sample` the ray trees of eye rays in `direction` (unit) in the lanes of `alive`. At most
+   one ray for each depth waits on the stack. The inner loop descends until no ray continues, the
+   outer one pops the next: so threads of a warp descend together. */
 FN void trace(SCENE_PARAMETERS Vec3 direction, vmask alive, Sample *sample) {
     Ray stack[DEPTH_BOUND(view)];
     int stack_level[DEPTH_BOUND(view)];

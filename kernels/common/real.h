@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Lanes and precision of a build. Whatever includes a file of this folder includes a language
-   before it: kernels/NAME/dialect.h, cpu/dialect.h, or what hosts need of C (kernels/host/). */
+/* Lanes and precision of a build. A source includes a language before any file of this folder:
+   kernels/NAME/dialect.h, cpu/dialect.h or, on hosts, kernels/host/. */
 #ifndef HD_REAL_H
 #define HD_REAL_H
 
@@ -18,7 +18,7 @@
 #define HD_PASTE_(a, b) a##b
 #define HD_PASTE(a, b)  HD_PASTE_(a, b)
 
-/* R(0.5) is a literal of type `real`: a plain one is a double, which slows the float build. */
+/* Makes a literal of type `real`: a plain one is a double, which slows the float build. */
 #if HD_DOUBLE
 typedef double real;
 #define R(literal) literal
@@ -27,7 +27,7 @@ typedef float real;
 #define R(literal) HD_PASTE(literal, f)
 #endif
 
-/* Larger than any distance of a scene; stands for "none" in searches of a minimum. */
+/* Larger than any distance of a scene; means "none" in searches for a minimum. */
 #define REAL_LARGE R(1e30)
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A work item: from its number to the pixels it renders, or to what is met first there. */
+/* Work items: the pixels of an item, their rendering and their first hits. */
 #ifndef HD_RENDER_H
 #define HD_RENDER_H
 
@@ -13,7 +13,7 @@ typedef struct {
     int x, y;
 } Pixel;
 
-/* The pixel at a place in a block's order (HD_BLOCK_SIDE); the block begins at `corner`. */
+/* Returns the pixel at a place in the Z order of the block at `corner`. */
 FN Pixel pixel_in_block(Pixel corner, int place) {
     int z = place % HD_BLOCK_PIXELS;
     Pixel pixel;
@@ -22,7 +22,7 @@ FN Pixel pixel_in_block(Pixel corner, int place) {
     return pixel;
 }
 
-/* Where the block begins that an item belongs to; no item crosses blocks. */
+/* Returns the corner of an item's block; no item crosses blocks. */
 FN Pixel block_of_item(GLOBAL const View *view, int item) {
     int blocks_per_row = (view->width + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
     int block = item * HD_PIXELS_PER_ITEM / HD_BLOCK_PIXELS;
@@ -36,14 +36,14 @@ FN int in_picture(GLOBAL const View *view, Pixel pixel) {
     return pixel.x < view->width && pixel.y < view->height;
 }
 
-/* a / divisor, rounded down, of 0 <= a < 2^22: the half keeps it further from whole numbers than
-   what is rounded. */
+/* Returns a / divisor, rounded down, for 0 <= a < 2^22: the half keeps the quotient further from
+   whole numbers than its rounding error. */
 FN vint divide_int(vint a, int divisor) {
     return to_int((to_real(a) + splat(R(0.5))) * splat(shared_quotient(R(1.0), (real)divisor)));
 }
 
-/* The samples `within` their entries of a listed frame whose pixels are x, y: these become the
-   pixels of the whole picture. Entries that are none leave `alive`. */
+/* Looks up the samples `within` the entries x, y of a listed frame; x, y become pixels of the whole
+   picture. Empty entries leave `alive`. */
 FN void listed_samples(SAMPLE_PARAMETERS vint within, vmask *alive, vint *x, vint *y, vint *column,
                        vint *row) {
     vint pixel = splat_int(0), sample = splat_int(-1), place = splat_int(0);
@@ -65,7 +65,7 @@ FN void listed_samples(SAMPLE_PARAMETERS vint within, vmask *alive, vint *x, vin
     *row = (place >> 16) & 0xffff;
 }
 
-/* The pixels at the places of an item; returns the lanes whose place is one of the picture. */
+/* Computes the pixels at the places of an item; returns the lanes inside the picture. */
 FN vmask pixels_at(GLOBAL const View *view, int item, vint place, vint *x, vint *y) {
     vint z = (place + item * HD_PIXELS_PER_ITEM % HD_BLOCK_PIXELS) & (HD_BLOCK_PIXELS - 1);
     Pixel corner = block_of_item(view, item);
@@ -75,7 +75,8 @@ FN vmask pixels_at(GLOBAL const View *view, int item, vint place, vint *x, vint 
            lt_int(*y, splat_int(view->height));
 }
 
-/* To the image point that is so many half steps of the grid right of and below the middle. */
+/* Returns the direction to an image point, in half steps of the grid right of and below the middle.
+ */
 FN Vec3 direction_to(GLOBAL const View *view, vreal right, vreal down) {
     Vec3 axis = vec3_of(view->down);
     Vec3 sum = vec3_of(view->forward);
@@ -84,7 +85,7 @@ FN Vec3 direction_to(GLOBAL const View *view, vreal right, vreal down) {
     return vec3_normalize(vec3_scale_add(axis, right, sum));
 }
 
-/* Directions of the samples `first`, first + 1, ... of an item, counted pixel by pixel and row by
+/* Computes the directions of samples `first`, first + 1, ... of an item, pixel by pixel and row by
    row; returns the lanes that hold one. */
 FN vmask sample_directions(SAMPLE_PARAMETERS int item, int first, Vec3 *direction) {
     int n = view->grid_side, samples = view->samples;
@@ -105,7 +106,7 @@ FN vmask sample_directions(SAMPLE_PARAMETERS int item, int first, Vec3 *directio
     return alive;
 }
 
-/* What a sample's bound adds to its pixel's; rounded up. */
+/* Returns a sample's part of its pixel's error bound, rounded up. */
 FN fixed64 shifted_bound(GLOBAL const View *view, fixed64 bound) {
     const fixed64 below_one = ((fixed64)1 << view->bound_shift) - 1;
     return (bound + below_one) >> view->bound_shift;
@@ -119,7 +120,7 @@ FN Sample empty_sample(void) {
     return sample;
 }
 
-/* What the samples of an item's pixels, or a part of them, add up to. */
+/* The sums of all or some samples of an item's pixels. */
 typedef struct {
     fixed64 sums[HD_PIXELS_PER_ITEM * PIXEL_SUMS];
     RayCounts counts;
@@ -131,7 +132,7 @@ FN RayCounts no_counts(void) {
     return counts;
 }
 
-/* What a packet of samples counted; lanes without one counted nothing. */
+/* Returns the counts of a packet of samples; lanes without one add nothing. */
 FN RayCounts counts_of(const Sample *sample) {
     RayCounts counts;
     counts.mirrored = (uint64)sum_lanes(sample->mirrored);
@@ -154,7 +155,7 @@ FN void clear_accumulator(PixelAccumulator *accumulator) {
     accumulator->counts = no_counts();
 }
 
-/* `first` is the number of the first lane's sample within the item. */
+/* Adds a packet of samples to their pixels; `first` is the first lane's sample within the item. */
 FN void add_sample(SCENE_PARAMETERS const Sample *sample, int first,
                    PixelAccumulator *accumulator) {
     int per_pixel = view->samples;
@@ -175,8 +176,8 @@ FN void add_sample(SCENE_PARAMETERS const Sample *sample, int first,
     }
 }
 
-/* Traces every `parts`-th packet of the item's first `count` samples, from packet number `part` on;
-   at least one, which is dead where there is none. */
+/* Traces every `parts`-th packet of the item's first `count` samples, from packet `part` on; at
+   least one, which is dead if no samples remain. */
 FN void gather_samples(SCENE_PARAMETERS int item, int part, int parts, int count,
                        PixelAccumulator *accumulator) {
     int first = part * HD_LANES;
@@ -210,7 +211,7 @@ FN void store_pixels(GLOBAL const Header *header, GLOBAL const View *view, int i
     }
 }
 
-/* Renders the pixels of one item: three floats for each pixel, and what was counted. */
+/* Renders the pixels of one item and sets its counts. */
 FN void render_item(SCENE_PARAMETERS int item, GLOBAL float *pixels, GLOBAL RayCounts *counts) {
     PixelAccumulator accumulator;
     clear_accumulator(&accumulator);
@@ -219,11 +220,11 @@ FN void render_item(SCENE_PARAMETERS int item, GLOBAL float *pixels, GLOBAL RayC
     *counts = accumulator.counts;
 }
 
-/* Numbers that each thread of a group needs to pass its share on: its sums, then its counts. */
+/* Numbers that each thread of a group passes on: first its sums, then its counts. */
 enum { GROUP_SCRATCH = HD_PIXELS_PER_ITEM * PIXEL_SUMS > 4 ? HD_PIXELS_PER_ITEM *PIXEL_SUMS : 4 };
 
-/* Adds to `whole`, of the first of `parts` neighbouring threads, what the others gathered. All
-   threads of the group must call this. */
+/* Adds the results of `parts` neighbouring threads to the first one's `whole`. All threads of the
+   group must call this. */
 FN void add_parts(PixelAccumulator *whole, int part, int parts, LOCAL fixed64 *own) {
     const int sums = HD_PIXELS_PER_ITEM * PIXEL_SUMS;
     for (int i = 0; i < sums; i++)
@@ -248,9 +249,9 @@ FN void add_parts(PixelAccumulator *whole, int part, int parts, LOCAL fixed64 *o
 }
 
 /* Renders the items [first_item, first_item + item_count) by work groups: `parts` neighbouring
-   threads share the samples of an item, and the first of them adds up what all of them gathered.
-   `scratch` has GROUP_SCRATCH numbers for each of the group's threads, all of which must call this.
-   Sums are integers: how the samples are shared changes no bit. */
+   threads share the samples of an item, and the first one adds up their results. All threads must
+   call this; `scratch` has GROUP_SCRATCH numbers for each. Sums are integers: the split of the
+   samples changes no bit. */
 FN void render_by_group(SCENE_PARAMETERS int first_item, int item_count, int parts, int group_index,
                         int group_count, int thread, int thread_count, LOCAL fixed64 *scratch,
                         GLOBAL float *pixels, GLOBAL RayCounts *counts) {
@@ -273,14 +274,14 @@ FN void render_by_group(SCENE_PARAMETERS int first_item, int item_count, int par
     }
 }
 
-/* ---- what the eye's rays meet first, of a frame that is not listed ---- */
+/* ---- first hits, in frames that are not listed ---- */
 
 FN Hit first_hit(SCENE_PARAMETERS const Ray *ray, LocalOrigin *local_origin) {
     *local_origin = local_origin_of(SCENE_ARGUMENTS ray->last_hit, 1);
     return closest_hit(SCENE_ARGUMENTS ray, *local_origin);
 }
 
-/* How many samples of each of the item's pixels meet anything. */
+/* Counts the samples of each of the item's pixels that hit anything. */
 FN void count_covered(SCENE_PARAMETERS int item, int covered[HD_PIXELS_PER_ITEM]) {
     int per_pixel = view->samples, count = HD_PIXELS_PER_ITEM * per_pixel;
     for (int place = 0; place < HD_PIXELS_PER_ITEM; place++)
@@ -300,9 +301,9 @@ FN void count_covered(SCENE_PARAMETERS int item, int covered[HD_PIXELS_PER_ITEM]
     }
 }
 
-/* What the rays through the middles of pixels meet. */
+/* The hits of rays through pixel centres. */
 typedef struct {
-    vreal distance; /* 0 where nothing is met, and so is the normal */
+    vreal distance; /* 0 without a hit, as is the normal */
     Vec3 normal;
     vint object; /* from 1 on; 0: none */
 } CentreHits;
@@ -323,7 +324,7 @@ FN CentreHits trace_pixel_centres(SCENE_PARAMETERS vint x, vint y, vmask alive) 
     return centre;
 }
 
-/* What has HD_FIRST_FLOATS beside the alpha, of the item's pixels. */
+/* Stores the floats after the alpha (HD_FIRST_FLOATS) of the item's pixels. */
 FN void store_centre_hits(SCENE_PARAMETERS int item, GLOBAL float *hits) {
     for (int first = 0; first < HD_PIXELS_PER_ITEM; first += HD_LANES) {
         vint x, y;
@@ -363,7 +364,7 @@ FN void find_first_hits(SCENE_PARAMETERS int item, int floats, GLOBAL float *hit
         store_centre_hits(SCENE_ARGUMENTS item, hits);
 }
 
-/* Adds up every `workers`-th count from number `worker` on. */
+/* Sums every `workers`-th count from number `worker` on. */
 FN void sum_counts(GLOBAL const RayCounts *counts, int count, int worker, int workers,
                    GLOBAL RayCounts *sums) {
     RayCounts sum = no_counts();
@@ -376,9 +377,9 @@ FN void sum_counts(GLOBAL const RayCounts *counts, int count, int worker, int wo
 
 enum { INFINITE_BITS = 0x7f800000 };
 
-/* The greatest code whose threshold is not above a value; 0 for NaN. Value and thresholds, by code
-   and positive, are given as the bits of floats: as integers they have the order of the values, and
-   no compiler may take liberties with NaN. Negative values are below every threshold. */
+/* Returns the maximum code whose threshold is not above a value; 0 for NaN. The value and the
+   positive thresholds, by code, are the bits of floats: as integers they keep their order, and no
+   compiler can alter the handling of NaN. Negative values are below every threshold. */
 FN uint encode8(int bits, GLOBAL const int *thresholds) {
     uint code = 0;
     for (uint step = 128; step > 0; step >>= 1)

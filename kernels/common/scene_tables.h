@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* What a kernel reads: the tables of a compiled scene and of one frame. The host fills them
-   (src/tables), a backend copies them as they are.
+/* The tables of a compiled scene and of one frame, which kernels read. The host fills them
+   (src/tables); a backend copies them unchanged.
 
    Every struct holds reals first, then 32-bit integers, each a multiple of four in number, so that
-   it has no padding in float and in double. "Object" is a solid, the floor or, last of all, one
-   object for all meshes. Geometry of an object is relative to its own centre. Signed distances are
-   positive outside. Rays and hits count on beyond the objects: number floor_end + i is the mesh
-   instance i, whose object is floor_end. */
+   it has no padding in float and in double. An object is a solid, the floor or, as the last one,
+   all meshes together. Its geometry is relative to its own centre. Signed distances are positive
+   outside. Rays and hits number mesh instances too: floor_end + i is instance i, whose object is
+   floor_end. */
 #ifndef HD_SCENE_TABLES_H
 #define HD_SCENE_TABLES_H
 
@@ -19,50 +19,51 @@ typedef struct ALIGNED_16 {
 typedef struct ALIGNED_16 {
     real background[3]; /* radiance */
     real exposure;
-    real mesh_reach; /* no coordinate of a mesh, relative to their centre, is larger */
+    real mesh_reach; /* largest coordinate of a mesh, relative to the meshes' centre */
     real unused0;
-    real light_bound[3]; /* the lights' intensities, added up; of surveyed scenes */
+    real light_bound[3]; /* sum of the lights' intensities, in scenes with an error bound */
     real unused1[3];
-    int solid_count; /* the floor, if there is one, is object number solid_count */
+    int solid_count; /* also the object number of the floor, if the scene has one */
     int floor_end;
     int object_count;
     int plane_count;
     int light_count;
     int instance_count;
-    int top_root;        /* node over all instances; -1: they are tried one by one */
-    int node_stack;      /* most nodes that wait while one walks through a hierarchy */
-    int wide_stack;      /* likewise of the wide nodes */
-    int refracts;        /* some index of refraction is not 1 */
-    int lit_from_behind; /* some material is */
-    int bounded;         /* pixels come with their survey (HD_PIXEL_SUMS) */
+    int top_root;        /* node over all instances; -1: kernels test each instance */
+    int node_stack;      /* maximum of nodes that wait during a traversal */
+    int wide_stack;      /* likewise for wide nodes */
+    int refracts;        /* whether some index of refraction is not 1 */
+    int lit_from_behind; /* whether some material is */
+    int bounded;         /* whether pixels have an error bound (HD_BOUNDED_SUMS) */
 } Header;
 
-/* Of a solid with parallel faces (Object.paired): the planes n.x = distance and n.x = -distance of
-   two opposite faces; of another one: the plane n.x = distance of a face. A face's number is twice
-   that of its plane, and one more for n.x = -distance. Of the floor: its own plane first, then four
-   upright ones that bound it. */
+/* For a solid with parallel faces (Object.paired): the planes n.x = distance and n.x = -distance of
+   two opposite faces. For another solid: the plane n.x = distance of a face. A face's number is
+   twice its plane's, plus one for n.x = -distance. For the floor: its own plane, then four upright
+   ones that bound it. */
 typedef struct ALIGNED_16 {
     real x, y, z, distance;
 } Plane;
 
 typedef struct ALIGNED_16 {
-    real rim_depth; /* a point of a face lies on the rim when it is nearer than this to the plane of
-                       another face: the rim's width times the sine of the dihedral angle */
-    real disc_depth; /* likewise for the radius of the edge lights' discs */
+    real rim_depth;  /* the rim's width times the sine of the dihedral angle: a point of a face lies
+                        on the rim if it is nearer than this to another face's plane */
+    real disc_depth; /* likewise, with the radius of the edge lights' discs */
     real disc_radius_squared;
     real edge_half_length;
     real circumradius_squared;
-    real radius_about;       /* a little more than the circumradius */
-    real disc_reach_squared; /* no disc is further away from the middle of its edge */
+    real radius_about;       /* slightly more than the circumradius */
+    real disc_reach_squared; /* of the farthest point of a disc from the middle of its edge */
     real unused;
-    real seen_outside[3], unused0; /* no ray that leaves it sees more; of surveyed scenes */
-    real seen_inside[3], unused1;  /* likewise inwards */
+    real seen_outside[3],
+        unused0; /* bound of the radiance that rays leaving it see, in scenes with an error bound */
+    real seen_inside[3], unused1; /* likewise for rays inside it */
     int first_plane, plane_count;
     int first_edge, edge_count;
     int face_material, rim_material;
     int lights_per_edge;
-    int paired;   /* its faces come in parallel pairs */
-    int isolated; /* nothing else reaches into the sphere about it */
+    int paired;   /* whether its faces are parallel in pairs */
+    int isolated; /* whether no other object reaches into it */
     int unused_int[3];
 } Object;
 
@@ -72,7 +73,7 @@ typedef struct ALIGNED_16 {
     real disc_radiance[3], unused2;
 } Edge;
 
-/* What a material's row has as the scene does, in colours and numbers. */
+/* The terms of a material that a row stores as the scene does. */
 #define HD_PLAIN_TERMS(COLOUR, NUMBER)                                                             \
     COLOUR(colour)                                                                                 \
     NUMBER(ambient)                                                                                \
@@ -83,32 +84,32 @@ typedef struct ALIGNED_16 {
 
 typedef struct ALIGNED_16 {
     HD_PLAIN_TERMS(HD_ROW_COLOUR, HD_ROW_NUMBER)
-    real inner_reflection, inner_transmission; /* for rays that meet it from inside the solid */
+    real inner_reflection, inner_transmission; /* for rays that hit from inside the solid */
     real index_of_refraction, inverse_index;
-    real min_highlight; /* a cosine whose power is less than 2^-60 counts as 0 */
+    real min_highlight; /* cosine whose power is 2^-60; a smaller one counts as 0 */
     int shininess, lit_from_behind, unused_int[2];
 } Material;
 
 typedef struct ALIGNED_16 {
     real intensity[3];
-    /* 1 over the square of the falloff's length; negative: at which nothing is left; 0: none */
+    /* 1 over the square of the falloff's length; negative: the light ends there; 0: no falloff */
     real inverse_falloff_squared;
-    int own_face[2]; /* the faces that hold an edge light; -1: none */
-    int cluster;     /* of lights near each other (light_clusters) */
-    int run; /* so many lights of its cluster follow each other from this one on, which is the
-                first; 0: another one, or, where packets have one lane, it is judged alone */
+    int own_face[2]; /* faces that hold an edge light; -1: none */
+    int cluster;     /* number of its cluster (light_clusters) */
+    int run; /* length of the run of consecutive lights of a cluster that begins here; 0: not the
+                first one, or, for packets of one lane, a light that is tested alone */
 } Light;
 
-/* How many clusters lights make: none where there are too few to be worth it, otherwise a multiple
-   of what packets hold. */
+/* The count of light clusters: none if the lights are few, otherwise a multiple of all lane counts.
+ */
 enum { HD_MAX_LIGHT_CLUSTERS = 256 };
 #define HD_LIGHT_CLUSTERS(lights)                                                                  \
     ((lights) < 16                          ? 0                                                    \
      : (lights) > 8 * HD_MAX_LIGHT_CLUSTERS ? HD_MAX_LIGHT_CLUSTERS                                \
                                             : ((lights) + 127) / 128 * 16)
 
-/* Of spheres about the lights of each cluster: place relative to an object, radius; and the
-   distance beyond which nothing is left of any of its lights. */
+/* Rows for each cluster: a sphere about its lights, relative to an object, and the distance at
+   which all of its lights have ended. */
 enum {
     HD_CLUSTER_X,
     HD_CLUSTER_Y,
@@ -118,23 +119,23 @@ enum {
     HD_CLUSTER_ROWS
 };
 
-/* Where packets have one lane: a sphere about the lights of a run, and their reach. */
+/* For packets of one lane: a sphere about the lights of a run, and their reach. */
 typedef struct ALIGNED_16 {
     real place[3], radius; /* relative to an object */
     real reach, unused[3];
 } LightRun;
 
-/* Of so many objects, the first ones, is known whether they are beside the ways of light. */
+/* The count of objects, from the first on, that have a bit in occlusion masks. */
 enum { HD_MASKED_OBJECTS = 30 };
 
-/* On which side of an object's faces a light is, a bit for each face from the object's first one
-   on. It is strictly inside of those that are in neither word. */
+/* The side of an object's faces that a light is on, a bit for each face. The light is strictly
+   inside faces with a bit in neither word. */
 typedef struct ALIGNED_16 {
     uint outside, on_plane, unused[2];
 } LightSides;
 
-/* Texture coordinates (s, t) in the unit square of a point X of the floor. Of a parallelogram they
-   are s = axis_s.X + start[0], t = axis_t.X + start[1]. Otherwise, with floor coordinates
+/* Texture coordinates (s, t), in the unit square, of a point X of the floor: on a parallelogram
+   s = axis_s.X + start[0], t = axis_t.X + start[1]. Otherwise, with floor coordinates
    a = axis_a.X, b = axis_b.X, they solve (a, b) = origin + s e + t f + s t g (inverse bilinear
    interpolation). */
 typedef struct ALIGNED_16 {
@@ -151,29 +152,30 @@ typedef struct ALIGNED_16 {
     int unused_int[2];
 } FloorMap;
 
-/* A mesh in its place. A mesh has coordinates of its own, in which its box's longest side runs from
-   -1 to 1: row . p for each row of `to_mesh` and a point p relative to the instance's start;
-   `to_world` leads back. Its triangles have the numbers [first_triangle, first_triangle +
-   triangle_count). */
+/* An instance of a mesh. In mesh coordinates the longest side of the mesh's box runs from -1 to 1.
+   They are row . p for each row of `to_mesh` and a point p relative to the instance's start;
+   `to_world` is the inverse. Its triangles are [first_triangle, first_triangle + triangle_count).
+   */
 typedef struct ALIGNED_16 {
     real start[3];        /* the mesh's origin, relative to the meshes' centre */
-    real contact_squared; /* of the distance, in the mesh's coordinates, that rounding may put
-                             between a point of the mesh and its surface */
+    real contact_squared; /* square of the distance, in mesh coordinates, that rounding may put
+                             between a point and its surface */
     real to_mesh[3][3];
     real to_world[3][3];
     real unused[2];
-    int root; /* a node, of the wide ones where packets have lanes; -1: every triangle is tried */
+    int root; /* node, a wide one if packets have several lanes; -1: kernels test every triangle */
     int unused_int;
     int first_triangle, triangle_count;
     int first_mesh_material;
     int first_face;           /* number of the face that is its group 1 */
-    int first_corner_normals; /* place of its first triangle's in corner_normals; -1: it is flat */
+    int first_corner_normals; /* place of its first triangle in corner_normals; -1: the mesh is flat
+                               */
     int first_corner_uvs;     /* likewise; -1: there are none */
 } Instance;
 
-/* Counterclockwise as seen from outside. */
+/* Corners counterclockwise as seen from outside. */
 typedef struct ALIGNED_16 {
-    real a[3], tag; /* a whole number: skin * HD_TRIANGLE_GROUPS + group */
+    real a[3], tag; /* a whole number: mesh material * HD_TRIANGLE_GROUPS + group */
     real b[3], unused0;
     real c[3], unused1;
 } Triangle;
@@ -186,9 +188,8 @@ enum {
 };
 
 /* The boxes of two children: bounds[axis][0] their lower bounds, bounds[axis][1] the upper ones. A
-   child that is negative is a leaf: ~child is first << HD_LEAF_ITEM_BITS | count, and its items are
-   the triangles, or the entries of top_items, from number `first` on. The first child lies lower on
-   `axis`. */
+   negative child is a leaf: ~child is first << HD_LEAF_ITEM_BITS | count. Its items are `count`
+   triangles, or entries of top_items, from `first` on. The first child lies lower on `axis`. */
 typedef struct ALIGNED_16 {
     real bounds[3][2][2];
     int child[2];
@@ -196,12 +197,12 @@ typedef struct ALIGNED_16 {
     int unused;
 } MeshNode;
 
-/* What a mesh's triangles show: a material, and how they filter light on its way to a point, met
-   from outside and from inside: in octaves, the binary logarithm of 1 over what passes, as whole
-   numbers of 2^-24 and, what that leaves out, of 2^-48; each is at most HD_OPAQUE_DENSITY. */
+/* A material of a mesh, and how it filters light from outside and from inside. Filters are optical
+   densities in factors of two: the binary logarithm of 1 over the transmitted share. They are whole
+   numbers of 2^-24 and, for the remainder, of 2^-48; each is at most HD_OPAQUE_DENSITY. */
 typedef struct ALIGNED_16 {
     real emission[3], unused;            /* radiance */
-    int filter[2][4], filter_rest[2][4]; /* red, green, blue; the fourth: nothing passes at all */
+    int filter[2][4], filter_rest[2][4]; /* red, green, blue; the fourth: whether it is opaque */
     int material;
     int picture; /* -1: none */
     int unused_int[2];
@@ -214,7 +215,7 @@ enum {
     HD_DARK_DENSITY = 40 << HD_DENSITY_BITS
 };
 
-/* A texture: repeated without end, or its border's texels continued outwards. */
+/* A texture, which repeats or continues its border's texels outwards. */
 typedef struct ALIGNED_16 {
     int first_texel, width, height, is_clamped;
 } Picture;
@@ -223,31 +224,30 @@ typedef struct ALIGNED_16 {
     real u, v, unused[2];
 } TextureCoordinates;
 
-/* One frame. The direction to the image point (i, j), counted in half steps of a sample grid from
-   the middle of the whole picture, is forward + i * right + j * down. The grid has grid_side x
+/* One frame. The direction to the image point (i, j) is forward + i * right + j * down; i and j
+   count half steps of a sample grid from the middle of the whole picture. The grid has grid_side x
    grid_side places for samples in each pixel.
 
-   Pixels that follow each other in the picture have all places of the grid, row by row. A listed
-   frame has any: its pixel number e is entries[2 e] = x | y << 16 of the whole picture, with the
-   samples sample_places[entries[2 e + 1] + i] = column | row << 16 of the pixel's grid; there is
-   none where entries[2 e + 1] is negative. */
+   An ordinary frame samples all places of the grid, row by row. In a listed frame, pixel e is
+   entries[2 e] = x | y << 16 of the whole picture. Its samples are sample_places[entries[2 e + 1] +
+   i] = column | row << 16 of the pixel's grid; it has none if entries[2 e + 1] is negative. */
 typedef struct ALIGNED_16 {
     real forward[3], cutoff;
     real right[3], to_fixed;  /* 2^(fraction bits of a sample) */
-    real down[3], from_fixed; /* a pixel's sum times this is the sum of its samples' radiance */
-    real bound_cutoff;   /* of surveyed scenes: rays and lights that cannot add more than this to a
-                            sample, after exposure, are left out; 0: none are */
-    real bound_to_fixed; /* 2^(fraction bits of a sample's bound) */
-    real bound_from_fixed; /* a pixel's sum times this is the sum of its samples' bounds */
+    real down[3], from_fixed; /* factor from a pixel's sum to its samples' radiance */
+    real bound_cutoff; /* in scenes with an error bound: rays and lights that add less than this to
+                          a sample, after exposure, are left out; 0: none */
+    real bound_to_fixed;   /* 2^(fraction bits of a sample's error bound) */
+    real bound_from_fixed; /* factor from a pixel's sum to its samples' error bounds */
     real unused;
     int width, height;
-    int samples; /* of a pixel */
+    int samples; /* samples in a pixel */
     int grid_side;
-    int first_column, first_row; /* i and j of the first sample */
+    int first_column, first_row; /* i and j of the first sample of the frame */
     int listed;
     int depth;
-    int pixel_shift; /* bits that a sample loses before it joins a pixel's sum */
-    int bound_shift; /* likewise its bound */
+    int pixel_shift; /* bits that a sample loses when it is added to a pixel's sum */
+    int bound_shift; /* likewise for its error bound */
     int unused_int[2];
 } View;
 
@@ -287,13 +287,13 @@ HD_ASSERT_SIZE(View, 16, 12);
     X(real, light_coordinates)                                                                     \
     /* [light * object_count + object], of solids only */                                          \
     X(LightSides, light_sides)                                                                     \
-    /* [object * (light_count + 1)]: what is beside all ways from lights to points of the object,  \
-       a bit for each solid and the floor that no segment crosses; then the same of each light */  \
+    /* [object * (light_count + 1)]: a bit for each solid, and the floor, that occludes no light   \
+       from points of the object; then the same for each light */                                  \
     X(int, occlusion_masks)                                                                        \
     /* [(object * HD_CLUSTER_ROWS + row) * clusters + cluster] */                                  \
     X(real, light_clusters)                                                                        \
-    /* [object * light_count + light], of the first light of each run; none where packets have     \
-       several lanes */                                                                            \
+    /* [object * light_count + light], of the first light of each run; only for packets of one     \
+       lane */                                                                                     \
     X(LightRun, light_runs)                                                                        \
     /* [from * object_count + to]: centre of `from` minus that of `to` */                          \
     X(Vector, object_offsets)                                                                      \
@@ -303,10 +303,10 @@ HD_ASSERT_SIZE(View, 16, 12);
     X(Instance, instances)                                                                         \
     /* of all meshes, in the order of the leaves */                                                \
     X(Triangle, triangles)                                                                         \
-    /* over the instances; where packets have one lane of all meshes too */                        \
+    /* over the instances; for packets of one lane also of all meshes */                           \
     X(MeshNode, mesh_nodes)                                                                        \
     /* of nodes with as many children as packets have lanes: lower x, y, z of all of them, then    \
-       upper; none where packets have one lane */                                                  \
+       upper; none for packets of one lane */                                                      \
     X(real, wide_bounds)                                                                           \
     /* likewise */                                                                                 \
     X(int, wide_children)                                                                          \
@@ -314,7 +314,7 @@ HD_ASSERT_SIZE(View, 16, 12);
     X(int, top_items)                                                                              \
     X(MeshMaterial, mesh_materials)                                                                \
     X(Vector, mesh_normals)                                                                        \
-    /* [3 * triangle + corner]: places in mesh_normals; negative: it is flat */                    \
+    /* [3 * triangle + corner]: places in mesh_normals; negative: none */                          \
     X(int, corner_normals)                                                                         \
     X(TextureCoordinates, mesh_uvs)                                                                \
     /* [3 * triangle + corner]: places in mesh_uvs */                                              \
@@ -331,8 +331,8 @@ HD_ASSERT_SIZE(View, 16, 12);
     /* likewise */                                                                                 \
     X(int, sample_places)
 
-/* The tables of solids of which neighbouring threads mostly read the same row at a time, and how
-   many rows a device's constant memory holds, where it has some. */
+/* Tables whose rows neighbouring threads mostly read together, and how many rows constant memory
+   holds. */
 #define HD_SMALL_SCENE_TABLES(X)                                                                   \
     X(Header, header, 1)                                                                           \
     X(Object, objects, 16)                                                                         \
@@ -348,35 +348,34 @@ HD_ASSERT_SIZE(View, 16, 12);
 enum { HD_SCENE_TABLES(HD_TABLE_INDEX) HD_SCENE_TABLE_COUNT };
 enum { HD_FRAME_TABLES(HD_TABLE_INDEX) HD_FRAME_TABLE_COUNT };
 
-/* What one work item counted beside its primary rays. A ray is a closest-hit search of a live lane;
-   a shadow test is a pair of a lit point and a light that may reach it; a clamp is a contribution
-   that was cut to 2^16. */
+/* The counts of one work item, except its primary rays. A ray is a closest-hit search of a live
+   lane. A shadow test is a pair of a lit point and a light that may reach it. A clamp is a
+   contribution that was limited to 2^16. */
 typedef struct ALIGNED_16 {
     uint64 mirrored, transmitted, shadow_tests, clamps;
 } RayCounts;
 
-/* A contribution is cut to the first; so no ray of weight 1 adds more than the other, which is that
-   of each level of the deepest tree. After exposure. */
+/* Limits after exposure: of one contribution, and of a ray of weight 1, which adds one contribution
+   at each depth of the deepest tree. */
 enum { HD_CONTRIBUTION_LIMIT = 1 << 16, HD_RADIANCE_LIMIT = HD_CONTRIBUTION_LIMIT * 1001 };
 
-/* What is summed up for each pixel, and comes of it as floats: red, green, blue; of surveyed scenes
-   also a bound of what was left out, after exposure. */
+/* The sums of a pixel, each of which gives a float: red, green, blue and, in scenes with an error
+   bound, that bound after exposure. */
 enum { HD_RADIANCE_SUMS = 3, HD_BOUNDED_SUMS = 4 };
 
-/* What the eye's rays meet first, of each pixel: the share of its samples that meet anything; and
-   of the ray through its middle the distance, the normal, which is turned towards the eye, and the
-   object's number from 1 on. The latter are 0 where nothing is met. */
+/* First hits of a pixel: the share of its samples that hit anything, then the hit of the ray
+   through its centre. That is the distance, the normal towards the eye, and the object's number
+   from 1 on; all are 0 if the ray hits nothing. */
 enum { HD_ALPHA_FLOATS = 1, HD_FIRST_FLOATS = 6 };
 
-/* The floor has its own plane and one for each of its sides. */
+/* Planes of the floor: its own one and one for each side. */
 enum { HD_FLOOR_SIDES = 4, HD_FLOOR_PLANES = 1 + HD_FLOOR_SIDES };
 
-/* The picture is cut into blocks of HD_BLOCK_SIDE x HD_BLOCK_SIDE pixels, row by row, and within a
-   block follows the Z order; a work item renders HD_PIXELS_PER_ITEM consecutive pixels of that
-   order. */
+/* The picture is divided into blocks of HD_BLOCK_SIDE x HD_BLOCK_SIDE pixels, row by row, with Z
+   order within a block. A work item renders HD_PIXELS_PER_ITEM consecutive pixels of that order. */
 enum { HD_BLOCK_SIDE = 8, HD_BLOCK_PIXELS = 64 };
 
-/* Column and row of pixel number `z` of a block; of an integer or a packet of them. */
+/* Column and row of pixel number `z` of a block, for an integer or a packet. */
 #define HD_Z_COLUMN(z) (((z)&1) | ((z) >> 1 & 2) | ((z) >> 2 & 4))
 #define HD_Z_ROW(z)    (((z) >> 1 & 1) | ((z) >> 2 & 2) | ((z) >> 3 & 4))
 

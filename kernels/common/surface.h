@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What the rays met: normal, material, and the patterns on a face, its rim and its edge lights'
- * discs. */
+/* The surface at a hit: normal, material, and the patterns on a face, its rim and its edge lights'
+   discs. */
 #ifndef HD_SURFACE_H
 #define HD_SURFACE_H
 
@@ -12,10 +12,10 @@ FN vreal clamp_unit(vreal a) {
     return vmin(vmax(a, splat(R(0.0))), splat(R(1.0)));
 }
 
-/* Texture coordinates in the unit square of a point of the floor. With h = (a, b) - origin, t
-   solves k2 t^2 + k1 t + k0 = 0, and the root inside a convex quadrilateral is the one at which the
-   map's determinant, k1 + 2 k2 t, has the sign of the orientation. Of the two ways to write a root
-   the one that adds numbers of equal sign is taken, which also covers k2 = 0. */
+/* Computes the texture coordinates, in the unit square, of a point of the floor. With h = (a, b) -
+   origin, t solves k2 t^2 + k1 t + k0 = 0. The root inside a convex quadrilateral is the one at
+   which the map's determinant, k1 + 2 k2 t, has the sign of the orientation. The form of the root
+   that adds numbers of equal sign also covers k2 = 0. */
 FN void floor_coordinates(GLOBAL const FloorMap *map, Vec3 point, vreal *s, vreal *t) {
     Vec3 axis_a = vec3_of(map->axis_a);
     Vec3 axis_b = vec3_of(map->axis_b);
@@ -57,7 +57,7 @@ FN vreal high_half(vint word) {
     return to_real(word >> 16 & 0xffff);
 }
 
-/* The texel number `index` of each lane, blended with the next one; values 0..65535. */
+/* Returns texel `index` of each lane, blended with the next one; values 0..65535. */
 FN Vec3 blend_row(GLOBAL const uint *texels, vint index, vreal weight) {
     FourWords words = fetch_four_words(texels, index + index);
     return vec3(blend(low_half(words.word[0]), low_half(words.word[2]), weight),
@@ -65,8 +65,8 @@ FN Vec3 blend_row(GLOBAL const uint *texels, vint index, vreal weight) {
                 blend(low_half(words.word[1]), low_half(words.word[3]), weight));
 }
 
-/* Between four texels: two from number `place` on, and those `stride` texels behind them. One place
-   serves both rows, so that its lanes are taken apart once. */
+/* Blends four texels: two from `place` on and two `stride` texels later. One place serves both
+   rows, so that its lanes are extracted once. */
 FN Vec3 blend_texels(GLOBAL const uint *texels, vint place, int stride, vreal across, vreal down) {
     Vec3 above = blend_row(texels, place, across);
     Vec3 below = blend_row(texels + 2 * stride, place, across);
@@ -75,24 +75,24 @@ FN Vec3 blend_texels(GLOBAL const uint *texels, vint place, int stride, vreal ac
                 blend(above.z, below.z, down) * scale);
 }
 
-/* A coordinate of a texture that repeats, in texels from the middle of the first one on. */
+/* Returns a coordinate of a repeating texture, in texels from the centre of the first one. */
 FN vreal repeat(vreal u, int texels) {
     vreal part = u - to_real(to_int(u)), zero = splat(R(0.0)), whole = splat((real)texels);
     part = vselect(lt(part, zero), part + splat(R(1.0)), part);
     vreal at = multiply_add(part, whole, splat(R(-0.5)));
     at = vselect(lt(at, zero), at + whole, at);
-    /* Lanes that are off may hold anything. */
+    /* Dead lanes may hold any value. */
     return vmin(vmax(at, zero), whole);
 }
 
-/* The same of a texture that ends. */
+/* Returns the same for a clamped texture. */
 FN vreal stay_within(vreal u, int texels) {
     vreal at = multiply_add(clamp_unit(u), splat((real)texels), splat(R(-0.5)));
     return vmin(vmax(at, splat(R(0.0))), splat((real)(texels - 1)));
 }
 
-/* Bilinear between texel centres. Behind the last column and row of a picture there is room for
-   another: its first ones where it repeats, anything where it does not. */
+/* Returns the bilinear blend of texel centres. One more column and row follow the last ones of a
+   picture: its first ones if it repeats, any values if it does not. */
 FN Vec3 sample_picture(GLOBAL const Picture *picture, GLOBAL const uint *texels, vreal u, vreal v) {
     vreal x, y;
     if (picture->is_clamped) {
@@ -102,7 +102,7 @@ FN Vec3 sample_picture(GLOBAL const Picture *picture, GLOBAL const uint *texels,
         x = repeat(u, picture->width);
         y = repeat(v, picture->height);
     }
-    /* Rounding may have put a coordinate at the end, where the first texel follows the last one. */
+    /* Rounding may have put a coordinate at the end, after the last texel. */
     vint column = min_int(to_int(x), splat_int(picture->width - 1));
     vint row = min_int(to_int(y), splat_int(picture->height - 1));
     int stride = picture->width + 1;
@@ -112,11 +112,10 @@ FN Vec3 sample_picture(GLOBAL const Picture *picture, GLOBAL const uint *texels,
 
 /* ---- materials ---- */
 
-/* The terms of a material as lanes have them, X(type, pick, name, of, none): how it is picked, of
-   what in the row `material` it comes, for rays that meet the outer side in the lanes of
-   `entering`, and what it is where nothing is reflected or transmitted. Reflection, transmission
-   and the index, relative to that of the side beyond, are those of the side that the ray comes
-   from. */
+/* The terms of a material in lanes, X(type, select, name, of, none). They give the function that
+   selects it, its value from the row `material`, and that of a surface that reflects and transmits
+   nothing. Rays in the lanes of `entering` hit the outer side. Reflection, transmission and the
+   relative index are those of the side that the ray comes from. */
 #define HD_LANE_TERMS(X)                                                                           \
     X(Vec3, vec3_select, colour, vec3_of(material->colour), vec3_zero())                           \
     X(Vec3, vec3_select, mirror_tint, vec3_of(material->mirror_tint), vec3_zero())                 \
@@ -148,13 +147,13 @@ typedef struct {
 } LaneMaterial;
 
 typedef struct {
-    Vec3 point;  /* relative to the object that was hit, of meshes to the instance */
+    Vec3 point;  /* relative to the hit object or mesh instance */
     Vec3 normal; /* unit, towards the viewer */
     Vec3 emission;
     LaneMaterial material;
 } Surface;
 
-/* Reflects and transmits nothing. */
+/* Returns a material that reflects and transmits nothing. */
 FN LaneMaterial no_material(void) {
     LaneMaterial lanes;
     HD_LANE_TERMS(HD_TERM_NONE)
@@ -177,7 +176,7 @@ FN void set_material(Surface *surface, vmask m, LaneMaterial material) {
     surface->material = select_material(m, material, surface->material);
 }
 
-/* Lanes whose point is within the radius of one of the edge's lights. */
+/* Returns the lanes whose point is within the radius of one of the edge's lights. */
 FN vmask on_disc(GLOBAL const Object *solid, GLOBAL const Edge *edge, Vec3 point) {
     real count = (real)solid->lights_per_edge;
     real spacing = shared_quotient(R(2.0) * solid->edge_half_length, count);
@@ -193,7 +192,7 @@ FN vmask on_disc(GLOBAL const Object *solid, GLOBAL const Edge *edge, Vec3 point
     return lt(vec3_dot(distance, distance), splat(solid->disc_radius_squared));
 }
 
-/* A disc shows its own radiance and nothing else. */
+/* Sets the emission of points on discs, which neither reflect nor transmit. */
 FN void show_discs(GLOBAL const Object *solid, GLOBAL const Edge *edges, vmask m,
                    Surface *surface) {
     vmask shown = mask_none();
@@ -211,7 +210,7 @@ FN void show_discs(GLOBAL const Object *solid, GLOBAL const Edge *edges, vmask m
     set_material(surface, shown, no_material());
 }
 
-/* How near a point of a solid is to one of its planes, as a signed distance: negative inside. */
+/* Returns the signed distance of a point of a solid to one of its planes, negative inside. */
 FN vreal nearness(GLOBAL const Object *solid, GLOBAL const Plane *plane, vreal coordinate) {
     return (solid->paired ? absolute(coordinate) : coordinate) - splat(plane->distance);
 }
@@ -228,7 +227,7 @@ FN void describe_solid(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Sur
         vreal near = nearness(solid, plane, along_normal(plane, surface->point));
         nearest = vselect(met, nearest, vmax(near, nearest));
     }
-    /* Outward on the second of two planes is against the normal. */
+    /* The second of two planes faces against the normal. */
     vmask second = ~eq_int(hit->face & 1, splat_int(0));
     vreal towards_viewer = vselect(second ^ hit->entering, splat(R(1.0)), splat(R(-1.0)));
     surface->normal = vec3_select(m, vec3_scale(normal, towards_viewer), surface->normal);
@@ -248,7 +247,7 @@ FN void describe_floor(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Sur
     surface->normal =
         vec3_select(m, vec3_scale(normal, vselect(hit->entering, splat(R(1.0)), splat(R(-1.0)))),
                     surface->normal);
-    /* A floor has no inner side: which way its normal looks is of no account. */
+    /* A floor has no inner side, whichever way its normal points. */
     set_material(surface, m, splat_material(materials + floor->face_material, mask_all()));
     if (floor_map->picture >= 0) {
         vreal s, t;
@@ -264,20 +263,21 @@ FN void describe_floor(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Sur
 
 /* ---- meshes ---- */
 
-/* The three words that a triangle of each lane has in a table. */
+/* Returns the three words of each lane's triangle in a table. */
 FN FourWords fetch_corner_words(GLOBAL const int *table, int first, vint triangle) {
     return fetch_four_words((GLOBAL const uint *)table, triangle * 3 + first);
 }
 
-/* Unit; no component may be much smaller than the least normal number's root. */
+/* Returns the unit vector; no component may be much smaller than the minimum normal number's root.
+ */
 FN Vec3 direction_of(Vec3 v) {
     vreal most = vmax(absolute(v.x), vmax(absolute(v.y), absolute(v.z)));
     return vec3_normalize(vec3_scale(v, reciprocal(most)));
 }
 
-/* Blends the corners' normals, where the triangle has any and where what is seen of the surface is
-   its front and a mirrored ray stays on it; elsewhere the triangle's own normal is taken. All
-   normals point towards the viewer. */
+/* Returns the blend of the corners' normals, if the triangle has any, the viewer sees the front of
+   the surface and a mirrored ray stays on it; otherwise `flat`. All normals point towards the
+   viewer. */
 FN Vec3 smooth_normal(SCENE_PARAMETERS GLOBAL const Instance *instance, vint triangle,
                       vmask entering, const TriangleCrossing *crossing, Vec3 direction, Vec3 flat) {
     vint within = triangle - instance->first_triangle;
@@ -301,7 +301,7 @@ FN Vec3 smooth_normal(SCENE_PARAMETERS GLOBAL const Instance *instance, vint tri
     return vec3_select(sound, smooth, flat);
 }
 
-/* The colour of a skin's picture; white without one. */
+/* Returns the colour of a mesh material's picture; white without one. */
 FN Vec3 colour_of_picture(SCENE_PARAMETERS GLOBAL const Instance *instance,
                           GLOBAL const MeshMaterial *mesh_material, vint triangle,
                           const TriangleCrossing *crossing) {
@@ -340,23 +340,23 @@ FN void set_mesh_materials(SCENE_PARAMETERS GLOBAL const Instance *instance, vma
     }
 }
 
-/* Triangles of less than half of this area are smaller than the rounding of their corners. */
+/* Triangles of less than half this area are smaller than the rounding of their corners. */
 #if HD_DOUBLE
 #define MIN_AREA R(1e-30)
 #else
 #define MIN_AREA R(1e-15)
 #endif
 
-/* Sines of angles: below which a ray leaves flat, and the least that is told from none; and the
-   share of the way to a triangle's middle that rays are moved by at most. */
+/* Sines of angles: a ray below the first one leaves flat; the second is the minimum. The last is
+   the maximum share of the distance to a triangle's middle that origins move by. */
 #define FLAT        R(0.125)
 #define FLATTEST    R(0.0009765625)
 #define MAX_INWARDS R(0.25)
 
-/* A ray that leaves a triangle from a unit of rounding on its wrong side gets to the right one
-   after 1 / sin(angle) units, which must not be beyond the edge ahead. So where it leaves flat, it
-   begins further back on its own way along the triangle, which hardly moves it aside. `way` is that
-   of the ray, in the mesh, and `normal` as long as twice the area. */
+/* Moves the origin of rays that leave a triangle flat back along their direction. A ray that starts
+   a unit of rounding on the wrong side crosses the triangle after 1 / sin(angle) units, which must
+   be before the edge ahead. `way` is the ray's direction in the mesh, and `normal` as long as twice
+   the area. */
 FN void step_back(GLOBAL const Instance *instance, const TriangleLanes *triangle, Vec3 normal,
                   Vec3 way, TriangleCrossing *crossing) {
     vreal zero = splat(R(0.0)), most = splat(REAL_LARGE);
@@ -366,9 +366,9 @@ FN void step_back(GLOBAL const Instance *instance, const TriangleLanes *triangle
     if (!any_lane(flat))
         return;
     down = vmax(down, square_root(area * length) * splat(FLATTEST));
-    /* An eighth of the contact distance is as much as a point is off. */
+    /* A point is off by at most an eighth of the contact distance. */
     vreal wanted = square_root(area * (instance->contact_squared * R(0.015625))) * reciprocal(down);
-    /* How fast the corners' shares change. */
+    /* The rates of change of the corners' shares. */
     vreal inverse = reciprocal(area), rate[3], *share = crossing->share;
     rate[1] = vec3_dot(way, vec3_cross(vec3_sub(triangle->c, triangle->a), normal)) * inverse;
     rate[2] = vec3_dot(way, vec3_cross(normal, vec3_sub(triangle->b, triangle->a))) * inverse;
@@ -384,7 +384,7 @@ FN void step_back(GLOBAL const Instance *instance, const TriangleLanes *triangle
         middle_ahead = vselect(falls, vmin(middle_ahead, third * time), middle_ahead);
         middle_behind = vselect(rises, vmin(middle_behind, third * time), middle_behind);
     }
-    /* At a corner there is too little room: towards the middle it grows as the distance. */
+    /* Near a corner the space is too small: it grows with the distance towards the middle. */
     vreal lacking = vmax(wanted - (ahead + behind), zero);
     vreal inwards = vmin(lacking * reciprocal(middle_ahead + middle_behind), splat(MAX_INWARDS));
     ahead = multiply_add(inwards, middle_ahead - ahead, ahead);
@@ -396,9 +396,9 @@ FN void step_back(GLOBAL const Instance *instance, const TriangleLanes *triangle
     }
 }
 
-/* Where rays leave a triangle that they met; `normal` is its own, as long as twice its area. Within
-   the reach of rounding from an edge, rays leave it from a little further inside: one that starts
-   at an edge might be on the wrong side of both its triangles, and miss both. */
+/* Returns the origin of rays that leave a triangle; `normal` is as long as twice its area. Within
+   rounding of an edge the origin moves inside: a ray from the edge itself might be on the wrong
+   side of both its triangles, and miss both. */
 FN Vec3 point_of_departure(GLOBAL const Instance *instance, const TriangleLanes *triangle,
                            const TriangleCrossing *crossing, Vec3 normal) {
     Vec3 to_b = vec3_sub(triangle->b, triangle->a), to_c = vec3_sub(triangle->c, triangle->a);
@@ -426,7 +426,7 @@ FN Vec3 point_of_departure(GLOBAL const Instance *instance, const TriangleLanes 
                           vec3_scale_add(triangle->b, b, vec3_scale(triangle->c, c)));
 }
 
-/* The lanes of `m` have met triangles of the instance; hit->face becomes the number of the face. */
+/* Describes the lanes of `met`, which hit triangles of the instance; sets hit->face to the face. */
 FN_NOINLINE void describe_mesh(SCENE_PARAMETERS const Ray *ray, const LocalOrigin *local_origin,
                                int number, const vmask *met, Hit *hit, Surface *surface) {
     vmask m = *met;
@@ -469,9 +469,8 @@ FN_NOINLINE void describe_mesh(SCENE_PARAMETERS const Ray *ray, const LocalOrigi
     hit->face = vselect_int(m, triangle.face, hit->face);
 }
 
-/* Describes the lanes of `struck`; the packet is worked off object by object, so that a material is
-   read once for all lanes that met it. Where a mesh was met, hit->face becomes the number of the
-   face. */
+/* Describes the lanes of `struck`, object by object, so that all lanes that hit a material read it
+   once. For mesh hits it sets hit->face to the face. */
 FN Surface surface_at(SCENE_PARAMETERS const Ray *ray, LocalOrigin local_origin, Hit *hit,
                       vmask struck) {
     Surface surface;

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* Where rays cross a triangle, each exactly once: of the triangles that share an edge or a corner a
-   ray through it crosses one, or one on its way in and one on its way out. Lanes are rays that try
-   one triangle, or triangles that one ray tries.
+/* Ray/triangle crossings without gaps or duplicates. Of the triangles that share an edge or a
+   corner, a ray through it crosses one, or one on its way in and one on its way out. Lanes are rays
+   against one triangle, or triangles against one ray.
 
-   The corners are sheared so that the ray runs along an axis through the origin (Woop, Benthin and
-   Wald 2013, Watertight Ray/Triangle Intersection), each corner by the same arithmetic in all of
-   its triangles. The signs of the edge functions are those of the exact numbers (the error of a
-   product is known by a fused multiplication), and where one is zero the ray is moved by an
-   infinitely small step (Edelsbrunner and Muecke 1990, Simulation of Simplicity). */
+   A shear puts the ray on an axis through the origin (Woop, Benthin and Wald 2013, Watertight
+   Ray/Triangle Intersection). It treats a corner alike in all of its triangles. The signs of the
+   edge functions are exact: a fused multiplication gives the error of a product. If one is zero,
+   the ray moves by an infinitely small step (Edelsbrunner and Muecke 1990, Simulation of
+   Simplicity). */
 #ifndef HD_TRIANGLE_H
 #define HD_TRIANGLE_H
 
 #include "kernel_arguments.h"
 #include "vectors.h"
 
-/* The axis that each ray is nearest to: x, y or, in neither, z. */
+/* The dominant axis of each ray's direction: x, y or, if neither, z. */
 typedef struct {
     vmask x, y;
 } DominantAxis;
@@ -27,20 +27,20 @@ FN DominantAxis dominant_axis(Vec3 direction) {
     return last;
 }
 
-/* Coordinates turned so that each ray's nearest axis comes last; the other two stay right-handed
-   with it. All that follows is told in such coordinates. */
+/* Permutes coordinates so that each ray's dominant axis comes last and they stay right-handed. All
+   functions below use such coordinates. */
 FN Vec3 turn(DominantAxis last, Vec3 p) {
     return vec3(vselect(last.x, p.y, vselect(last.y, p.z, p.x)),
                 vselect(last.x, p.z, vselect(last.y, p.x, p.y)),
                 vselect(last.x, p.x, vselect(last.y, p.y, p.z)));
 }
 
-/* A ray's own coordinates of a point p, from (x, y, z) = p - origin: x + across z and y + upward z,
-   and, in units of the ray's direction, forward z. */
+/* The shear to a ray's own coordinates. From (x, y, z) = p - origin a point p has x + across z, y +
+   upward z and, in units of the ray's direction, forward z. */
 typedef struct {
     Vec3 origin;
     vreal across, upward, forward;
-    vmask backward; /* runs against its nearest axis */
+    vmask backward; /* runs against its dominant axis */
 } RayFrame;
 
 FN RayFrame ray_frame(Vec3 origin, Vec3 direction) {
@@ -53,17 +53,17 @@ FN RayFrame ray_frame(Vec3 origin, Vec3 direction) {
     return frame;
 }
 
-/* Where the rays meet axis-parallel boxes: a bound b of an axis at t = b * inverse + near (or far),
-   `near` too early and `far` too late by what rounding here and in the test of a triangle may come
-   to (after Ize 2013, Robust BVH Ray Traversal). */
+/* Ray data for axis-parallel boxes: a ray meets a bound b of an axis at t = b * inverse + near (or
+   far). `near` is early and `far` late by the bound of rounding here and in a triangle's test
+   (after Ize 2013, Robust BVH Ray Traversal). */
 typedef struct {
     Vec3 inverse, near, far;
     vmask negative[3]; /* runs towards the lower bound of an axis */
 } Slabs;
 
-/* What rounding may come to, relative to the coordinates, or, of the shares, products and sums of
-   two distances, to the furthest corner; and the least share of a direction along an axis, far
-   below that, so that no direction is divided by zero. */
+/* The bound of rounding, relative to the coordinates or, in shares, products and sums of two
+   distances, to the furthest corner. The minimum share of a direction along an axis is far below
+   that; it avoids division by zero. */
 #if HD_DOUBLE
 #define ROUNDING_MARGIN R(3.5527136788005009e-15) /* 2^-48 */
 #define MIN_SHARE       R(1e-30)
@@ -76,7 +76,7 @@ FN vreal slab_inverse(vreal direction, vreal least) {
     return times_sign_of(reciprocal(vmax(absolute(direction), least)), direction);
 }
 
-/* No coordinate of a box is larger than `reach`. */
+/* Returns the slab data for boxes whose coordinates are at most `reach`. */
 FN Slabs ray_slabs(Vec3 origin, Vec3 direction, vreal reach) {
     vreal far_out = vmax(absolute(origin.x), vmax(absolute(origin.y), absolute(origin.z)));
     vreal longest = vmax(absolute(direction.x), vmax(absolute(direction.y), absolute(direction.z)));
@@ -104,7 +104,7 @@ FN Vec3 vec3_max(Vec3 a, Vec3 b) {
     return vec3(vmax(a.x, b.x), vmax(a.y, b.y), vmax(a.z, b.z));
 }
 
-/* A corner in the first two of the ray's coordinates. */
+/* The first two of a corner's coordinates in the ray's frame. */
 typedef struct {
     vreal across, upward;
 } Corner;
@@ -116,8 +116,8 @@ FN Corner project_corner(const RayFrame *frame, Vec3 p) {
     return corner;
 }
 
-/* On which side of the line from a to b the ray passes; `left` and `right` are both empty where a
-   and b coincide. Only lanes of `m` need be right. */
+/* Finds the side of the line from a to b on which the ray passes; neither if a and b coincide. Only
+   lanes of `m` need be correct. */
 FN void test_edge(Corner a, Corner b, vmask m, vmask *left, vmask *right) {
     vreal p = a.across * b.upward, q = a.upward * b.across;
     *left = lt(q, p);
@@ -137,9 +137,9 @@ FN void test_edge(Corner a, Corner b, vmask m, vmask *left, vmask *right) {
     }
 }
 
-/* Twice the area of a, b and the ray, positive on the left. Its relative error is a few units of
-   rounding however flat the triangle is met, so that triangles that share an edge agree on where a
-   ray beside it crosses them. */
+/* Returns twice the area of a, b and the ray, positive on the left. Its relative error is a few
+   units of rounding at any angle, so that triangles that share an edge agree where a ray near it
+   crosses. */
 FN vreal double_area(Corner a, Corner b) {
     vreal p = a.across * b.upward, q = a.upward * b.across;
     vreal p_rest = multiply_add(a.across, b.upward, -p);
@@ -147,16 +147,16 @@ FN vreal double_area(Corner a, Corner b) {
     return (p - q) + (p_rest - q_rest);
 }
 
-/* Where a ray crosses a triangle. */
+/* A ray's crossing of a triangle. */
 typedef struct {
     vreal t;
-    vreal slack;    /* two crossings at an edge that are less than this apart may be at one place */
-    vreal share[3]; /* of the corners in the point, in all 1 */
+    vreal slack;    /* two crossings at an edge may coincide if they differ by less than this */
+    vreal share[3]; /* barycentric coordinates of the point */
     vmask entering;
 } TriangleCrossing;
 
-/* What is before and beyond the box about a triangle is no crossing of it: with the boxes of a
-   hierarchy, which hold that one, this makes every order of search find the same. */
+/* Clamps `t` to the triangle's bounding box; returns the lanes that meet this box. The boxes of a
+   hierarchy contain it, so every order of search finds the same hit. */
 FN vmask keep_in_box(const Slabs *slabs, Vec3 a, Vec3 b, Vec3 c, vreal *t) {
     Vec3 lower = vec3_min(a, vec3_min(b, c)), upper = vec3_max(a, vec3_max(b, c));
     const vmask *negative = slabs->negative;
@@ -173,7 +173,7 @@ FN vmask keep_in_box(const Slabs *slabs, Vec3 a, Vec3 b, Vec3 c, vreal *t) {
     return le(near, far);
 }
 
-/* The lanes of `m` that cross the triangle a, b, c anywhere on their line. */
+/* Returns the lanes of `m` whose lines cross the triangle a, b, c. */
 FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3 a, Vec3 b, Vec3 c,
                         TriangleCrossing *crossing) {
     Vec3 from_a = vec3_sub(a, frame->origin), from_b = vec3_sub(b, frame->origin);
@@ -197,8 +197,8 @@ FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3
         return crosses;
     vreal area_a = double_area(at_b, at_c), area_b = double_area(at_c, at_a);
     vreal area_c = double_area(at_a, at_b), area = area_a + area_b + area_c;
-    vmask too_small =
-        ~(lt(area, splat(R(0.0))) | lt(splat(R(0.0)), area)); /* one corner stands for all */
+    vmask too_small = ~(lt(area, splat(R(0.0))) |
+                        lt(splat(R(0.0)), area)); /* the first corner replaces the point */
     area_a = vselect(too_small, splat(R(1.0)), area_a);
     area = vselect(too_small, splat(R(1.0)), area);
     vreal inverse = times_sign_of(reciprocal(absolute(area)), area);
@@ -208,7 +208,7 @@ FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3
     const vreal *share = crossing->share;
     vreal depth =
         multiply_add(share[0], from_a.z, multiply_add(share[1], from_b.z, share[2] * from_c.z));
-    /* Counterclockwise about the axis is met from outside by rays that run against it. */
+    /* Rays against the axis hit a counterclockwise triangle from outside. */
     crossing->entering = (left & frame->backward) | (right & ~frame->backward);
     crossing->t = depth * frame->forward;
     vreal furthest = vmax(absolute(from_a.z), vmax(absolute(from_b.z), absolute(from_c.z)));
@@ -218,16 +218,17 @@ FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3
 
 /* ---- triangles of a mesh in the lanes of a packet ---- */
 
-/* One for all lanes, or one for each. */
+/* One triangle for all lanes, or one for each. */
 typedef struct {
     Vec3 a, b, c;
     vint number, face, mesh_material;
 } TriangleLanes;
 
-/* Reals in a row of the table, and from one corner to the next. */
+/* Reals in a row of the table, and between two corners. */
 enum { TRIANGLE_STRIDE = sizeof(Triangle) / sizeof(real), CORNER_STRIDE = TRIANGLE_STRIDE / 3 };
 
-/* Triangles of a group count as one face; others have a negative number each. */
+/* Returns the face of a triangle: one number for each group, otherwise a negative one for each
+   triangle. */
 FN vint face_of_triangle(vint number, vint group, int first_face) {
     vmask grouped = lt_int(splat_int(0), group);
     return vselect_int(grouped, group + (first_face - 1), splat_int(-2) - number);
@@ -241,7 +242,7 @@ FN void name_triangles(TriangleLanes *lanes, vint number, vint tag, int first_fa
     lanes->face = face_of_triangle(number, group, first_face);
 }
 
-/* One triangle, its coordinates in the order of `axis`. */
+/* Returns one triangle in all lanes, its coordinates in the order of `axis`. */
 FN TriangleLanes same_triangle(GLOBAL const Triangle *triangles, int number, const int axis[3],
                                int first_face, int first_mesh_material) {
     GLOBAL const Triangle *triangle = triangles + number;
@@ -269,7 +270,7 @@ FN TriangleLanes fetch_triangles(GLOBAL const Triangle *triangles, vint number, 
     return lanes;
 }
 
-/* As long as twice the area. */
+/* Returns the normal, as long as twice the area. */
 FN Vec3 normal_of(const TriangleLanes *triangle) {
     return vec3_cross(vec3_sub(triangle->b, triangle->a), vec3_sub(triangle->c, triangle->a));
 }

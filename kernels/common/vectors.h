@@ -21,7 +21,7 @@ FN Vec3 vec3(vreal x, vreal y, vreal z) {
 FN Vec3 vec3_splat(real x, real y, real z) {
     return vec3(splat(x), splat(y), splat(z));
 }
-/* Of three numbers of a table. */
+/* Returns three consecutive table entries in all lanes. */
 FN Vec3 vec3_of(GLOBAL const real *row) {
     return vec3_splat(row[0], row[1], row[2]);
 }
@@ -41,13 +41,13 @@ FN Vec3 vec3_scale(Vec3 a, vreal s) {
     return vec3(a.x * s, a.y * s, a.z * s);
 }
 
-/* a * b + c, channel by channel */
+/* Returns a * b + c by component. */
 FN Vec3 vec3_mul_add(Vec3 a, Vec3 b, Vec3 c) {
     return vec3(multiply_add(a.x, b.x, c.x), multiply_add(a.y, b.y, c.y),
                 multiply_add(a.z, b.z, c.z));
 }
 
-/* a * s + b */
+/* Returns a * s + b. */
 FN Vec3 vec3_scale_add(Vec3 a, vreal s, Vec3 b) {
     return vec3(multiply_add(a.x, s, b.x), multiply_add(a.y, s, b.y), multiply_add(a.z, s, b.z));
 }
@@ -68,19 +68,19 @@ FN Vec3 vec3_normalize(Vec3 a) {
     return vec3_scale(a, reciprocal_root(vec3_dot(a, a)));
 }
 
-/* Non-zero when all lanes hold the same number. */
+/* Returns non-zero if all lanes hold the same number. */
 FN int all_same(vint a) {
     return !any_lane(~eq_int(a, splat_int(lane_int(&a, 0))));
 }
 
-/* Numbers in which the lanes outside of `m` repeat one from inside, so that dead lanes neither hold
-   a wrong number nor make a packet look mixed. */
+/* Returns `numbers` with the lanes outside `m` replaced by the first number inside. So dead lanes
+   hold a valid number and do not make a packet look mixed. */
 FN vint spread_first(vint numbers, vmask m) {
     int filler = any_lane(m) ? lane_int(&numbers, first_lane(m)) : 0;
     return vselect_int(m, numbers, splat_int(filler));
 }
 
-/* table[index] for each lane; few numbers differ within a packet. */
+/* Returns table[index] for each lane; suits packets with few different numbers. */
 FN Vec3 fetch_vector(GLOBAL const Vector *table, vint index) {
     GLOBAL const Vector *v = table + lane_int(&index, 0);
     Vec3 result = vec3_splat(v->x, v->y, v->z);
@@ -95,14 +95,13 @@ FN Vec3 fetch_vector(GLOBAL const Vector *table, vint index) {
     return result;
 }
 
-/* n.v of a plane's normal n: of a point its coordinate along the normal, of a direction its slope.
- */
+/* Returns n.v for a plane's normal n: a point's coordinate along it, or a direction's slope. */
 FN vreal along_normal(GLOBAL const Plane *plane, Vec3 v) {
     return multiply_add(splat(plane->x), v.x,
                         multiply_add(splat(plane->y), v.y, splat(plane->z) * v.z));
 }
 
-/* Signed distance of a point to a plane n.x = distance of the same object, positive outside. */
+/* Returns the signed distance of a point to a plane of the same object, positive outside. */
 FN vreal plane_distance(GLOBAL const Plane *plane, Vec3 point) {
     return along_normal(plane, point) - splat(plane->distance);
 }

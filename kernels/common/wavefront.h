@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* The tree of rays level by level: the rays of a level wait in a queue, those that go on are
-   appended to the next level's. Packets and groups of threads are filled with live rays only.
+/* Ray trees by ray depth: the rays of a depth wait in a queue, and secondary rays are appended to
+   the next depth's. Packets and groups of threads are filled with live rays only.
 
-   A batch is the samples whose trees are traced together; each has a sum of its own, for it loses
-   bits (View.pixel_shift) before it joins its pixel's. */
+   A batch is the samples whose trees are traced together. Each has its own sum, which loses bits
+   (View.pixel_shift) when it is added to its pixel's. */
 #ifndef HD_WAVEFRONT_H
 #define HD_WAVEFRONT_H
 
@@ -16,8 +16,8 @@
 
 /* ---- the queue ---- */
 
-/* A packet of at most `count` rays from the place `from` on, and the numbers of their samples. The
-   first word of a ray is the object touched last and the side it runs on; -1: it is dead. Only
+/* Returns a packet of at most `count` rays from the place `from` on, and the numbers of their
+   samples. The first word of a ray is its last hit and the side it runs on; -1: it is dead. Only
    scenes with meshes need the faces that rays leave. */
 FN Ray load_rays(QUEUE_PARAMETERS int from, int count, int has_faces, vint *numbers) {
     GLOBAL const real *reals = ray_reals + from;
@@ -38,8 +38,8 @@ FN Ray load_rays(QUEUE_PARAMETERS int from, int count, int has_faces, vint *numb
     return ray;
 }
 
-/* Stores the lanes of `m` from the place `to` on; returns how many these are. Up to a packet's
-   places are overwritten. */
+/* Stores the lanes of `m` from the place `to` on and returns their count; may overwrite a packet's
+   places. */
 FN int store_rays(QUEUE_PARAMETERS int to, vmask m, const Ray *ray, int has_faces, vint numbers) {
     GLOBAL real *reals = ray_reals + to;
     uint64 stride = (uint64)queue_stride;
@@ -65,7 +65,7 @@ FN int store_rays(QUEUE_PARAMETERS int to, vmask m, const Ray *ray, int has_face
 
 /* ---- the batch's sums ---- */
 
-/* Level 0 has one ray for each sample and sets its sum, so that nobody need clear it. */
+/* Sets the sums of a packet at depth 0, which has one ray for each sample: no one clears them. */
 FN void set_sums(QUEUE_PARAMETERS int number, int has_bound, const Sample *sample) {
     GLOBAL fixed64 *sum = sums + number;
     for (int lane = 0; lane < HD_LANES; lane++) {
@@ -92,7 +92,7 @@ FN void add_to_sums(QUEUE_PARAMETERS vmask m, vint numbers, int has_bound, const
     }
 }
 
-/* Adds the sums of `count` samples, the item's from number `first` on, to its pixels. */
+/* Adds the sums of `count` samples of an item, from `first` on, to its pixels. */
 FN void gather_sums(GLOBAL const Header *header, GLOBAL const View *view,
                     GLOBAL const fixed64 *sums, int sum_stride, int first, int count,
                     PixelAccumulator *accumulator) {
@@ -114,7 +114,7 @@ FN void gather_sums(GLOBAL const Header *header, GLOBAL const View *view,
     }
 }
 
-/* ---- one thread with a queue of its own ---- */
+/* ---- one thread with its own queue ---- */
 
 FN void add_vector_counts(const Sample *sample, Sample *sum) {
     sum->mirrored = sum->mirrored + sample->mirrored;
@@ -123,7 +123,7 @@ FN void add_vector_counts(const Sample *sample, Sample *sum) {
     sum->clamps = sum->clamps + sample->clamps;
 }
 
-/* Where rays are not compacted, a packet with a live one keeps its dead ones. */
+/* Appends rays; without compaction, a packet with a live one keeps its dead ones. */
 FN int append_rays(QUEUE_PARAMETERS int to, const Ray *ray, int has_faces, vint numbers) {
     if (!any_lane(ray->alive))
         return 0;
@@ -131,16 +131,16 @@ FN int append_rays(QUEUE_PARAMETERS int to, const Ray *ray, int has_faces, vint 
                       numbers);
 }
 
-/* The ray of each sample from number `number` of the item on, at most `count`. */
+/* Returns the eye rays of at most `count` samples from `number` of the item on. */
 FN Ray first_rays(SAMPLE_PARAMETERS int item, int number, int count) {
     Vec3 direction;
     vmask alive = sample_directions(SAMPLE_ARGUMENTS item, number, &direction);
     return eye_ray(direction, alive & lanes_below(count));
 }
 
-/* Traces the rays of a take, whose batch begins with the item's sample `first_sample`. Rays that
-   pass go on from the place chunk.to, mirrored ones from chunk.rounded places behind it: rays that
-   went the same way stay together. */
+/* Traces the rays of a chunk, whose batch begins with the item's sample `first_sample`. Appends
+   transmitted rays from the place chunk.to on, and mirrored ones chunk.rounded places later, which
+   keeps each kind together. */
 FN void trace_chunk(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first_sample, WaveChunk chunk,
                     int *passing, int *mirrored, RayCounts *counts) {
     Sample sum = empty_sample();
@@ -175,7 +175,7 @@ FN void trace_chunk(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first_sample
     add_counts(counts, counts_of(&sum));
 }
 
-/* Traces the samples [first, first + batch) of an item. */
+/* Traces samples [first, first + batch) of an item. */
 FN void trace_batch(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first, int batch,
                     RayCounts *counts) {
     WaveSegment stack[WAVE_STACK_SIZE(DEPTH_BOUND(view))];
@@ -221,12 +221,12 @@ FN void render_items_by_waves(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item, 
         render_item_by_waves(SCENE_ARGUMENTS QUEUE_ARGUMENTS item, pixels, counts + item);
 }
 
-/* ---- groups of threads with a queue in common ---- */
+/* ---- groups of threads with a shared queue ---- */
 
 #if HD_GROUP_SIZE
 
-/* What a thread brings to its group, in one number, so that one scan adds it all up: rays that go
-   on mirrored and transmitted, clamps (at most three a thread), shadow tests. */
+/* The fields of a thread's packed counts, which one scan adds up: mirrored and transmitted rays,
+   clamps (at most three a thread), shadow tests. */
 enum { PASSING_SHIFT = 11, CLAMPS_SHIFT = 22, SHADOW_TESTS_SHIFT = 34, COUNT_MASK = (1 << 11) - 1 };
 
 FN uint64 pack_counts(const Sample *sample) {
@@ -236,8 +236,8 @@ FN uint64 pack_counts(const Sample *sample) {
            (uint64)lane_int(&sample->shadow_tests, 0) << SHADOW_TESTS_SHIFT;
 }
 
-/* The sum of the values of the group's threads up to this one, and of all of them. `scratch` has
-   two numbers for each. */
+/* Returns the sum of the values of the group's threads up to this one; `total` is that of all.
+   `scratch` has two numbers for each thread. */
 FN uint64 scan_group(LOCAL uint64 *scratch, int thread, int thread_count, uint64 value,
                      uint64 *total) {
     int side = 0;
@@ -254,9 +254,8 @@ FN uint64 scan_group(LOCAL uint64 *scratch, int thread, int thread_count, uint64
     return value;
 }
 
-/* Appends what goes on from the group's rays, the mirrored ones first. All of its threads must call
-   this. The host knows that *taken was `taken_before` when the launch began. Returns what the group
-   counted, packed. */
+/* Appends the group's secondary rays, mirrored ones first; returns the group's packed counts. All
+   of its threads must call this. *taken was `taken_before` when the launch began. */
 FN uint64 append_by_group(QUEUE_PARAMETERS int to, uint taken_before, const Ray *mirror,
                           const Ray *through, int has_faces, vint number, const Sample *sample,
                           int thread, int thread_count, LOCAL uint64 *scratch, LOCAL uint *place,
@@ -286,10 +285,10 @@ FN uint64 append_by_group(QUEUE_PARAMETERS int to, uint taken_before, const Ray 
     return total;
 }
 
-/* Traces the rays [first, first + count) of a level by work groups, one lane a thread, and appends
-   those that go on from the place `to` on. A batch begins with the item `first_item`. Each group
-   adds to counts[group_index] what it counted; the frame's first launch sets it. `scratch` has two
-   numbers for each of the group's threads. */
+/* Traces rays [first, first + count) of a depth by work groups, one lane a thread, and appends the
+   secondary rays from the place `to` on. The batch begins with the item `first_item`. Each group
+   adds its counts to counts[group_index], which the frame's first launch sets. `scratch` has two
+   numbers for each thread of the group. */
 FN void trace_chunk_by_group(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item, int level, int first,
                              int count, int to, uint taken_before, int is_first_launch,
                              int group_index, int group_count, int thread, int thread_count,
@@ -330,8 +329,8 @@ FN void trace_chunk_by_group(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item, i
     counts[group_index] = sum;
 }
 
-/* Stores the pixels of a finished batch, those of the items [first_item, first_item + item_count);
-   every `workers`-th item is this worker's. */
+/* Stores the pixels of a finished batch, items [first_item, first_item + item_count); this worker
+   stores every `workers`-th item. */
 FN void store_batch(GLOBAL const Header *header, GLOBAL const View *view,
                     GLOBAL const fixed64 *sums, int sum_stride, int first_item, int item_count,
                     int worker, int workers, GLOBAL float *pixels) {

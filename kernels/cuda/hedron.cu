@@ -11,8 +11,8 @@
 #define THREAD  ((int)threadIdx.x)
 #define THREADS ((int)blockDim.x)
 
-/* Kernels read small tables from constant memory, and their parameters of the same names, which
-   hold its addresses, are hidden. */
+/* Kernels read small tables from constant memory; these names hide the parameters of the same
+   names. */
 #define DEFINE_CONSTANT(type, name, rows)                                                          \
     extern "C" {                                                                                   \
     __constant__ type hedron_constant_##name[rows];                                                \

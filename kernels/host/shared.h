@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What hosts share with the kernels: qualifiers and integers, which kernels/common/ asks of C
-   beside primitives; the rows of the tables, the kernels' arguments and the plan of a wavefront's
-   queue. HD_DOUBLE is 0 or 1 where a file has to do with reals. */
+/* What hosts share with the kernels: the qualifiers and integers that kernels/common/ needs of C,
+   table rows, the kernels' arguments and the plan of a wavefront's queue. HD_DOUBLE is 0 or 1 in
+   files that use reals. */
 #ifndef HD_HOST_SHARED_H
 #define HD_HOST_SHARED_H
 
@@ -14,7 +14,7 @@
 #define FN_NOINLINE static __attribute__((noinline, unused))
 #define GLOBAL
 #define LOCAL
-#define BARRIER()  ((void)0) /* there is one work item in a group */
+#define BARRIER()  ((void)0) /* a group has one work item */
 #define RESTRICT   restrict
 #define ALIGNED_16 __attribute__((aligned(16)))
 typedef uint32_t uint;

@@ -46,7 +46,7 @@ typedef vint vbits;
 typedef HD_WIDE(long) vfix;
 
 #if defined(__clang__) && defined(__AVX512DQ__) && HD_LANES * (HD_DOUBLE + 1) == 16
-/* Builtins are Clang's own affair, and may go. */
+/* Clang may remove builtins. */
 #if HD_DOUBLE
 #if __has_builtin(__builtin_ia32_cmppd512_mask) && __has_builtin(__builtin_ia32_selectpd_512) &&   \
     __has_builtin(__builtin_ia32_cmpq512_mask) && __has_builtin(__builtin_ia32_selectq_512)
@@ -74,8 +74,8 @@ FN vint splat_int(int a) {
 }
 
 #ifdef HD_OWN_MASKS
-/* Masks of packets that fill a register of 512 bits: a bit for each lane, as in plain C. Of masks
-   as integers Clang keeps in vector registers what should be in those of masks. */
+/* Masks of packets that fill a register of 512 bits have a bit for each lane, as in plain C. Clang
+   keeps integer masks in vector registers rather than mask registers. */
 #if HD_DOUBLE
 typedef uchar vmask;
 #define HD_COMPARE_REALS(a, b, how) __builtin_ia32_cmppd512_mask(a, b, how, 0xff, 4)
@@ -134,8 +134,8 @@ FN vreal vselect(vmask m, vreal a, vreal b) {
 FN vint vselect_int(vmask m, vint a, vint b) {
     return select(b, a, m);
 }
-/* Drivers for CPUs are slow with any(). Clang's reduction becomes a test of a mask register, if
-   what it reduces is a comparison; elsewhere a byte for each lane. */
+/* any() is slow in CPU drivers. Clang's reduction of a comparison becomes a test of a mask
+   register; without it, each lane becomes a byte. */
 #ifdef __has_builtin
 #if __has_builtin(__builtin_reduce_or)
 #define HD_REDUCES
@@ -195,8 +195,8 @@ FN vint load_ints(GLOBAL const int *from) {
 
 #if HD_LANES > 1 && !HD_DOUBLE
 #define HD_OWN_ROWS
-/* The rows of four lanes; the halves of its halves are what the rows have at one place. Written
-   lane by lane, as elsewhere, PoCL makes scattered stores of it. */
+/* Loads the rows of four lanes; the halves of its halves are columns. PoCL makes scattered stores
+   of code that writes lane by lane. */
 FN int16 load_four_rows(GLOBAL const int *table, vint index, int lane) {
     return (int16)(vload4(0, table + lane_int(&index, lane)),
                    vload4(0, table + lane_int(&index, lane + 1)),

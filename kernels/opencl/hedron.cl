@@ -2,8 +2,8 @@
 /* The kernels in OpenCL C. */
 #include "dialect.h"
 
-/* A kernel whose items are packets already: Intel's compiler takes several times as long to find
-   out that it cannot do many items at a time. */
+/* The hint says that items are packets already: without it Intel's compiler takes several times as
+   long to find that it cannot vectorise over items. */
 #if HD_GROUP_SIZE
 #define KERNEL __kernel void
 #else

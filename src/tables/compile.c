@@ -16,7 +16,7 @@ _Static_assert(HD_FRAME_TABLE_COUNT <= sizeof((HdFrameTables){0}.table) / sizeof
                "HdFrameTables has room for every table");
 _Static_assert(HD_MAX_FACES < 32, "LightSides has a bit for each face");
 
-/* Rows of each table. */
+/* Sets the size of each table. */
 static void size_tables(const HdBuilder *builder, HdSceneTables *tables) {
 #define SIZE(type, name) sizeof(type),
     static const size_t row_bytes[] = {HD_SCENE_TABLES(SIZE)};
@@ -95,7 +95,7 @@ static void describe_material(HdSceneTables *tables, const HdMaterial *material)
     tables->lit_from_behind |= material->lit_from_behind;
 }
 
-/* What kernels are specialised by. */
+/* Sets the members that kernels are specialised by. */
 static void describe_shape(const HdBuilder *builder, HdSceneTables *tables) {
     const HdScene *scene = builder->scene;
     tables->plane_count = builder->plane_count;
@@ -155,8 +155,7 @@ static int ceil_log2(int n) {
     return bits;
 }
 
-/* Bounds are small where they matter, so they have the more bits after the point the less can be
-   left out. */
+/* Small bounds matter most, so the fraction has more bits the smaller the maximum is. */
 enum { MAX_BOUND_BITS = 44 };
 
 static void fill_fixed_bound(View *view, double max_left_out, int samples) {
@@ -169,7 +168,7 @@ static void fill_fixed_bound(View *view, double max_left_out, int samples) {
     view->bound_from_fixed = (real)ldexp(1.0, view->bound_shift - bits);
 }
 
-/* A contribution is at most 2^16 and the weights of one level add up to at most 1, so a sample's
+/* A contribution is at most 2^16 and the weights at one depth add up to at most 1. So a sample's
    sum is at most (depth + 1) 2^16; 62 bits hold a pixel's sum of samples. */
 static void fill_fixed_point(View *view, const HdScene *scene, int samples) {
     int sum_bits = 16 + ceil_log2(scene->depth + 1);
@@ -206,7 +205,7 @@ static void fill_view(View *view, const HdFrameTables *tables, const HdScene *sc
     }
 }
 
-/* Entries that fill up the frame's last row are none. */
+/* Copies the list; entries that fill up the frame's last row are empty. */
 static void fill_list(const HdFrameTables *tables, const HdSampleList *list) {
     int *entries = tables->table[HD_TABLE_entries].data;
     size_t words = tables->table[HD_TABLE_entries].bytes / sizeof *entries;

@@ -114,8 +114,8 @@ static int list_edge_lights(const HdBuilder *builder, int solid, HdLightSource *
     return count;
 }
 
-/* The difference of the centres comes first: an edge light keeps all its digits at its own solid,
-   however far from the world's origin that is. */
+/* The difference of the centres comes first: at its own solid an edge light keeps all its digits,
+   at any distance from the world's origin. */
 HdVec3 hd_light_offset(const HdBuilder *builder, const HdLightSource *source, int object) {
     if (source->owner < 0)
         return hd_sub(source->position, builder->centres[object]);
@@ -150,7 +150,7 @@ static double coordinate(HdVec3 v, int axis) {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-/* Ties are broken by number, so that every machine makes the same clusters. */
+/* Orders by key, then by number, so that every machine makes the same clusters. */
 static int compare_keys(const void *a, const void *b) {
     const HdClusteredLight *left = a, *right = b;
     if (left->key != right->key)
@@ -168,23 +168,23 @@ static double extent(const HdClusteredLight *lights, int count, int axis) {
     return most - least;
 }
 
-static bool is_between(const HdClusteredLight *lights, int place) {
+static bool ends_edge(const HdClusteredLight *lights, int place) {
     return hd_length(hd_sub(lights[place - 1].about, lights[place].about)) > 0.0;
 }
 
-/* The place nearest to `place` that parts no edge's lights, if there is one. */
-static int place_between(const HdClusteredLight *lights, int count, int place) {
+/* Returns the place nearest to `place` that separates no edge's lights, otherwise `place`. */
+static int nearest_edge_end(const HdClusteredLight *lights, int count, int place) {
     for (int off = 0; off < count; off++) {
-        if (place - off > 0 && is_between(lights, place - off))
+        if (place - off > 0 && ends_edge(lights, place - off))
             return place - off;
-        if (place + off < count && is_between(lights, place + off))
+        if (place + off < count && ends_edge(lights, place + off))
             return place + off;
     }
     return place;
 }
 
-/* There are no more clusters than lights. */
-static void split(HdClusteredLight *lights, int count, int first_cluster, int clusters) {
+/* Divides `count` lights into `clusters` clusters, at most `count`. */
+static void split_lights(HdClusteredLight *lights, int count, int first_cluster, int clusters) {
     if (clusters == 1) {
         for (int i = 0; i < count; i++) {
             lights[i].cluster = first_cluster;
@@ -200,11 +200,11 @@ static void split(HdClusteredLight *lights, int count, int first_cluster, int cl
     for (int i = 0; i < count; i++)
         lights[i].key = coordinate(lights[i].about, axis);
     qsort(lights, (size_t)count, sizeof *lights, compare_keys);
-    int part = place_between(lights, count, (int)((int64_t)count * (clusters / 2) / clusters));
+    int part = nearest_edge_end(lights, count, (int)((int64_t)count * (clusters / 2) / clusters));
     int half = (int)(((int64_t)clusters * part + count / 2) / count);
     half = half < 1 ? 1 : half < clusters ? half : clusters - 1;
-    split(lights, part, first_cluster, half);
-    split(lights + part, count - part, first_cluster + half, clusters - half);
+    split_lights(lights, part, first_cluster, half);
+    split_lights(lights + part, count - part, first_cluster + half, clusters - half);
 }
 
 static bool share_edge(const HdLightSource *a, const HdLightSource *b) {
@@ -212,7 +212,7 @@ static bool share_edge(const HdLightSource *a, const HdLightSource *b) {
            a->face[1] == b->face[1];
 }
 
-/* Of the lights on the edge of number `first`, which follow each other; returns the next one. */
+/* Sets `about` of the lights on one edge, from `first` on; returns the next light. */
 static int set_middle(HdBuilder *builder, int first) {
     HdClusteredLight *lights = builder->clustered;
     int next = first + 1;
@@ -237,7 +237,7 @@ static void cluster_lights(HdBuilder *builder) {
     for (int i = 0, next; i < builder->light_count; i = next)
         next = set_middle(builder, i);
     if (clusters > 0)
-        split(builder->clustered, builder->light_count, 0, clusters);
+        split_lights(builder->clustered, builder->light_count, 0, clusters);
 }
 
 void hd_builder_list_lights(HdBuilder *builder) {

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* Tables of lights, and what is known beforehand of where objects are to each other and to lights
-   (docs/numerics.md, Beside and apart); compiled for each precision. */
+/* Tables of lights, occlusion masks and isolated solids (docs/numerics.md, Occlusion masks);
+   compiled for each precision. */
 #include "tables/builder.h"
 
 #include <math.h>
 
 #include "scene/contact.h"
 
-/* From the unrounded normals of a solid; a light is exactly on its own two faces. */
+/* Fills a light's coordinates along the unrounded normals of a solid; the light is exactly on its
+   own two faces. */
 static void fill_solid_coordinates(const HdBuilder *builder, int light, int solid,
                                    const Plane *planes, real *out) {
     const HdLightSource *source = &builder->sources[light];
@@ -29,7 +30,7 @@ static void add_side(LightSides *sides, int bit, real distance) {
         sides->on_plane |= (uint)1 << bit;
 }
 
-/* From the rounded coordinates, so that both tables agree. */
+/* Returns a light's sides, from the rounded coordinates, so that both tables agree. */
 static LightSides sides_of_solid(const Object *solid, const Plane *planes,
                                  const real *coordinates) {
     LightSides sides = {0, 0, {0, 0}};
@@ -58,8 +59,8 @@ static void fill_falloff(Light *light, const HdFalloff *falloff) {
     light->inverse_falloff_squared = falloff->end > 0.0 ? -inverse : inverse;
 }
 
-/* The kernels' number of a solid's face, 2 * plane + side, or the group of triangles that it
-   became; -1: the light is on no solid. */
+/* Returns the kernels' number of a solid's face, 2 * plane + side, or its group of triangles; -1:
+   the light is on no solid. */
 static int own_face(const HdBuilder *builder, const HdLightSource *source, int face) {
     const Object *objects = builder->table[HD_TABLE_objects];
     const Instance *instances = builder->table[HD_TABLE_instances];
@@ -75,37 +76,38 @@ static int own_face(const HdBuilder *builder, const HdLightSource *source, int f
 typedef struct {
     HdVec3 centre; /* world space */
     double radius, reach;
-} Ball;
+} LightSphere;
 
-static Ball ball_about(const HdBuilder *builder, const HdClusteredLight *first, int count) {
-    Ball ball = {{0.0, 0.0, 0.0}, 0.0, 0.0};
+static LightSphere sphere_about(const HdBuilder *builder, const HdClusteredLight *first,
+                                int count) {
+    LightSphere sphere = {{0.0, 0.0, 0.0}, 0.0, 0.0};
     for (int i = 0; i < count; i++)
-        ball.centre = hd_add(ball.centre, hd_scale(first[i].position, 1.0 / count));
+        sphere.centre = hd_add(sphere.centre, hd_scale(first[i].position, 1.0 / count));
     for (int i = 0; i < count; i++) {
         double end = builder->sources[first[i].light].falloff.end;
-        ball.reach = fmax(ball.reach, end > 0.0 ? end : (double)REAL_LARGE);
-        ball.radius = fmax(ball.radius, hd_length(hd_sub(first[i].position, ball.centre)));
+        sphere.reach = fmax(sphere.reach, end > 0.0 ? end : (double)REAL_LARGE);
+        sphere.radius = fmax(sphere.radius, hd_length(hd_sub(first[i].position, sphere.centre)));
     }
-    return ball;
+    return sphere;
 }
 
-/* Lengths are less, and its square is within a float's range. */
+/* Above all lengths; its square is within a float's range. */
 #define MAX_REACH 1e18
 
-/* As places relative to an object are rounded to either precision. */
-static LightRun rounded_ball(const Ball *ball, HdVec3 object) {
-    HdVec3 place = hd_sub(ball->centre, object);
+/* Returns the sphere relative to an object, enlarged by rounding to either precision. */
+static LightRun rounded_sphere(const LightSphere *sphere, HdVec3 object) {
+    HdVec3 place = hd_sub(sphere->centre, object);
     return (LightRun){.place = {(real)place.x, (real)place.y, (real)place.z},
-                      .radius = (real)(ball->radius * 1.0001 + hd_length(place) * 1e-5),
-                      .reach = (real)fmin(ball->reach, MAX_REACH)};
+                      .radius = (real)(sphere->radius * 1.0001 + hd_length(place) * 1e-5),
+                      .reach = (real)fmin(sphere->reach, MAX_REACH)};
 }
 
 static void fill_cluster(const HdBuilder *builder, int cluster, const HdClusteredLight *first,
                          int count) {
     size_t clusters = (size_t)HD_LIGHT_CLUSTERS(builder->light_count);
-    Ball ball = ball_about(builder, first, count);
+    LightSphere sphere = sphere_about(builder, first, count);
     for (int object = 0; object < builder->object_count; object++) {
-        LightRun rounded = rounded_ball(&ball, builder->centres[object]);
+        LightRun rounded = rounded_sphere(&sphere, builder->centres[object]);
         real *out = (real *)builder->table[HD_TABLE_light_clusters] +
                     (size_t)object * HD_CLUSTER_ROWS * clusters + cluster;
         out[HD_CLUSTER_X * clusters] = rounded.place[0];
@@ -116,7 +118,7 @@ static void fill_cluster(const HdBuilder *builder, int cluster, const HdClustere
     }
 }
 
-/* Whether so many lights end before the middles of solids that it pays to judge runs of them. */
+/* Returns whether enough lights end before the centres of solids for culling of runs to pay. */
 static bool runs_pay(const HdBuilder *builder) {
     enum { MIN_SHARE = 4 };
     int64_t beyond = 0, pairs = (int64_t)builder->light_count * builder->solid_count;
@@ -129,11 +131,11 @@ static bool runs_pay(const HdBuilder *builder) {
     return beyond > 0 && beyond * MIN_SHARE >= pairs;
 }
 
-/* Fewer are looked at sooner than judged. */
+/* Testing fewer lights costs less than culling their run. */
 enum { MIN_RUN = 3 };
 
-/* Within a cluster lights are in their order, but maybe not all that are between them. Packets of
-   several lanes cull the cluster and need only know how far to skip: they have all of its runs. */
+/* Finds the runs of consecutive lights in a cluster, which may have gaps. Packets of several lanes
+   need only the length to skip of a culled cluster, so all of its runs count. */
 static void fill_runs(const HdBuilder *builder, Light *lights, const HdClusteredLight *first,
                       int count) {
     LightRun *runs = builder->table[HD_TABLE_light_runs];
@@ -146,10 +148,10 @@ static void fill_runs(const HdBuilder *builder, Light *lights, const HdClustered
         lights[light].run = next - i;
         if (builder->lanes > 1)
             continue;
-        Ball ball = ball_about(builder, first + i, next - i);
+        LightSphere sphere = sphere_about(builder, first + i, next - i);
         for (int object = 0; object < builder->object_count; object++)
             runs[object * builder->light_count + light] =
-                rounded_ball(&ball, builder->centres[object]);
+                rounded_sphere(&sphere, builder->centres[object]);
     }
 }
 
@@ -199,9 +201,9 @@ static void fill_lights(const HdBuilder *builder) {
     fill_clusters(builder, lights);
 }
 
-/* ---- beside and apart ---- */
+/* ---- distances and radii ---- */
 
-static HdVec3 way_between(const HdBuilder *builder, int from, int to) {
+static HdVec3 vector_between(const HdBuilder *builder, int from, int to) {
     return hd_sub(builder->centres[to], builder->centres[from]);
 }
 
@@ -218,7 +220,7 @@ static double circumradius(const HdBuilder *builder, int object) {
     return radius;
 }
 
-/* No eye of the flight is further away from a point. */
+/* Returns an upper bound of the distance from a point to the eye on its camera path. */
 static double farthest_eye(const HdPath *path, HdVec3 point) {
     const HdCylinderPath *cylinder = &path->cylinder;
     if (path->is_fixed)
@@ -227,52 +229,52 @@ static double farthest_eye(const HdPath *path, HdVec3 point) {
            fabs(cylinder->z0) + fabs(cylinder->z_amplitude);
 }
 
-/* Of a ball about the centre in which points are where rays meet the object: they are off by what
-   rounding makes of the way that the ray came. */
+/* Returns the radius of a sphere about all computed hits of an object; their error is relative to
+   the ray's length. */
 static double radius_about(const HdBuilder *builder, int object) {
     double way = farthest_eye(&builder->scene->eye, builder->centres[object]);
     for (int i = 0; i < builder->object_count; i++)
-        way = fmax(way, hd_length(way_between(builder, object, i)) + circumradius(builder, i));
+        way = fmax(way, hd_length(vector_between(builder, object, i)) + circumradius(builder, i));
     return 1.001 * circumradius(builder, object) + 1e-6 * way;
 }
 
-/* ---- ways of light ---- */
+/* ---- occlusion masks ---- */
 
-/* Distance of a point from the convex hull of a ball about the origin and a light, a cone with a
-   round end. */
+/* Returns the distance of a point from the convex hull of a sphere about the origin and a light: a
+   cone with a round end. */
 static double distance_to_cone(double radius, HdVec3 light, HdVec3 point) {
     double length = hd_length(light), share = 0.0;
     if (length > radius) {
         double along = hd_dot(point, light) / length;
         double across = sqrt(fmax(hd_dot(point, point) - along * along, 0.0));
-        double sine = radius / length; /* of half the cone's angle */
+        double sine = radius / length; /* sine of half the cone's angle */
         along -= across * sine / sqrt(1.0 - sine * sine);
         share = fmin(fmax(along / length, 0.0), 1.0);
     }
-    double left = radius * (1.0 - share); /* of the ball there */
+    double left = radius * (1.0 - share); /* radius of the hull there */
     return hd_length(hd_sub(point, hd_scale(light, share))) - left;
 }
 
 static bool solid_cannot_occlude(const HdBuilder *builder, const HdLightSource *source, int object,
                                  double radius, int solid) {
-    HdVec3 centre = way_between(builder, object, solid);
+    HdVec3 centre = vector_between(builder, object, solid);
     double slack = (hd_length(centre) + radius) * 1e-4 +
                    hd_length(hd_light_offset(builder, source, solid)) * 1e-5;
     double least = builder->scene->solids[solid].circumradius * 1.001 + slack;
     return distance_to_cone(radius, hd_light_offset(builder, source, object), centre) > least;
 }
 
-/* The points of an object, as lights see them. */
+/* The lit points of an object. */
 typedef struct {
     int object;
-    double radius; /* of a ball about all of them */
-    int side;      /* of the floor's plane: 1, -1, or 0 for both */
-} Lit;
+    double radius; /* radius of a sphere about all of them */
+    int side;      /* side of the floor's plane: 1, -1, or 0 for both */
+} LitObject;
 
-/* Corners tell of a solid, its ball of meshes. */
+/* Finds an object's side of the floor, by a solid's corners or the meshes' sphere. */
 static int side_of_floor(const HdBuilder *builder, int object, double radius) {
     HdVec3 normal = hd_floor_frame(&builder->scene->floor).normal;
-    HdVec3 centre = way_between(builder, builder->solid_count, object);
+    HdVec3 centre = vector_between(builder, builder->solid_count, object);
     double reach = radius;
     if (object < builder->solid_count) {
         const HdPlatonic *shape = &builder->shapes[object];
@@ -285,22 +287,22 @@ static int side_of_floor(const HdBuilder *builder, int object, double radius) {
     return (height > least) - (height < -least);
 }
 
-static bool floor_cannot_occlude(const HdBuilder *builder, int light, const Lit *lit) {
+static bool floor_cannot_occlude(const HdBuilder *builder, int light, const LitObject *lit) {
     if (lit->object == builder->solid_count)
-        return true; /* it is in nobody's light who is on it */
+        return true; /* the floor never occludes its own points */
     const real *row = (const real *)builder->table[HD_TABLE_light_coordinates] +
                       (size_t)light * (size_t)builder->plane_count;
     real height = row[builder->plane_count - HD_FLOOR_PLANES];
     return lit->side > 0 ? height > R(0.0) : lit->side < 0 && height < R(0.0);
 }
 
-static int occlusion_mask(const HdBuilder *builder, int light, const Lit *lit) {
+static int occlusion_mask(const HdBuilder *builder, int light, const LitObject *lit) {
     const HdLightSource *source = &builder->sources[light];
     const LightSides *sides = (const LightSides *)builder->table[HD_TABLE_light_sides] +
                               (size_t)light * (size_t)builder->object_count;
     int nonoccluders = 0;
     for (int s = 0; s < builder->solid_count && s < HD_MASKED_OBJECTS; s++) {
-        /* Segments leave their own solid only to where the light is outside of it. */
+        /* A segment leaves its own solid only if the light is outside of a face. */
         bool cannot_occlude =
             s == lit->object ? sides[s].outside == 0
                              : solid_cannot_occlude(builder, source, lit->object, lit->radius, s);
@@ -311,13 +313,14 @@ static int occlusion_mask(const HdBuilder *builder, int light, const Lit *lit) {
     return nonoccluders;
 }
 
-/* Kernels measure nothing for what is beside the ways of all lights: the first number has no bit
-   that the number of some light has not. */
+/* Fills the masks of an object; the first one is the intersection of all lights' masks, since
+   kernels skip its objects altogether. */
 static void fill_occlusion_masks(const HdBuilder *builder, int object) {
     int *nonoccluders = (int *)builder->table[HD_TABLE_occlusion_masks] +
                         (size_t)object * ((size_t)builder->light_count + 1);
     double radius = radius_about(builder, object);
-    Lit lit = {object, radius, builder->has_floor ? side_of_floor(builder, object, radius) : 0};
+    LitObject lit = {object, radius,
+                     builder->has_floor ? side_of_floor(builder, object, radius) : 0};
     nonoccluders[0] = -1;
     for (int i = 0; i < builder->light_count; i++) {
         nonoccluders[i + 1] = occlusion_mask(builder, i, &lit);
@@ -325,9 +328,9 @@ static void fill_occlusion_masks(const HdBuilder *builder, int object) {
     }
 }
 
-/* ---- what reaches into a solid ---- */
+/* ---- isolated solids ---- */
 
-/* Objects with less between them might meet, for all that rounding does. */
+/* Returns the distance below which rounding may make two objects meet. */
 static double min_gap(const HdBuilder *builder, int a, int b) {
     return (radius_about(builder, a) + radius_about(builder, b)) * 1.0001 -
            circumradius(builder, a) - circumradius(builder, b);
@@ -341,7 +344,7 @@ static bool reaches_into(const HdBuilder *builder, int other, int solid) {
     if (builder->has_floor && other == builder->solid_count)
         return hd_floor_depth(&scene->solids[solid], &scene->floor, least) > least;
     double sum = circumradius(builder, solid) + circumradius(builder, other);
-    return !(hd_length(way_between(builder, solid, other)) - sum > -least);
+    return !(hd_length(vector_between(builder, solid, other)) - sum > -least);
 }
 
 static bool is_isolated(const HdBuilder *builder, int solid) {

@@ -30,7 +30,7 @@ static void fill_triangles(const HdBuilder *builder, const HdMesh *mesh, const H
     }
 }
 
-/* A triangle that lacks one of its corners' has none. */
+/* Fills the corners' places; -1 for a triangle that lacks one of them. */
 static void fill_corners(int *out, const HdMesh *mesh, int32_t (*const corners)[3], size_t first) {
     for (int i = 0; i < mesh->triangle_count; i++) {
         const int32_t *corner = corners[triangle_in_order(mesh, i)];
@@ -60,14 +60,14 @@ static void fill_normals_and_uvs(const HdBuilder *builder, const HdMesh *mesh,
 
 /* ---- hierarchies ---- */
 
-/* Leaves count their items from `first_item` on, nodes from `first_node` on. */
+/* Returns a child moved by `first_node`, or by `first_item` if it is a leaf. */
 static int move_child(int child, size_t first_node, size_t first_item) {
     if (child >= 0)
         return (int)first_node + child;
     return ~(~child + (int)first_item * (1 << HD_LEAF_ITEM_BITS));
 }
 
-/* `out` is the table. */
+/* Copies a hierarchy into the table `out`. */
 static void fill_nodes(MeshNode *out, const HdHierarchy *tree, size_t first_node,
                        size_t first_item) {
     out += first_node;
@@ -105,7 +105,7 @@ static void store_rows(real rows[3][3], const HdVec3 columns[3]) {
     }
 }
 
-/* The columns of the inverse; `to` are perpendicular to each other. */
+/* Computes the columns of the inverse; those of `to` are perpendicular to each other. */
 static void invert_columns(const HdVec3 to[3], HdVec3 back[3]) {
     HdVec3 rows[3];
     for (int i = 0; i < 3; i++)
@@ -115,9 +115,9 @@ static void invert_columns(const HdVec3 to[3], HdVec3 back[3]) {
     back[2] = hd_vec3(rows[0].z, rows[1].z, rows[2].z);
 }
 
-/* How far rounding may put a point of a mesh from it, with room to spare, in the mesh's own
-   coordinates, to whose origin it is relative. In the world it is rounded to the longest of the
-   axes, `to`, which the way back makes more of along the shortest. */
+/* Returns a generous bound, in mesh coordinates, of the distance that rounding may put between a
+   point and the mesh. World coordinates round relative to the longest axis of `to`; the inverse
+   enlarges that along the shortest. */
 static double contact_distance(const HdVec3 to[3]) {
     double precision = sizeof(real) == sizeof(double) ? 0x1p-52 : 0x1p-23;
     double x = hd_length(to[0]), y = hd_length(to[1]), z = hd_length(to[2]);
@@ -148,10 +148,10 @@ static void fill_instance(const HdBuilder *builder, Instance *out, int number,
     out->first_corner_uvs = mesh->uvs != NULL ? (int)first->corner_uvs : -1;
 }
 
-/* ---- skins ---- */
+/* ---- mesh materials ---- */
 
-/* Of 0 < x <= 1. Digit by digit, for library functions differ; an error of a late digit's square is
-   worth little. */
+/* Returns the optical density, in factors of two, of a share 0 < x <= 1. Digit by digit, as library
+   functions differ; errors of late digits matter little. */
 static double density_of_share(double x) {
     int exponent;
     double fraction = 2.0 * frexp(x, &exponent), digits = 0.0;
@@ -165,7 +165,7 @@ static double density_of_share(double x) {
     return (double)(1 - exponent) - digits;
 }
 
-/* A share of light in octaves, and what that leaves out. */
+/* Sets the optical density of a share of light, and the remainder. */
 static void set_filter(MeshMaterial *mesh_material, int side, int channel, double passes) {
     if (!(passes > 0.0)) {
         mesh_material->filter[side][channel] = HD_OPAQUE_DENSITY;
@@ -198,7 +198,7 @@ static void set_filters(MeshMaterial *mesh_material, const HdMaterial *material,
     }
 }
 
-/* Returns how many there are. */
+/* Fills the materials of an instance and returns their count. */
 static int fill_mesh_materials(const HdBuilder *builder, int number, MeshMaterial *mesh_materials,
                                Material *materials, int first) {
     const HdInstance *instance = &builder->scene->instances[number];
@@ -218,7 +218,7 @@ static int fill_mesh_materials(const HdBuilder *builder, int number, MeshMateria
     return mesh->material_count;
 }
 
-/* ---- all of it ---- */
+/* ---- all meshes ---- */
 
 void NAMED(hd_fill_meshes)(const HdBuilder *builder) {
     const HdScene *scene = builder->scene;

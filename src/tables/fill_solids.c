@@ -38,12 +38,12 @@ void NAMED(hd_fill_seen)(const HdBuilder *builder) {
     int mesh = builder->solid_count;
     if (builder->has_floor)
         store_seen(&objects[mesh++], &seen[scene->solid_count], most);
-    /* Triangles may stand for solids too. */
+    /* Meshes may include solids made of triangles. */
     if (mesh < builder->object_count)
         store_seen(&objects[mesh], &(HdSeen){most, most}, most);
 }
 
-/* As kernels do it, by squaring. */
+/* Returns x to the power n by squaring, as kernels do. */
 static double power(double x, int n) {
     double result = 1.0;
     for (; n > 0; n >>= 1) {
@@ -53,7 +53,7 @@ static double power(double x, int n) {
     return result;
 }
 
-/* The cosine whose power is 2^-60, rounded up: by halving intervals, as library functions differ.
+/* Returns the cosine whose power is 2^-60, rounded up; by bisection, as library functions differ.
  */
 static real min_highlight(int shininess) {
     double below = 0.0, above = 1.0;
@@ -83,7 +83,7 @@ void NAMED(hd_fill_material)(Material *out, const HdMaterial *material) {
 
 /* ---- solids ---- */
 
-/* -REAL_LARGE switches a pattern off: no point is nearer to a plane than that. */
+/* Returns a pattern's depth; -REAL_LARGE switches it off, as no point is nearer to a plane. */
 static real pattern_depth(double width, double sine_of_dihedral) {
     return width > 0.0 ? (real)(width * sine_of_dihedral) : -REAL_LARGE;
 }
@@ -185,7 +185,7 @@ static void fill_floor_map(FloorMap *map, const HdFloor *floor, const HdFloorFra
     map->g[1] = (real)(b[0] - b[1] + b[2] - b[3]);
     double determinant = (a[1] - a[0]) * (b[3] - b[0]) - (b[1] - b[0]) * (a[3] - a[0]);
     map->orientation = determinant < 0.0 ? R(-1.0) : R(1.0);
-    /* Off by so little a corner moves less than a float can tell. */
+    /* A smaller bend moves a corner by less than a float resolves. */
     double bend = fabs(a[0] - a[1] + a[2] - a[3]) + fabs(b[0] - b[1] + b[2] - b[3]);
     map->is_parallelogram = bend * bend < 1e-18 * fabs(determinant);
     if (map->is_parallelogram) {
@@ -216,7 +216,7 @@ void NAMED(hd_fill_floor)(const HdBuilder *builder) {
     map->picture = floor->texture.width > 0 ? builder->scene->picture_count : -1;
 }
 
-/* Row by row; the row and the column behind the last ones are the first ones again. */
+/* Stores texels row by row; the first column and row are repeated after the last ones. */
 static uint *fill_texels(uint *words, const HdTexture *texture) {
     for (int row = 0; row <= texture->height; row++)
         for (int column = 0; column <= texture->width; column++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Where meshes and their instances are, in the tables and in space, before anything is rounded. */
+/* The places of meshes and instances, in the tables and in space, before rounding. */
 #include "tables/builder.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@ const HdMaterial *hd_material_of(const HdInstance *instance, const HdMeshMateria
     return instance->has_material ? &instance->material : &material->material;
 }
 
-/* The rotation's columns. */
+/* Computes the columns of the rotation matrix. */
 static void rotation_of(const HdInstance *instance, HdVec3 columns[3]) {
     columns[0] = hd_vec3(1.0, 0.0, 0.0);
     columns[1] = hd_vec3(0.0, 1.0, 0.0);
@@ -42,7 +42,7 @@ HdPlacement hd_placement_of(const HdScene *scene, int number) {
     return to;
 }
 
-/* Half the sides of the box about a placed mesh. */
+/* Returns half the sides of the box about a placed mesh. */
 static HdVec3 reach_of(const HdMesh *mesh, const HdPlacement *to) {
     HdVec3 half = hd_scale(hd_sub(mesh->upper, mesh->lower), 0.5 / hd_mesh_half_side(mesh));
     const HdVec3 *c = to->columns;
@@ -64,7 +64,7 @@ double hd_box_meshes(const HdScene *scene, HdVec3 *centre) {
     return fmax(half.x, fmax(half.y, half.z));
 }
 
-/* Up to so many triangles trying each of them takes no longer (docs/performance.md). */
+/* Up to this count, testing each triangle is as fast (docs/performance.md). */
 enum { FEW_TRIANGLES = 8 };
 
 bool hd_has_hierarchy(const HdScene *scene, const HdMesh *mesh) {
@@ -116,7 +116,7 @@ static HdStatus count_meshes(HdBuilder *builder, HdError *error) {
 
 /* ---- over the instances ---- */
 
-/* In floats, a little too large. */
+/* Returns an instance's box in floats, slightly too large. */
 static HdBox box_of_instance(const HdBuilder *builder, int number) {
     HdPlacement to = hd_placement_of(builder->scene, number);
     HdVec3 middle = hd_sub(to.start, builder->mesh_centre);
@@ -132,7 +132,7 @@ static HdBox box_of_instance(const HdBuilder *builder, int number) {
     return box;
 }
 
-/* Fewer instances are tried one by one. */
+/* Kernels test fewer instances one by one. */
 enum { FEW_INSTANCES = 4 };
 
 static HdStatus build_top(HdBuilder *builder, HdError *error) {
@@ -159,7 +159,7 @@ static HdStatus build_top(HdBuilder *builder, HdError *error) {
     return status;
 }
 
-/* ---- all of it ---- */
+/* ---- all meshes ---- */
 
 HdStatus hd_builder_prepare_meshes(HdBuilder *builder, HdError *error) {
     if (builder->scene->instance_count == 0)

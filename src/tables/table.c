@@ -71,7 +71,7 @@ void hd_frame_tables_free(HdFrameTables *tables) {
 
 /* Memory */
 
-const char hd_budget_advice[] = "fewer triangles, a device with more memory or --backend c may do";
+const char hd_budget_advice[] = "try fewer triangles, a device with more memory, or --backend c";
 
 void hd_byte_text(double bytes, char out[HD_BYTE_TEXT_SIZE]) {
     static const char *const units[] = {"bytes", "kB", "MB", "GB", "TB"};

@@ -21,8 +21,8 @@ static double greatest(HdVec3 a) {
     return fmax(a.x, fmax(a.y, a.z));
 }
 
-/* The weights of rays that end, and those of the hits of a level, add up to at most 1 in each
-   channel; the greatest channel is taken at each of them. */
+/* The weights of rays that end, and those of all hits at one depth, add up to at most 1 in each
+   channel. The bound uses the maximum channel of each. */
 double hd_max_left_out(const HdScene *scene) {
     double rays = greatest(hd_max_radiance(scene));
     double lights = greatest(hd_surface_bound(scene));

@@ -75,7 +75,7 @@ else
     echo "not tested: OpenCL, for there is no device with strict arithmetic"
 fi
 expect_exit 0 "$hedron" render --backend c "${small[@]}" --frames 0 --math fast -o fast.data
-expect_stderr_contains 'plain C has strict arithmetic alone, so --math fast changes nothing there'
+expect_stderr_contains 'the C backend has only strict arithmetic, so --math fast has no effect on it'
 rm ./*.*
 
 # ---- a picture says what it is, and not where or when it was made

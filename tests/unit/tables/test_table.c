@@ -133,7 +133,7 @@ TEST(opencl_tells_what_is_too_large) {
     hd_scene_free(&scene);
     assert_int_equal(status, HD_UNAVAILABLE);
     expect_contains(error.message, "opencl: the scene's triangles need 300 MB in one buffer; ");
-    expect_contains(error.message, " allows 268 MB of its 1.07 GB; fewer triangles, ");
+    expect_contains(error.message, " allows 268 MB of its 1.07 GB; try fewer triangles, ");
 }
 
 TEST(textures_end_where_kernels_count_no_further) {
