@@ -1,28 +1,28 @@
 # SPDX-License-Identifier: MIT
-"""How often something fails at each of many places: a dot for each, the larger the more often."""
+"""How often something fails at each of many places: the more often, the larger the dot."""
 import math
 from dataclasses import dataclass
 
 from harness.chart.axes import draw_name
 from harness.chart.sheet import Chart
 
-LEAST = 1e-5  # a share that is drawn smallest
+LEAST = 1e-5  # share of the smallest dot
 SMALL, LARGE, NEVER = 2.0, 9.0, 1.6
 LEGEND = {"never": 0, "1 of 10 000": 1e-4, "1 of 100": 1e-2, "always": 1}
-NAMES = 0.28  # of a wide chart's width
+NAMES = 0.28  # share of a wide chart's width
 
 
 @dataclass(frozen=True)
 class Block:
     """Columns that belong together."""
     words: str
-    columns: list  # their names
+    columns: list  # names of the columns
 
 
 @dataclass(frozen=True)
 class Dots:
     name: str
-    shares: list  # for each block one for each column; None: not tried
+    shares: list  # a share for each column of each block; None: not tried
     is_ours: bool = False
 
 
@@ -39,7 +39,7 @@ def dot(sheet, x, y, share, told=""):
 
 
 def dots(about, title, caption, blocks, drawn):
-    """A chart, with names in bold of what is ours."""
+    """Returns a chart; `ours` has the names in bold."""
     def paint(sheet):
         sheet.y = sheet.legend([(lambda x, y, share=share: dot(sheet, x, y, share), words) for words, share in LEGEND.items()],
                                0, sheet.width, sheet.y)

@@ -15,7 +15,7 @@ from harness.run.program import NEVER, ROOT, Problem, Program
 from harness.store import result as results
 
 OWN = ("--backend", "--device", "--frames", "--stats", "--output", "-o")
-NEWS_SECONDS = 10  # between lines of progress if the error output is no terminal
+NEWS_SECONDS = 10  # seconds between lines of progress if the error output is no terminal
 
 
 class News:
@@ -47,8 +47,8 @@ class Bench(Command):
     repeats = (5, 2)  # rounds, slowly and quickly; None: no devices are timed
     parts = ()
     scene = "built-in scene"
-    chart_files = ()  # patterns of those of an earlier run
-    keys = {}  # of the result, beside those that all have
+    chart_files = ()  # patterns of an earlier run's files
+    keys = {}  # keys of the result, besides the common ones
 
     def add_options(self, parser):
         parser.set_defaults(quick=False, repeats=None, device=[])
@@ -94,37 +94,37 @@ class Bench(Command):
                                     measurements=self.plan.jobs, **dict.fromkeys(self.keys))
         files.remove_old(arguments.out, self.chart_files)
 
-    # ---- what a measurement says of itself
+    # ---- for subclasses
 
     def prepare(self):
-        """Puts jobs into the plan, and rows."""
+        """Adds jobs and rows to the plan."""
 
     def measure(self):
-        """False: it could not be."""
+        """Measures; returns False if it could not."""
         self.plan.run_all(self.arguments.repeats)
 
     def fill(self):
         """Fills in the result's own keys, and adds rows to the plan."""
 
     def compared(self):
-        """Whether all made the same pictures."""
+        """Returns whether all made the same pictures."""
         return self.plan.compared()
 
     def tables(self):
-        """[(title, rows, lines below)] beside the rows with targets."""
+        """Returns [(title, rows, lines below)] beside the rows with targets."""
         return []
 
     def charts(self):
-        """{name: chart}"""
+        """Returns {name: chart}."""
         return {}
 
-    # ---- what they share
+    # ---- common to all
 
     def wants(self, *parts):
         return not set(parts).isdisjoint(self.arguments.parts)
 
     def tried(self, what, measure, *arguments, **named):
-        """Returns what `measure` gives, or the reason why it failed."""
+        """Returns the result of `measure`, or the reason why it failed."""
         self.news(what)
         return self.plan.tried(measure, *arguments, **named)
 

@@ -21,7 +21,7 @@ def add(plan):
 
 
 def stage_seconds(run):
-    """Seconds of the stages of a run of one frame; None: of the building of kernels a warm run has nothing."""
+    """Returns seconds of the stages of a run of one frame; None: a warm run builds no kernels."""
     frame = run["frames"][0]
     seconds, began = frame["seconds"], {stage: value for stage, value in frame["began"].items() if value is not None}
     end = max(value + seconds[stage] for stage, value in began.items())
@@ -30,7 +30,7 @@ def stage_seconds(run):
 
 
 def stage_spreads(device):
-    """{stage: spread in milliseconds}"""
+    """Returns {stage: spread in milliseconds}."""
     warm, cold = [[run for entry in device.entries(series=series) for run in chosen_runs(entry)] for series in (WARM, COLD)]
     if not warm:
         return {}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The charts of bench/study stability: where methods fail, by the size of things and by their distance."""
+"""The charts of bench/study stability: failures of methods by the size of things and by their distance."""
 import math
 
 from harness.chart.dots import Block, Dots, dots
@@ -51,7 +51,7 @@ def words_of(counts, study, cases, what, told):
     return " ".join(said)
 
 
-# Of each chart: study, cases, what counts as wrong, title, end of the caption, methods that the caption names.
+# For each chart: study, cases, failure, title, end of the caption, methods that the caption names.
 PANELS = {
     "stability_crossings": (
         "crossings", EDGES, "crossings", "Rays at edges and corners of closed solids",
@@ -89,7 +89,7 @@ def precision(result):
 
 
 def charts(result):
-    """{name: chart}"""
+    """Returns {name: chart}."""
     studies = {each["study"] for each in result["counts"] or []}
     found = {name: blocks(result, *panel) for name, panel in PANELS.items() if panel[0] in studies}
     if result["precision"]:
