@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The list of devices, the choice among them, and what is said where one is missing. Which device a name means is a
-# matter of the unit tests (choice/test_devices).
+# The list of devices, the choice among them, and the message if one is missing. The unit tests cover device names
+# (choice/test_devices).
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 use_official_input
 
-section() { # NAME: what the list says below this backend
+section() { # NAME: the list below this backend
     awk -v name="$1" '/^[^ ]/ {inside = ($0 == name)} inside && /^ /' "$logs/stdout"
 }
 
@@ -42,7 +42,7 @@ done
 # ---- a backend or a device that is missing
 render=("$hedron" render "${small[@]}" --frames 0 -o picture.data)
 classic=("$hedron" "${small[@]}" --frames 0)
-once() { # WORDS: the sentence says it, but not over and over
+once() { # WORDS: the sentence has them, but not repeatedly
     expect_stderr_contains "$1"
     (($(grep -o -F -e "$1" "$logs/stderr" | wc -l) <= 1)) || fail "the sentence says '$1' more than once"
 }
@@ -51,7 +51,7 @@ once 'no OpenCL platform'
 once 'opencl: '
 expect_refusal 3 "${nothing[@]}" "${classic[@]}" --backend cuda <"$work/official.in"
 once 'cuda: '
-expect_refusal 3 "${nothing[@]}" "${classic[@]}" --backend cuda --cpu <"$work/official.in" # it means it
+expect_refusal 3 "${nothing[@]}" "${classic[@]}" --backend cuda --cpu <"$work/official.in" # --cpu is binding
 expect_refusal 3 "${nothing[@]}" "${render[@]}" --device nonsense
 once 'no OpenCL platform'
 expect_files .
