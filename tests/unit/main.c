@@ -17,7 +17,7 @@
 #include "wrapped.h"
 
 enum { MAX_FILES = 200, MAX_TESTS = 100, MAX_STARTS = 16, MAX_PROGRAMS = 8 };
-enum { PASSED = 42 }; /* the exit code of a file's process, which a stray exit(0) does not have */
+enum { PASSED = 42 }; /* the exit code of a file's process, different from a stray exit(0) */
 
 typedef struct File {
     const char *path;
@@ -110,11 +110,11 @@ typedef struct Timed {
     double begin_seconds;
 } Timed;
 
-static FILE *report; /* standard output, where that of the tests is not */
+static FILE *report; /* standard output, unless it is the tests' */
 
 static int set_up(void **state) {
     Timed *timed = *state;
-    timed->begin_seconds = real_hd_monotonic_seconds(); /* which no test replaces */
+    timed->begin_seconds = real_hd_monotonic_seconds(); /* never replaced by a test */
     return timed->test->setup_func != NULL ? timed->test->setup_func(&timed->state) : 0;
 }
 
@@ -131,7 +131,7 @@ static int tear_down(void **state) {
     return timed->test->teardown_func != NULL ? timed->test->teardown_func(&timed->state) : 0;
 }
 
-/* What cmocka and the tests of a file write: shown after a failure. */
+/* Output of cmocka and the tests of a file, shown after a failure. */
 static void show(int told) {
     char bytes[4096];
     ssize_t size;
@@ -187,7 +187,7 @@ static int run_chosen(File *file, int count, char **filters) {
                                    file->group_teardown);
 }
 
-/* Whether the tests of the file pass. */
+/* Returns whether the tests of the file pass. */
 static bool run_file(File *file, int count, char **filters) {
     int status = 0;
     const int told = memfd_create("told", 0);

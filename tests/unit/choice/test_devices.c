@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Which devices are taken, among those of a registry of this test's own: "near" and "far", whose
-   devices are plain C under other names, and "c". */
+/* The choice of devices from a registry of the test's own: "near" and "far", whose devices are
+   plain C under other names, and "c". */
 #define _XOPEN_SOURCE 700
 #include "choice/devices.h"
 
@@ -16,7 +16,7 @@ static HdJob job;
 static HdDeviceTeam team;
 static HdCandidates candidates;
 
-/* Each look at the clock takes a millisecond. */
+/* Each reading of the clock takes a millisecond. */
 static double read_clock(void) {
     static double now;
     return now += 1e-3;
@@ -27,7 +27,7 @@ REPLACE(hd_monotonic_seconds, read_clock)
 
 enum { NEAR, FAR, C, MOST = 40 };
 
-static bool is_missing; /* what is there cannot be opened */
+static bool is_missing; /* its devices cannot be opened */
 static struct {
     HdDevice list[MOST];
     int count, asked;
@@ -124,9 +124,9 @@ static int end(void **state) {
     return 0;
 }
 
-/* ---- what comes of it ---- */
+/* ---- the result ---- */
 
-/* Of what came last: "near:0 far:1"; or the message. */
+/* Returns the last result: "near:0 far:1"; or the message. */
 static char names[1024];
 
 static void add_name(int number, const HdDevice *device) {
@@ -258,7 +258,7 @@ TEST(a_gpu_that_is_passed_over_is_told) {
     assert_string_equal(team.note + sizeof passed - 1,
                         "; no suitable GPU was found; tracing with c on Processor");
     expect_contains(team.why, "no GPU can do this; passed over: Broken: no compiler is here; ");
-    /* Whose own wish rules them out need not be told. */
+    /* A device that the user's own selection excludes need not be reported. */
     options.lanes = 4;
     expect_found("c:0", .kind = HD_WANT_ANY);
     assert_string_equal(candidates.passed, "");
@@ -298,7 +298,7 @@ TEST(a_list_names_each_once) {
 
 TEST(more_devices_than_there_is_room_for) {
     char list[8 * HD_MAX_WORKERS + 8] = "near:0";
-    near.needs_no_driver = far.needs_no_driver = true; /* there is no verdict to read */
+    near.needs_no_driver = far.needs_no_driver = true; /* there is no result to read */
     for (int i = 0; i < MOST; i++)
         add(NEAR, "Card", 1 + i % 20), add(FAR, "Chip", 1);
     found_by((HdDeviceSelection){.backend = "near"}, HD_OK);

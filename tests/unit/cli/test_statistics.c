@@ -38,8 +38,8 @@ static HdStatus open_statistics(HdStatistics *statistics, const char *path, HdEr
     return hd_statistics_open(statistics, error);
 }
 
-/* Writes one line about a device of this name, and reads it back: it is what is expected, but for
-   the name and the longest launch. */
+/* Writes one line about a device of this name, and reads it back: it matches except for the name
+   and the longest launch. */
 static void expect_line(const char *name, const char *told, const char *longest_ms) {
     HdStatistics statistics;
     HdError error;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What kernels are called and specialised by. */
+/* Names and definitions that specialise kernels. */
 #include "device/kernel_source.h"
 
 #include <limits.h>
@@ -25,7 +25,7 @@ TEST(registers_suit_the_card_the_block_and_the_scene) {
          0,
          128},
         {{.precision = HD_PRECISION_DOUBLE, .group_size = 1024}, 61, 0, 64},
-        /* All threads of a block must find room. */
+        /* All threads of a block must fit. */
         {{.group_size = 512}, 90, 0, 128},
         {{.group_size = 544}, 90, 0, 120},
         {{.group_size = 1024}, 90, 0, 64},

@@ -30,7 +30,7 @@ static int encode(int top, float value) {
 }
 
 /* Each code begins at the float above its threshold, and another system's arithmetic must not give
-   other pictures: the hash is that of where they begin, and of what they are decoded to. */
+   other pictures. The hash covers the thresholds and the decoded values. */
 TEST(codes_are_rounded_to_the_nearest) {
     static const int tops[] = {255, 65535};
     static uint16_t decoded[65536];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Of PNG files that go on and on no more is read than pixels may need. */
+/* Reading an endless PNG file stops at the bytes that its pixels may need. */
 #define _XOPEN_SOURCE 700
 
 #include <stdio.h>
@@ -61,7 +61,7 @@ static HdStatus read_pixel(FILE *file, float rgb[3]) {
     return status;
 }
 
-/* Some MiB beside the pixels do, but a file without end is not read to it. */
+/* Some MiB besides the pixels are accepted, but a file without end is not read to it. */
 TEST(surplus_bytes_have_a_limit) {
     float rgb[3] = {0};
     for (int i = 0; i < 3; i++) {

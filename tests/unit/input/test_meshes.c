@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Meshes of scene files: which entries share one, their normals and textures, and what is wrong. */
+/* Meshes of scene files: sharing between entries, their normals and textures, and errors. */
 #define _XOPEN_SOURCE 700
 
 #include "input/files.h"
@@ -45,7 +45,7 @@ static void expect_problems(const char *text, const char *expected) {
     hd_scene_file_free(&file);
 }
 
-/* At the first corner, which both triangles have. */
+/* Returns the normal at the first corner, which both triangles have. */
 static HdVec3 first_normal(const HdMesh *mesh) {
     return hd_normalize(mesh->normals[mesh->corner_normals[0][0]]);
 }
@@ -151,7 +151,7 @@ TEST(test_textures) {
     hd_scene_file_free(&file);
 }
 
-/* A material that glows is light enough. */
+/* A glowing material is bright enough. */
 TEST(test_light_of_meshes) {
     static const struct {
         const char *library, *entry;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Scene files that are wrong: each is refused, with a message that says what and where, in the
-   words of people who are used to other programs, too. */
+/* Wrong scene files: each is refused, with a message that says what and where, also in the terms of
+   other programs. */
 #include "scene_text.h"
 
 static HdSceneFile file;
@@ -10,7 +10,7 @@ static HdError error;
 
 /* ---- one value of the rich scene ---- */
 
-/* The message is "a.json: --set CHANGE: ", what the format makes, and perhaps more. */
+/* Expects the message "a.json: --set CHANGE: ", then the formatted text, and perhaps more. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
@@ -27,7 +27,7 @@ expect_change_refused(HdSceneChange change, const char *format, ...) {
     assert_null(strchr(told, '\n'));
 }
 
-/* A field of numbers: both ends of its range, and what lies just outside. */
+/* A field of numbers: both ends of its range, and values just outside. */
 static const struct Range {
     const char *path, *low, *high, *below, *above, *expected;
 } ranges[] = {
@@ -78,11 +78,11 @@ TEST(test_numbers) {
     }
 }
 
-/* What the message says behind the change and its path, or, where that is at fault, its part. */
+/* The message after the change and its path, or, if that is at fault, its part. */
 static const struct {
     const char *path, *value, *rest;
 } wrong[] = {
-    /* types, and what is no choice */
+    /* types, and values that are no choice */
     {"hedron", "2", "is 2, expected 1"},
     {"camera.eye", "3",
      "is 3, expected three numbers, [x, y, z], or an object with the path on a cylinder"},
@@ -106,14 +106,14 @@ static const struct {
     {"floor.corners", "3", "is 3, expected an array of vectors"},
     {"materials", "3", "is 3, expected an object with a material for each name"},
     {"image.width", "12345678901234567890", "is 1.2345678901234567e19, expected an integer from"},
-    /* numbers of elements; keys that are missing or too many */
+    /* numbers of elements; keys that are missing or surplus */
     {"solids[1].edge_lights.colours", "[]", "has 0 elements, expected 1 to 30 elements"},
     {"floor.corners", "[[0,0,0],[1,0,0],[1,1,0]]", "has 3 elements, expected 4 elements"},
     {"floor.texture.x", "1", "is an unknown key, expected \"file\" or \"curve\""},
     {"lights[0].falloff_end", "3", "is given beside \"falloff_distance\", expected only one"},
     {"meshes", "[{}]", "[0].file is missing, expected a string that is not empty"},
     {"image", "{\"$comment\": 1}", "[\"$comment\"] is 1, expected a string"},
-    /* a default that stands in for a wrong value makes nothing else look wrong */
+    /* a default that replaces a wrong value causes no further error */
     {"solids[1].circumradius", "-1", "is -1, expected a number from 1e-12 to 1e12"},
     {"solids[1].centre", "[1,2,\"3\"]", "[2] is a string, \"3\", expected a number from -1e12"},
     {"floor.corners", "[[0,0,0],[0,0,0],[0,0,0],[0,0,null]]", "[3][2] is null, expected a number"},
@@ -174,7 +174,7 @@ TEST(test_changes_that_are_not_understood) {
 }
 
 TEST(test_keys_that_are_called_otherwise) {
-    /* Of an object: what is said and what is meant, in turn. */
+    /* Pairs of an object's message and the right word. */
     static const char *const words[][2] = {
         {"camera.", "fov field_of_view position eye look_at target"},
         {"solids[0].", "position centre center centre radius circumradius type kind"},
@@ -201,12 +201,12 @@ TEST(test_keys_that_are_called_otherwise) {
     }
 }
 
-/* ---- whole texts, and what values must be to each other ---- */
+/* ---- whole texts, and relations between values ---- */
 
 static const struct {
     const char *text;
     HdSceneChange change;
-    const char *message; /* from its begin on, behind "a.json" */
+    const char *message; /* from its begin on, after "a.json" */
 } refused[] = {
     {"", NULL, " is empty, expected a scene in JSON"},
     {"{\"hedron\": 1,\n \"hedron\": 1}", NULL, ":2:9: duplicate object key"},
@@ -240,7 +240,7 @@ static const struct {
      "expected a number from 0 to 1"},
     {SMALL ", \"materials\": {\"a[0]=b\": {}}}", "materials.\"a[0]=b\".diffuse=-1",
      ": --set materials.\"a[0]=b\".diffuse=-1: materials[\"a[0]=b\"].diffuse is -1"},
-    /* the sum of a material's shares is told once, however many wear it */
+    /* the sum of a material's shares is reported once, however many use it */
     {SMALL ", \"materials\": {\"m\": {\"reflection\": 0.5}}, \"solids\": [\n"
            "{\"kind\": \"cube\", \"material\": \"m\"}, {\"kind\": \"cube\", \"material\": \"m\"}]}",
      "materials.m.transmission=0.75",
@@ -313,7 +313,7 @@ TEST(test_outputs) {
     }
 }
 
-/* What is wrong with the whole and with files is told along with the rest. */
+/* Errors of the whole and of files are reported along with the rest. */
 TEST(test_problems_of_all_kinds) {
     static const HdSceneChange changes[] = {"materials.glass.transmission=0.99", "image.width=0",
                                             "floor.texture.file=no such.png"};
@@ -384,9 +384,9 @@ TEST(test_too_many_elements) {
     }
 }
 
-/* ---- what is fine, but seldom meant ---- */
+/* ---- valid but unusual settings ---- */
 
-/* The notes on a scene, a line for each. */
+/* Returns the notes on a scene, a line for each. */
 static const char *notes_on(const char *text, HdSceneChange change) {
     static HdProblems notes;
     notes = (HdProblems){.count = 0};

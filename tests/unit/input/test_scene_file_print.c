@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What is written reads back as the same scene, and the schema is the committed one. */
+/* Printed scenes read back equal, and the schema is the committed one. */
 #define _XOPEN_SOURCE 700
 
 #include "input/write.h"
@@ -17,7 +17,7 @@ static HdStatus print_first(FILE *out, HdError *told) {
     return hd_scene_file_print(out, &first, told);
 }
 
-/* The caller frees it. */
+/* Prints a scene; the caller frees the text. */
 static char *printed(Print *print) {
     char *text = NULL;
     size_t size;
@@ -42,7 +42,7 @@ static char *expect_round_trip(void) {
 
 TEST(test_values_that_are_hard_to_write) {
     static const char *const changes[] = {
-        "image.width=320", /* as it is */
+        "image.width=320", /* unchanged */
         "camera.eye.r0=-0.0",
         "camera.eye.z0=0.1",
         "camera.eye.r_phase=5e-324",
@@ -70,7 +70,7 @@ TEST(test_values_that_are_hard_to_write) {
     for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
         expect_scene(&first, rich_text, changes[i]);
         char *text = expect_round_trip();
-        /* Materials that are alike have one name. */
+        /* Equal materials have one name. */
         if (i == 0)
             expect_contains(text, "\n    \"solid_2\": {\n      \"diffuse\": 0.125\n    },\n"
                                   "    \"rim_2\": {}\n  },");
@@ -102,7 +102,7 @@ static double random_light(void) {
     return ldexp(share, (int)(random_bits() % 44) - 4);
 }
 
-/* The product of colour and intensity must come out to the bit. */
+/* The product of colour and intensity must be exact to the bit. */
 TEST(test_intensities_of_lights) {
     enum { COUNT = 5000 };
     expect_scene(&first, least_text, NULL);
@@ -141,7 +141,7 @@ TEST(test_a_stream_that_fails) {
     hd_scene_file_free(&first);
 }
 
-/* Every field with its range is in it. */
+/* It has every field with its range. */
 TEST(test_committed_schema) {
     static char path[4096], committed[1 << 20];
     snprintf(path, sizeof path, "%s/%s", unit_project, SCHEMA);

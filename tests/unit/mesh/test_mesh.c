@@ -5,7 +5,7 @@
 #include "mesh/mesh.h"
 #include "unit_test.h"
 
-/* A copy that the mesh may free. */
+/* Returns a copy that the mesh may free. */
 static void *copy(const void *bytes, size_t size) {
     void *result = malloc(size);
     assert_non_null(result);
@@ -29,14 +29,14 @@ TEST(triangles_without_an_area_are_told) {
         {true, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}},
         {false, {{0, 0, 0}, {1, 0, 0}, {1, 0, 0}}},
         {false, {{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}},
-        /* On a line but for the rounding of tenths and thirds. */
+        /* Collinear except for the rounding of tenths and thirds. */
         {false, {{0.1, 0.2, 0.3}, {0.3, 0.6, 0.9}, {0.7, 1.4, 2.1}}},
         /* Thin and small ones have an area, at any scale. */
         {true, {{0, 0, 0}, {1e-12, 0, 0}, {0.5e-12, 1e-21, 0}}},
         {false, {{0, 0, 0}, {1e-12, 0, 0}, {0.5e-12, 1e-29, 0}}},
         {true, {{0, 0, 0}, {1e12, 0, 0}, {0.5e12, 1e3, 0}}},
         {false, {{0, 0, 0}, {1e12, 0, 0}, {0.5e12, 1e-5, 0}}},
-        /* Far from the origin less of an area is certain. */
+        /* Far from the origin the area is less certain. */
         {true, {{1e12, 0, 0}, {1e12 + 1, 0, 0}, {1e12, 1, 0}}},
         {false, {{1e12, 0, 0}, {1e12 + 1, 0, 0}, {1e12, 1e-5, 0}}},
     };
@@ -156,7 +156,7 @@ static void expect_normals(const HdMesh *mesh, int count, bool is_smooth) {
 TEST(smoothing_weights_by_angle_and_leaves_creases) {
     HdMesh mesh = make_cube();
     static const double creases[] = {91.0, 89.0, 180.0, 0.0};
-    for (int i = 0; i < 4; i++) { /* but for the first, over normals that are there */
+    for (int i = 0; i < 4; i++) { /* except the first, over the existing normals */
         smooth(&mesh, creases[i]);
         expect_normals(&mesh, i % 2 == 0 ? 8 : 24, i % 2 == 0);
     }

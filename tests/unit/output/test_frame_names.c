@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A name tells its frame exactly where the frame has that name. */
+/* A name identifies its frame exactly if the frame has that name. */
 #include <string.h>
 
 #include "output/outputs.h"

@@ -26,7 +26,7 @@ static struct {
     HdFrameTimes last;
 } told;
 
-/* Its first picture is there already. */
+/* Notes the frame, and whether its first picture already exists. */
 static HdStatus note_stored(void *context, const HdStoredFrame *stored, HdError *failure) {
     char name[HD_MAX_PATH];
     assert_null(context);
@@ -43,7 +43,7 @@ static HdStatus start(const char *first, const char *second, int fails_at, bool 
     const HdOutputStyle style = {{HD_CURVE_SRGB, 8}, 30};
     const char *const names[] = {first, second};
     hd_resume_free(&resume);
-    hd_known_folders_forget(); /* that of another test is gone */
+    hd_known_folders_forget(); /* removes another test's file */
     memset(&told, 0, sizeof told);
     told.fails_at = fails_at;
     told.is_as_expected = true;
@@ -67,7 +67,7 @@ static int take(void) {
     return hd_stages_claim(hd_frame_store_stages(store), &claimer, true);
 }
 
-/* Gives the frame once it has room, or until nobody wants it any more. */
+/* Submits the frame once it fits, or until nobody wants it any more. */
 static void give(int place) {
     HdFrameTimes *times;
     if (!hd_stages_wait(hd_frame_store_stages(store), place))
@@ -91,13 +91,13 @@ static HdStatus store_frames(const char *first, const char *second, int fails_at
     return status;
 }
 
-/* The folder has as many files, which note_stored saw, and nothing else; it is removed. */
+/* The folder has as many files as note_stored saw, and nothing else; it is removed. */
 static void expect_files(int count) {
     assert_int_equal(count_entries("run"), count);
     assert_int_equal(remove_folder("run"), 0);
 }
 
-/* Of a frame whose second picture cannot be written the first is not there either. */
+/* A frame whose second picture cannot be written has no first one either. */
 TEST(a_picture_that_cannot_be_written_ends_it) {
     mkdir("other", 0777);
     mkdir("other/107.data", 0777);
@@ -135,7 +135,7 @@ static void check_film(void) {
     assert_int_equal(remove("films/film.mkv"), 0);
 }
 
-/* Of a run that goes on, frames that are finished are read back. */
+/* A continued run reads finished frames back. */
 TEST(films_and_pictures_go_side_by_side) {
     struct stat kept;
     fake_films(WIDTH * HEIGHT * 4, 0);

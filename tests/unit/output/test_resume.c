@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Which frames count as finished, and what is read back of them. */
+/* The frames that count as finished, and the values read back of them. */
 #define _XOPEN_SOURCE 700
 
 #include <stdlib.h>
@@ -102,7 +102,7 @@ TEST(what_must_be_rendered_anyway_is_not) {
     } cases[] = {{"c/%d.png", "c/%d.pfm", 8, 0},
                  {"c/%d.png", "c/film.mkv", 8, FRAMES},
                  {"c/%d.png", "c/film.mkv", 16, 0},
-                 {"c/%d.png", "d/%d.png", 8, 1}, /* all of a frame's must be there */
+                 {"c/%d.png", "d/%d.png", 8, 1}, /* all files of a frame must exist */
                  {"c/film.mkv", NULL, 8, 0},
                  {"c/2.png", NULL, 8, 0}};
     HdOutputPlan plan = write_frames("c/%d.png");

@@ -10,14 +10,14 @@
 #include "output/stages.h"
 #include "unit_test.h"
 
-/* A stage that waits for another one for ever fails by this. */
+/* A stage that waits for another one for ever fails by this timeout. */
 enum { ITEMS = 200, ROOM = 7 };
 
 typedef struct Probe {
     int threads;
     int fails_at, fails_late_at; /* -1: never */
-    int gathers;                 /* as many items are at work at once before one goes on */
-    const struct Probe *before;  /* what must be done with an item first; NULL: nothing */
+    int gathers;                 /* items that must be at work at once before one continues */
+    const struct Probe *before;  /* the stage that must precede; NULL: none */
     atomic_int begun, ended, at_work;
     atomic_int wrong; /* items that came too early, out of order, or too many at once */
     atomic_bool done[ITEMS];
@@ -47,7 +47,7 @@ static HdStatus work(void *context, int item, HdError *failure) {
     return fails ? hd_fail(failure, HD_FAILED, "item %d failed", item) : HD_OK;
 }
 
-/* A conversion, then a film beside pictures, then what needs them both. */
+/* A conversion, then a film beside pictures, then a stage that needs both. */
 static Probe probes[4];
 static const int threads[4] = {1, 1, 3, 1};
 static const unsigned after[4] = {0, 1, 0, 7};
@@ -55,7 +55,7 @@ static HdStages *stages;
 static int capacity;
 static const bool none_ready[ITEMS];
 
-/* Faults may be put into the probes afterwards, before items are given. */
+/* Faults may be added to the probes afterwards, before items are submitted. */
 static void start(const bool *ready, int room_of_stages) {
     HdStage list[4];
     for (int i = 0; i < 4; i++) {
@@ -71,7 +71,7 @@ static void start(const bool *ready, int room_of_stages) {
 
 static const HdClaimer anybody = {.wants = NULL};
 
-/* Gives items from that one on until all are given or one failed; returns how many are. */
+/* Submits items from that one on until all are submitted or one failed; returns their number. */
 static int give_items_from(int first) {
     int given = first, item;
     while ((item = hd_stages_claim(stages, &anybody, true)) >= 0) {
@@ -90,7 +90,7 @@ static int first_not_done(const Probe *probe) {
     return item;
 }
 
-/* Items before that one went through all stages, and none after it came to the last one. */
+/* Items before that one passed all stages, and none after it reached the last one. */
 static void expect_end(HdStatus status, int done) {
     assert_int_equal(hd_stages_end(stages, &error), status);
     for (int i = 0; i < 4; i++) {
@@ -101,8 +101,7 @@ static void expect_end(HdStatus status, int done) {
     assert_true(probes[3].begun <= done + (status != HD_OK));
 }
 
-/* None of them is there without anybody who makes it, or every third one and many at the end, or
-   all. */
+/* Nobody makes any of them, or every third one and many at the end, or all. */
 TEST(every_item_goes_through_every_stage) {
     static const int rooms[] = {ROOM, 1, ITEMS};
     static bool ready[ITEMS];
@@ -135,7 +134,8 @@ TEST(a_failure_of_any_stage_leaves_the_items_before_it) {
         snprintf(expected, sizeof expected, "item %d failed", item);
         assert_string_equal(error.message, expected);
     }
-    /* One that fails while an earlier one is still at work does not hide that one's failure. */
+    /* An item that fails while an earlier one is at work does not hide the earlier one's
+       failure. */
     start(none_ready, ROOM);
     probes[0].fails_at = 5;
     probes[2].fails_late_at = 3;
@@ -144,7 +144,7 @@ TEST(a_failure_of_any_stage_leaves_the_items_before_it) {
     assert_string_equal(error.message, "item 3 failed");
 }
 
-/* ---- several takers ---- */
+/* ---- several workers ---- */
 
 static void take_in_order(int first, int count) {
     for (int i = first; i < first + count; i++)
@@ -176,7 +176,7 @@ TEST(nobody_takes_what_has_no_room) {
     assert_int_equal(hd_stages_claim(stages, &singles, false), ROOM + 1);
     assert_int_equal(hd_stages_claim(stages, &singles, false), -1);
     hd_stages_submit(stages, 0);
-    assert_true(hd_stages_wait(stages, ROOM)); /* once the first one is gone */
+    assert_true(hd_stages_wait(stages, ROOM)); /* after the first one is gone */
     assert_int_equal(hd_stages_claim(stages, &singles, false), ROOM + 2);
     expect_end(HD_OK, 1);
 }
@@ -202,7 +202,7 @@ static void *wait_for_item(void *context) {
     return NULL;
 }
 
-/* Starts somebody who waits, and wants nothing yet. */
+/* Starts a thread that waits, and wants nothing yet. */
 static void start_waiting(Waiting *waiting) {
     *waiting = (Waiting){.item = -2};
     assert_int_equal(pthread_create(&waiting->thread, NULL, wait_for_item, waiting), 0);
@@ -222,13 +222,13 @@ TEST(takers_that_wait_are_asked_again) {
     waiting.wants = true;
     hd_stages_wake(stages);
     expect_waiting_gets(&waiting, 0);
-    /* Something is given back. */
+    /* An item is released. */
     start_waiting(&waiting);
     assert_int_equal(waiting.left, ROOM); /* items that it may choose from */
     waiting.wants = true;
     hd_stages_release(stages, 0);
     expect_waiting_gets(&waiting, 0);
-    /* Nothing will come any more. */
+    /* No item will come any more. */
     start_waiting(&waiting);
     hd_stages_stop(stages);
     expect_waiting_gets(&waiting, -1);
@@ -237,7 +237,8 @@ TEST(takers_that_wait_are_asked_again) {
     assert_int_equal(probes[0].begun, 0);
 }
 
-/* Items before the one that failed are still wanted, and nobody leaves before they are given. */
+/* Items before the one that failed are still wanted, and nobody leaves before they are
+   submitted. */
 TEST(what_comes_before_a_failure_is_wanted) {
     Waiting waiting;
     HdError failure;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The order in which bytes, names and words of frames are on the disk and told. */
+/* The order in which bytes, names and reports of frames reach the disk and the user. */
 #define _XOPEN_SOURCE   700
 #define _DEFAULT_SOURCE /* syscall */
 #include <errno.h>
@@ -16,7 +16,7 @@ static int numbers[FRAMES], missing[FRAMES - 1];
 static const HdFrameList frames = {.frames = numbers, .count = FRAMES};
 static HdOutputPlan outputs;
 
-/* What came to the disk, by frame; the last stage's thread alone notes it. */
+/* Events on the disk, by frame; only the last stage's thread notes them. */
 static struct {
     bool bytes[FRAMES], name[FRAMES];
     int syncs, told;
@@ -122,13 +122,13 @@ TEST(bytes_come_before_names_and_names_before_words) {
     assert_int_equal(done.syncs, 0);
 }
 
-/* Frames before the one that failed are stored; of later ones nothing is left, but where telling
-   failed, those that waited with it have their names. */
+/* Frames before the one that failed are stored; later ones leave nothing. If reporting failed,
+   those that waited with it have their names. */
 TEST(a_failure_ends_it_there) {
     static const struct {
         int sync_fails, name_is_taken, telling_fails;
         const char *why;
-        int told, there; /* negative: as many at least */
+        int told, there; /* negative: at least as many */
     } cases[] = {
         {6, NOBODY, NOBODY, "cannot write out/6.data to the disk: Input/output error", 6, 6},
         {FOLDER, NOBODY, NOBODY, "cannot write out to the disk: Input/output error", 0, -2},
@@ -146,7 +146,7 @@ TEST(a_failure_ends_it_there) {
         for (int k = 0; k < FRAMES; k++)
             there += is_there(k);
         assert_int_equal(count_entries("out"), there);
-        /* The finished one is there in any case. */
+        /* The finished one always exists. */
         if (cases[i].there >= 0)
             assert_int_equal(there, cases[i].there);
         else

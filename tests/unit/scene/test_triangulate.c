@@ -54,7 +54,7 @@ static void add_floor(void) {
                             .texture = texture_of(100)};
 }
 
-/* The scene's own come behind `made` others, and name each other as before. */
+/* The scene's own come after `made` others, and name each other as before. */
 static void expect_own(int made) {
     assert_int_equal(scene.mesh_count, made + 2);
     assert_int_equal(scene.instance_count, made + 3);

@@ -43,7 +43,8 @@ static void expect_end(bool is_good, const char *words) {
     expect_none();
 }
 
-/* What was ignored, such as by nohup, stays ignored; our own handling of lost readers does not. */
+/* Signals that were ignored, such as by nohup, stay ignored; our own handling of lost readers does
+   not. */
 TEST(it_tells_how_it_ended_and_what_was_said) {
     static const struct {
         const char *script, *how, *said;
@@ -73,7 +74,7 @@ TEST(what_is_sent_comes_back) {
     assert_non_null(bytes);
     for (size_t i = 0; i < SIZE; i++)
         bytes[i] = (uint8_t)('a' + i % 26);
-    run("tee copy; echo ' end' >&2; echo; echo ' '"); /* it says as much as it hears */
+    run("tee copy; echo ' end' >&2; echo; echo ' '"); /* it writes as much as it reads */
     assert_true(hd_child_send(&child, bytes, SIZE, 60000));
     expect_end(true, "exit code 0");
     assert_int_equal(child.said_length, HD_CHILD_MAX_SAID);
@@ -89,7 +90,7 @@ TEST(what_is_sent_comes_back) {
     free(bytes);
 }
 
-/* The look comes every 0.2 s. */
+/* The check comes every 0.2 s. */
 TEST(one_that_hangs_is_killed) {
     static const uint8_t bytes[1 << 20];
     run("sleep 1000");
@@ -103,7 +104,7 @@ TEST(one_that_hangs_is_killed) {
     expect_none();
 }
 
-/* It takes in, then it speaks: each for longer than the patience, but with shorter rests. */
+/* It reads, then it writes: each for longer than the timeout, but with shorter pauses. */
 TEST(one_that_works_is_waited_for) {
     static const uint8_t bytes[12 << 17];
     run("for i in 1 2 3 4 5 6; do sleep 0.22; head -c 262144 >/dev/null; done; "

@@ -9,8 +9,7 @@
 #include "system/path.h"
 #include "test_folder.h"
 
-/* As many as all outputs of a run have under way, but for one that was removed: its place stays
- * taken. */
+/* As many as all outputs of a run have in flight, except a removed one: its place stays taken. */
 enum { FILES = 32 * HD_MAX_OUTPUTS - 1, GROUPS = 2 * HD_MAX_OUTPUTS };
 
 static char *name_of(int i) {

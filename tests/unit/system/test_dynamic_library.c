@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* With the library of the test itself, which is there. */
+/* Loads the library of the test itself, which exists. */
 #define _POSIX_C_SOURCE 200809L
 #include "system/dynamic_library.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Signals, each in a process of its own, and how that ends. */
+/* Signals, each in a process of its own, and its end. */
 #define _XOPEN_SOURCE 700
 #include "system/interrupt.h"
 
@@ -14,7 +14,7 @@
 
 static HdError error;
 
-/* ---- what processes do ---- */
+/* ---- actions of processes ---- */
 
 static void pass(double seconds) {
     struct timespec rest = {.tv_nsec = (long)(1e9 * seconds)};
@@ -47,7 +47,7 @@ static void take_two_at_once(void) {
     _exit(hd_interrupt_signal());
 }
 
-/* The main thread handles none, as if a file server that is gone had it. */
+/* The main thread handles none, as if a lost file server blocked it. */
 static void be_deaf(void) {
     sigset_t all;
     sigfillset(&all);
@@ -105,13 +105,13 @@ static void look_at_others(void) {
     _exit(hd_interrupt_signal());
 }
 
-/* ---- how they end ---- */
+/* ---- their ends ---- */
 
-static char said[1000]; /* what the last one wrote to standard error */
+static char said[1000]; /* the last one's output on standard error */
 static double took;     /* its seconds */
 
 static void be(void (*act)(void), const int errors[2]) {
-    signal(SIGCHLD, SIG_IGN); /* a careless parent's */
+    signal(SIGCHLD, SIG_IGN); /* as from a careless parent */
     if (act == look_at_others)
         signal(SIGHUP, SIG_IGN); /* as by nohup */
     dup2(errors[1], STDERR_FILENO);
@@ -123,7 +123,7 @@ static void be(void (*act)(void), const int errors[2]) {
     _exit(98);
 }
 
-/* How a process that does this ends: its exit code, or minus the signal. */
+/* Returns the end of a process with this action: its exit code, or minus the signal. */
 static int outcome_of(void (*act)(void)) {
     int errors[2], status = 0;
     size_t size = 0;
@@ -195,7 +195,7 @@ TEST(the_patience_is_a_time) {
     }
 }
 
-/* Shells start what runs in the background with some of these ignored. */
+/* Shells start background processes with some of these ignored. */
 static int begin(void **state) {
     (void)state;
     unsetenv("HEDRON_STOP_PATIENCE");

@@ -39,8 +39,7 @@ static const Light *compile(int lanes) {
 }
 
 /* Runs are of one cluster each. With one lane they are long enough, and within their spheres. With
-   several lanes all lights are in runs, which are as long as they can be and not judged by
-   themselves. */
+   several lanes all lights are in runs of maximum length, without culling of their own. */
 TEST(runs_are_of_one_cluster_and_within_their_sphere) {
     for (int lanes = 1; lanes <= 8; lanes += 7) {
         const Light *lights = compile(lanes);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The driver: the fake one (tests/fake_cuda), one that lacks functions, none; each in a process of
-   its own, which the loader tells where to look. */
+   its own, with its own path for the loader. */
 #define _XOPEN_SOURCE 700
 #include "device/cuda/api.h"
 
@@ -16,7 +16,7 @@ static char said[4096];
 
 /* ---- loading ---- */
 
-/* The program again: loads the driver, tells what came of it, and ends with the status. */
+/* Loads the driver in a process of this program, prints the result, and ends with the status. */
 static int load(void) {
     HdDevice device;
     int count;
@@ -88,7 +88,7 @@ TEST(what_may_help_a_driver_to_start_is_told) {
 
 /* ---- errors ---- */
 
-static HdCuResult outcome; /* of asking for words */
+static HdCuResult outcome; /* asking for words */
 static const char *word;
 
 static HdCuResult tell(HdCuResult code, const char **text) {
@@ -125,7 +125,7 @@ TEST(what_a_device_does_not_survive_is_a_loss) {
             is_loss = is_loss || losses[i] == code;
         expect_failure("cuLaunchKernel", code, is_loss, "cuLaunchKernel failed");
     }
-    /* Another program has the device for itself. */
+    /* Another program has exclusive use of the device. */
     expect_failure("cuDevicePrimaryCtxRetain", 46, false, "cuDevicePrimaryCtxRetain failed");
     expect_failure("cuDevicePrimaryCtxRetain", 700, true, "cuDevicePrimaryCtxRetain failed");
 }

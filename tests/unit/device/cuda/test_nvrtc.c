@@ -28,7 +28,7 @@ static int end(void **state) {
     return remove_folder("there");
 }
 
-/* ---- what is remembered: it is not loaded, which could not be ---- */
+/* ---- a remembered version is not loaded: this one could not be ---- */
 
 static void expect_checked(int arch, int driver_major, HdStatus expected) {
     assert_int_equal(hd_nvrtc_check("some device", arch, driver_major, &error), expected);
@@ -58,7 +58,7 @@ TEST(what_is_remembered_is_not_loaded_while_it_is_as_it_was) {
     expect_checked(61, 12, HD_UNAVAILABLE);
 }
 
-/* ---- which is taken: of stubs (stub_nvrtc.c), which alone compile for sm_7 ---- */
+/* ---- choosing among stubs (stub_nvrtc.c), which alone compile for sm_7 ---- */
 
 /* Below the folder that such a variable names. */
 static void put(const char *below, const char *name) {
@@ -94,7 +94,7 @@ TEST(the_newest_that_suits_the_driver_is_taken) {
         put("lib64", names[i]);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         expect_version(cases[i][0], cases[i][1], NULL, cases[i][2], cases[i][3]);
-    /* What does not suit is told once. */
+    /* An unsuitable one is reported once. */
     expect_none(8, NULL,
                 "NVRTC 12.3 for sm_7 to sm_120, NVRTC 12.8 for sm_7 to sm_120, NVRTC 13.0");
     assert_null(strstr(strstr(error.message, "NVRTC 12.3") + 1, "NVRTC 12.3"));

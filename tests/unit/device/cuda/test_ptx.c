@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Which of the program's PTX does what kernels of a shape would. */
+/* Choosing the program's PTX for kernels of a shape. */
 #include "device/cuda/compile.h"
 
 #include "unit_test.h"

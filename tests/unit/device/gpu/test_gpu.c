@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A GPU's memory, its kernels and the queue of a wavefront, of a GPU whose memory runs out and
-   whose kernels are a letter. */
+/* A GPU's memory, kernels and wavefront queue, of a GPU whose memory runs out and whose kernels are
+   a letter. */
 #define _XOPEN_SOURCE 700
 #include "device/gpu/gpu.h"
 #include "test_folder.h"
@@ -9,8 +9,8 @@ static HdError error;
 static HdGpuProgram program;
 
 static struct {
-    size_t room;       /* what may still be taken */
-    bool breaks;       /* taking, loading and compiling fail, not for want of memory */
+    size_t room;       /* bytes that may still be allocated */
+    bool breaks;       /* allocating, loading and compiling fail, though memory is enough */
     int taken, living; /* memories */
     size_t most;       /* threads of a group that its kernels allow */
     bool has_kernels;
@@ -166,7 +166,7 @@ TEST(memory_is_kept_while_it_is_enough) {
     hd_gpu_release(&gpu, &memory);
     assert_null(memory.handle);
     assert_int_equal(card.living, 0);
-    /* An empty table has room. */
+    /* An empty table fits. */
     assert_int_equal(hd_gpu_write_table(&gpu, &memory, NULL, 0, "lights", &error), HD_OK);
     assert_non_null(memory.handle);
     assert_int_equal(hd_gpu_write_table(&gpu, &memory, "solids", 6, "solids", &error), HD_OK);
@@ -197,7 +197,7 @@ static const HdWaveNeeds queue_needs = {.bytes = 4 * HD_WAVE_MIN_BYTES,
                                         .samples = 1 << 20,
                                         .samples_at_once = 32};
 
-/* Of two workers; half of it is tried where there is no room. */
+/* The queue of two workers; half of it is tried if memory is short. */
 TEST(a_queue_is_cut_to_what_there_is) {
     static const struct {
         size_t room;
@@ -251,7 +251,7 @@ static HdStatus build_probe(void) {
     return hd_gpu_build_probe(&program, &gpu, &error);
 }
 
-/* All in all so many kernels are compiled then. */
+/* Number of kernels compiled then in total. */
 static void expect_compiled(HdStatus status, HdStatus expected, int compiled) {
     assert_int_equal(status, expected);
     assert_int_equal(card.compiled, compiled);

@@ -75,7 +75,7 @@ TEST(everything_of_a_face_is_read) {
     assert_int_equal(mesh.material_count, 1);
     hd_mesh_free(&mesh);
 
-    /* The largest numbers, and what no face uses. */
+    /* The largest numbers, and values that no face uses. */
     mesh = read_text("v 1e12 -1000000000000 0\nv 12345678.9e-3 1E+2 0\nv 0 0 0.1e-11\n"
                      "vn 0 0 1\nvt 0 0\nf 1 2 3\n");
     assert_true(mesh.vertices[0].x == (double)1e12f && mesh.vertices[0].y == (double)-1e12f);
@@ -301,12 +301,12 @@ static HdMeshMaterial read_material(const char *text) {
 
 #define OF_M "a.obj: material 'm': "
 
-/* Statements of the material m, what becomes of it (colour | mirror tint | ambient, diffuse,
-   specular, shininess | reflection, transmission, index of refraction | emission), and the note
-   that they bring. */
+/* Statements of the material m, the result (colour | mirror tint | ambient, diffuse, specular,
+   shininess | reflection, transmission, index of refraction | emission), and the note that they
+   cause. */
 static const char *const material_cases[][3] = {
     {"", "1 1 1 | 1 1 1 | 0 1 0 64 | 0 0 1 | 0 0 0"},
-    /* Nothing passes, so that Ni does not count. */
+    /* Nothing passes, so Ni does not count. */
     {"Ka 0.1 0.2 0.6\nKd 0.5 0.25 0.125\nKs 0.2 0.4 0.6\nKe 3 2 1\nNs 96.6\nNi 1.5",
      "0.5 0.25 0.125 | 1 1 1 | 0.3 1 0.4 97 | 0 0 1 | 3 2 1"},
     {"Kd .5\nKs .3\nillum 1", "0.5 0.5 0.5 | 1 1 1 | 0 1 0 64 | 0 0 1 | 0 0 0"},
@@ -319,13 +319,13 @@ static const char *const material_cases[][3] = {
     {"Ni 1.25\nillum 7\nd 0.75\nTf 1 1 1", "1 1 1 | 1 1 1 | 0 0.75 0 64 | 0 0.25 1.25 | 0 0 0"},
     /* Black glass is seen through its filter. */
     {"Kd 0 0 0\nillum 7\nTf 0.4 0.8 0.2", "0.5 1 0.25 | 1 1 1 | 0 0 0 64 | 0 0.8 1 | 0 0 0"},
-    /* Tr is the other way round, and only where there is no d. */
+    /* Tr is the inverse of d, and only counts without it. */
     {"d 0.75\nTr 0.5", "1 1 1 | 1 1 1 | 0 0.75 0 64 | 0 0.25 1 | 0 0 0"},
     /* Together with the mirror at most all. */
     {"Ks 1 1 1\nd 0\nillum 7", "1 1 1 | 1 1 1 | 0 0 1 64 | 0.5 0.5 1 | 0 0 0",
      OF_M "Ks makes it reflect 1 and d or Tf lets 1 pass, expected at most 1 together, and both "
           "are divided by 2"},
-    /* What is made legal; without a highlight the exponent does not matter. */
+    /* Corrected values; without a highlight the exponent does not matter. */
     {"Kd 2 1 0", "1 1 0 | 1 1 1 | 0 1 0 64 | 0 0 1 | 0 0 0",
      OF_M "Kd is 2, expected 0 to 1, and becomes 1"},
     {"Ka 0 1.5 0.5", "1 1 1 | 1 1 1 | 0.5 1 0 64 | 0 0 1 | 0 0 0",
@@ -401,7 +401,7 @@ TEST(what_is_not_used_is_noted) {
         snprintf(text, sizeof text, "a.mtl: line %s\n", cases[i].notes);
         assert_string_equal(notes.text, text);
     }
-    /* What is before the first material belongs to none; that of no library is white. */
+    /* Statements before the first material belong to none; a material of no library is white. */
     const HdMaterial white = read_material("Kd 0 0 0\nnewmtl m\n").material;
     const HdMaterial none = read_material("").material;
     assert_memory_equal(&none, &white, sizeof white);
@@ -515,7 +515,7 @@ TEST(libraries_stay_in_the_folder) {
     hd_mesh_free(&mesh);
 }
 
-/* Of a material with the map; NULL: none. */
+/* Returns a material with the map; NULL: none. */
 static void expect_texture(const char *library, const char *map, const char *texture) {
     char text[128];
     snprintf(text, sizeof text, "newmtl m\nmap_Kd  %s \n", map);
@@ -559,7 +559,7 @@ TEST(textures_stay_in_the_folder) {
     expect_texture("-dash/a.mtl", "b.png", "./-dash/b.png");
 }
 
-/* Every limit ends in the error or in a mesh, and there is one from which on there is a mesh. */
+/* Every limit gives an error or a mesh, and beyond some limit always a mesh. */
 TEST(memory_is_limited) {
     const int open_before = count_entries("/proc/self/fd");
     write_text("a.mtl", "newmtl m\nmap_Kd a.png\nKd 1 1 1\nnewmtl n\nKd 1 1 1\n");
@@ -595,7 +595,7 @@ TEST(memory_is_limited) {
     assert_int_equal(count_entries("/proc/self/fd"), open_before);
 }
 
-/* Of those that are OBJ files neither by their names nor by what they say first. */
+/* Files whose names and first words are not those of OBJ. */
 TEST(words_of_other_files_are_not_told) {
     static const char *const cases[][2] = {
         {"root:x:0 hidden\nf password\n", "corner '...' of a face"},
