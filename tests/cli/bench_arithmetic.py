@@ -129,7 +129,7 @@ def test_pictures_are_read_and_compared():
 
 # ---- stability
 
-def test_what_ours_may_never_do_is_a_failure():
+def test_a_failure_of_hedrons_methods_is_a_failure():
     def counts(wrong, lost, blocked):
         return methods.parse(
             f"crossings edges pluecker 1 0 tried=9 missed=5 twice=5 wrong=8 misplaced=0\n"

@@ -24,7 +24,7 @@ expect_exit 0 "${too_new[@]}" "${any[@]}"
 expect_stderr_contains 'hedron: cuda:0 (Fake device 0) is passed over: no NVRTC library here compiles for Fake device 0 (sm_61); to install one that does: '
 expect_stderr_contains '; tracing with c on '
 expect_exit 0 "${cannot_start[@]}" FAKE_CUDA_ERROR=100 "${any[@]}" # there is no card
-! grep -q '^hedron: ' "$logs/stderr" || fail "a card that is not there is told to be passed over"
+! grep -q '^hedron: ' "$logs/stderr" || fail "a missing card is reported as skipped"
 rm -r any
 
 # ---- an NVRTC without support for the card, and a driver that does not load its output: the package to install

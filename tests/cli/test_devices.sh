@@ -20,12 +20,12 @@ for command in "$hedron" "${nothing[*]} $hedron"; do
     if [[ $(grep '^[^ ]' "$logs/stdout" | tr '\n' ' ') != 'cuda opencl c ' || -z $(section cuda) || -z $(section opencl) ||
         $(section c) != *'  0  '* || $(section c) != *'strict arithmetic: yes'* ]] ||
         grep -q -x -E ' *not available:? *' "$logs/stdout"; then
-        fail "the list has not the three backends, plain C with strict arithmetic, and a reason where one is missing"
+        fail "the list lacks a backend, plain C's strict arithmetic, or the reason for a missing one"
     fi
     listed=$(grep -c '^  [0-9]' "$logs/stdout")
     missing=$(grep -c '^  not available: .' "$logs/stdout" || true)
     if ! command -v jq >"$logs/which"; then
-        echo "not tested: the list as JSON, for there is no jq"
+        echo "not tested: the list as JSON, because jq is missing"
         continue
     fi
     # shellcheck disable=SC2086
@@ -63,7 +63,7 @@ if section opencl | grep -q 'Portable Computing Language'; then
         --depth 0 --size 8192x4096 -o large.pfm
     once 'the pixels need 403 MB in one buffer; '
 else
-    echo "not tested: too little device memory, for there is no PoCL"
+    echo "not tested: too little device memory, because PoCL is missing"
 fi
 
 # ---- a device by the name in the list, in any case

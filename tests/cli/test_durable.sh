@@ -69,7 +69,7 @@ for when in 1 7 30; do
     expect_sentence
     expect_stderr_contains 'to the disk: Input/output error'
     ! find failing -name '*.tmp-*' | grep . || fail 'temporary files are left'
-    (($(find failing -name '*.png' | wc -l) >= $(wc -l <failing.jsonl))) || fail 'more frames were told than there are'
+    (($(find failing -name '*.png' | wc -l) >= $(wc -l <failing.jsonl))) || fail 'more frames were reported than stored'
 done
 
 finish

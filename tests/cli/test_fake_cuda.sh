@@ -31,7 +31,7 @@ expect_exit 0 "${fast[@]}"
 expect_build 'compiled in [0-9]+ ms by NVRTC 12\.[0-9]+; not tested, for the arithmetic is fast; cached'
 expect_exit 0 env LD_DEBUG=files LD_DEBUG_OUTPUT="$work/loaded" "${fast[@]}"
 expect_build "taken from $work/cache, made by NVRTC 12\.[0-9]+"
-grep -q 'libcuda' "$work"/loaded.* || fail 'nothing tells which libraries were loaded'
+grep -q 'libcuda' "$work"/loaded.* || fail 'no log names the loaded libraries'
 ! grep -q 'libnvrtc' "$work"/loaded.* || fail 'NVRTC was loaded for kernels that are kept'
 # Another NVRTC by name, and a driver that refuses the cached kernels.
 cp "$nvrtc" "$work/libnvrtc.so.12"
@@ -142,7 +142,7 @@ export FAKE_CUDA_SKIPS=1 # the device that renders here could not be the fastest
 for when in '' ', measured earlier'; do
     expect_exit 0 "$hedron" render --size 1920x1080 --samples 9 --threads 1 --frames 0 --math fast --verbose -o picture.data
     grep -q -x -E "device +cuda 0, .*: the fastest of 2 on this kind of scene$when, [0-9.e-]+ ms against [0-9.e+-]+ ms \(c 0\); passed over: opencl: .*" \
-        "$logs/stderr" || fail "it is not told that the fastest was taken$when"
+        "$logs/stderr" || fail "standard error does not say that the fastest was chosen$when"
 done
 
 # ---- 'hedron tune': compiles every register limit, and uses the best from then on

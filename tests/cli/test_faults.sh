@@ -90,7 +90,7 @@ if has_ffmpeg; then
     wait "$pid" || true
     rm -f ./* "$work/leader"
 else
-    echo "not tested: films, for there is no FFmpeg"
+    echo "not tested: films, because FFmpeg is missing"
 fi
 expect_refusal 2 env HEDRON_STOP_PATIENCE=0 "${render[@]}" --frames 0 -o x.png
 
@@ -109,7 +109,7 @@ if has_ffmpeg; then
     kill -KILL "$pid"
     wait "$pid" || true
     ! is_dead "$(<"$work/leader")" || fail 'FFmpeg died with the program all the same'
-    ! flock -n film.mkv.tmp-* true || fail 'nobody has the file locked'
+    ! flock -n film.mkv.tmp-* true || fail "no process holds the file's lock"
     rm "$work/tools/ffmpeg"
     start "${render[@]}" --frames 0-2 -o film.mkv
     touch "$work/may_go_on"
@@ -202,11 +202,11 @@ fail_at() {
     run "${memory[@]}" FAILING_MEMORY_AT="$1" FAILING_MEMORY_TIMES="$2" "${lean[@]}"
     if ((code == 0)); then
         rm stats.jsonl
-        diff -r . "$work/whole" >"$logs/which" || fail "where allocation $1 fails pictures differ: $(<"$logs/which")"
+        diff -r . "$work/whole" >"$logs/which" || fail "pictures differ after allocation $1 failed: $(<"$logs/which")"
     else
-        ((code == 1)) || fail "exit code $code where allocation $1 of $count fails, expected 0 or 1"
+        ((code == 1)) || fail "exit code $code after allocation $1 of $count failed, expected 0 or 1"
         # A thread needs memory, and the system does not say what it lacked.
-        grep -q -i -E 'memory|cannot start .*thread' "$logs/stderr" || fail "where allocation $1 fails, nothing says so"
+        grep -q -i -E 'memory|cannot start .*thread' "$logs/stderr" || fail "no message says that allocation $1 failed"
     fi
     expect_nothing_temporary "where allocation $1 of $count fails,"
     rm -f ./*
@@ -226,7 +226,7 @@ done
 ((failed >= 60)) || fail "only $failed allocations were missed"
 for ((at = 60; at <= count; at += 97)); do
     fail_at "$at" 1000000
-    ((code == 1 || at > count - 97)) || fail "nothing is missed where all allocations from $at of $count on fail"
+    ((code == 1 || at > count - 97)) || fail "the run succeeds although all allocations from $at of $count on fail"
 done
 expect_files .
 

@@ -70,7 +70,7 @@ if script -q -e -c true /dev/null </dev/null >"$logs/script" 2>&1; then
     expect_exit 0 script -q -e -c "$hedron" /dev/null
     expect_stdout_contains 'Usage'
 else
-    echo "not tested: a terminal, for there is no program 'script'"
+    echo "not tested: a terminal, because the program 'script' is missing"
 fi
 
 # ---- the man page

@@ -58,7 +58,7 @@ if command -v cpack >"$logs/which" && command -v dpkg-shlibdeps >"$logs/which"; 
         grep -q "$needed" "$logs/fields" || fail "the package does not name $needed: $(cat "$logs/fields")"
     done
 else
-    echo "not tested: the package, for there is no cpack or no dpkg-shlibdeps"
+    echo "not tested: the package, because cpack or dpkg-shlibdeps is missing"
 fi
 
 # expect_picture OPTION...: of the installed program, in the root folder, with only the environment in `bare`.

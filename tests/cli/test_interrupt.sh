@@ -122,7 +122,7 @@ if has_ffmpeg; then
     send INT "$pid"
     expect_end_without_files INT
 else
-    echo "not tested: films, for there is no FFmpeg"
+    echo "not tested: films, because FFmpeg is missing"
 fi
 
 # ---- before the first frame: while it waits for its input, or for a reader of the statistics

@@ -29,7 +29,7 @@ if script -q -e -c true /dev/null </dev/null >"$logs/script" 2>&1; then
     [[ $(<"$logs/stdout") == *$'\r\033[K%d.data\r' ]] || fail "the bar stays"
     rm ./*.data
 else
-    echo "not tested: a terminal, for there is no program 'script'"
+    echo "not tested: a terminal, because the program 'script' is missing"
 fi
 
 # ---- --quiet
@@ -46,7 +46,7 @@ rm -r out
 expect_exit 0 "${render[@]}" --frames 0 --set output.bits=16 -o film.mkv -o deep.png
 expect_note 'hedron: films have 8 bits a channel, though output.bits is 16'
 expect_exit 0 "${render[@]}" --frames 0 --set output.bits=16 -o deep.png
-! grep -q 'films have' "$logs/stderr" || fail "there is no film, and yet standard error tells of its bits"
+! grep -q 'films have' "$logs/stderr" || fail "there is no film, but standard error mentions its bits"
 rm film.mkv deep.png
 
 # ---- --frame-lines: a line for each frame, in their order, and no other progress

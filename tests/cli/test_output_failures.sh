@@ -162,7 +162,7 @@ expect_refusal 3 env PATH="$work/tools" "${render[@]}" --frames 0-2 -o '%d.data'
 expect_stderr_contains ffmpeg
 expect_files .
 if ! has_ffmpeg; then
-    echo "not tested: films that fail, for there is no FFmpeg"
+    echo "not tested: films that fail, because FFmpeg is missing"
     finish
 fi
 ffmpeg=$(command -v ffmpeg)

@@ -31,7 +31,7 @@ for ((samples = 4; samples <= most; samples = next > most && samples < most ? mo
     (($(sort -u parts | wc -l) < 2)) || break
 done
 ((samples <= most)) || fail 'no frame took long'
-sort -n -c parts 2>"$logs/which" || fail "what is done does not grow: $(tr '\n' ' ' <parts)"
+sort -n -c parts 2>"$logs/which" || fail "the progress does not grow: $(tr '\n' ' ' <parts)"
 ! grep '% of the next' shown | grep -v -x -E "\[[#.]{24}\] $part" >"$logs/which" ||
     fail "there is another line than those of progress: $(head -n 3 "$logs/which")"
 [[ $(tail -c 4 screen) == $'\r\033[K' ]] || fail "the line stays: $(tail -c 60 screen | od -c | tail -n 4)"

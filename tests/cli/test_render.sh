@@ -72,7 +72,7 @@ if has_opencl; then
     picture fast.png --backend opencl --math fast
     expect_exit 0 "$hedron" compare float.png fast.png --fail-above 32 # of four samples one may hit another edge
 else
-    echo "not tested: OpenCL, for there is no device with strict arithmetic"
+    echo "not tested: OpenCL, because no device has strict arithmetic"
 fi
 expect_exit 0 "$hedron" render --backend c "${small[@]}" --frames 0 --math fast -o fast.data
 expect_stderr_contains 'plain C has strict arithmetic alone, so --math fast changes nothing there'
@@ -109,7 +109,7 @@ if command -v python3 >"$logs/which"; then
     expect_exit 0 "$hedron" render --backend c --size 32x24 --frames 0 -o plain.png
     [[ $'\n'$(texts plain.png)$'\n' == *$'\nScene: the built-in scene\n'* ]] || fail 'the built-in scene is not named'
 else
-    echo "not tested: the texts of a PNG, for there is no python3"
+    echo "not tested: the texts of a PNG, because python3 is missing"
 fi
 rm -rf ./*
 
@@ -132,7 +132,7 @@ rm hedron.png
 
 # ---- films; tests/unit/output/test_video.c checks their contents
 if ! has_ffmpeg; then
-    echo "not tested: films, for there is no FFmpeg"
+    echo "not tested: films, because FFmpeg is missing"
     expect_files .
     finish
 fi

@@ -202,7 +202,7 @@ if has_ffmpeg; then
     expect_files held {0..9}.png film.mkv
     film+=(-o killed/film.mkv)
 else
-    echo "not tested: films, for there is no FFmpeg"
+    echo "not tested: films, because FFmpeg is missing"
 fi
 
 # ---- killed repeatedly at random instants: every file under a final name is complete, and none is lost

@@ -107,7 +107,7 @@ expect_files . floor.data
 echo 'root:secret:0:0' >secrets
 expect_refusal 2 "$hedron" check secrets
 expect_stderr_contains 'secrets is no scene: neither has it the ending .json nor does it begin with {'
-! grep -q -e root -e secret: "$logs/stderr" || fail 'words of the file are told'
+! grep -q -e root -e secret: "$logs/stderr" || fail 'a message quotes the file'
 printf 'solid teapot' >teapot.stl
 expect_refusal 2 "$hedron" render teapot.stl
 expect_stderr_contains 'teapot.stl is no scene by its name'

@@ -73,7 +73,7 @@ if command -v jq >"$logs/which"; then
         and .[0].problems == [] and (.[1].problems | length == 2 and any(startswith("camera.field_of_view")))
         and (.[2].problems | length == 1)' "$logs/stdout" >"$logs/jq" || fail 'check --json says otherwise'
 else
-    echo "not tested: what 'check --json' prints, for there is no jq"
+    echo "not tested: the output of 'check --json', because jq is missing"
 fi
 rm scenes/both.json
 # Complete scenes in the documents, which give no note either, and the supplied ones.

@@ -46,7 +46,7 @@ expect_refusal 2 "$hedron" selftest --device c:0 --backend opencl
 
 # ---- OpenCL, wrong and right
 if is_sanitized || ! has_opencl; then
-    echo "not tested: OpenCL, for there is no device, or nothing can be preloaded; nor all of plain C"
+    echo "not tested: OpenCL and all of plain C, because there is no device, or preloading fails"
     finish
 fi
 quick=("$hedron" selftest --quick --device opencl:0)
@@ -62,7 +62,7 @@ expect_stdout_contains 'strict arithmetic: no, it computes wrongly: fma(a, b, c)
 expect_exit 0 "${no_nvidia[@]}" "${quick[@]}"
 expect_stdout_contains 'right    arithmetic in double, 8192 tuples of operands ('
 expect_exit 0 "${no_nvidia[@]}" "$hedron" devices
-! grep -q 'computes wrongly' "$logs/stdout" || fail "a device that computes rightly is still told to compute wrongly"
+! grep -q 'computes wrongly' "$logs/stdout" || fail "a device that computes correctly is still reported as wrong"
 # Frames that are wrong although the arithmetic is correct.
 take "$build" '1.5259021896696422e-5' '1.6e-5'
 expect_exit 1 env HEDRON_CACHE=off "${driver[@]:1}" "${quick[@]}"

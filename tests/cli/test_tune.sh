@@ -14,7 +14,7 @@ render=("$hedron" render --backend c --threads 1 "${small[@]}" --frames 0 --verb
 expect_launch() {
     expect_exit 0 "${render[@]}" "${@:2}"
     [[ $(sed -n 's/^launch *//p' "$logs/stderr") == "${1:+$1: the best for this kind of scene, by 'hedron tune'}" ]] ||
-        fail "it is not told that '$1' is remembered"
+        fail "standard error does not say that '$1' is remembered"
     expect_same picture.data expected.data
 }
 
@@ -34,11 +34,11 @@ if ! head -n 1 "$logs/stdout" | grep -q -x -E 'the built-in scene on c 0, .*' ||
     fail 'the table has other candidates'
 fi
 best=$(sed -n 's/^the best: \(.*\); remembered for scenes of this kind$/\1/p' "$logs/stdout")
-[[ -n $best ]] || fail "it does not tell what is the best"
+[[ -n $best ]] || fail "the table does not name the best"
 
 # ---- later runs use it, with the same bytes; their own options come first
 expect_launch "$best"
-grep -q -E "^renderer .*, ${best%%,*}$" "$logs/stderr" || fail "what is remembered is not used"
+grep -q -E "^renderer .*, ${best%%,*}$" "$logs/stderr" || fail "the remembered choice is not used"
 expect_launch '' --pipeline wavefront
 
 # ---- a scene from standard input, and JSON

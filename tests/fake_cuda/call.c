@@ -103,7 +103,8 @@ HdCuResult cuDevicePrimaryCtxRetain(HdCuContext *context, HdCuDevice device) {
 HdCuResult cuDevicePrimaryCtxRelease_v2(HdCuDevice device) {
     FAKE_CALL_ANYWHERE(cuDevicePrimaryCtxRelease);
     if (device != 0 || primary.retained == 0)
-        return fake_misuse(FAKE_INVALID_CONTEXT, "a context is released that nobody has");
+        return fake_misuse(FAKE_INVALID_CONTEXT,
+                           "the program releases a context that it does not hold");
     primary.retained--;
     int left = fake_living_count() + fake_memory_count();
     if (primary.retained == 0 && left != 0 && primary.lost == HD_CU_SUCCESS)

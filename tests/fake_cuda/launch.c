@@ -303,5 +303,5 @@ void fake_run_launch(const FakeLaunch *launch) {
     if (failure != NULL)
         fake_lose(HD_CU_ERROR_LAUNCH_FAILED, failure);
     else if (!fake_guards_hold())
-        fake_lose(HD_CU_ERROR_ILLEGAL_ADDRESS, "a kernel wrote beside memory");
+        fake_lose(HD_CU_ERROR_ILLEGAL_ADDRESS, "a kernel wrote outside an allocation");
 }

@@ -123,7 +123,8 @@ static HdCuResult give_back(Memory **link) {
     free(memory->data - GUARD);
     free(memory);
     return held ? HD_CU_SUCCESS
-                : fake_misuse(HD_CU_ERROR_ILLEGAL_ADDRESS, "something was written beside memory");
+                : fake_misuse(HD_CU_ERROR_ILLEGAL_ADDRESS,
+                              "something was written outside an allocation");
 }
 
 static double device_bytes(void) {

@@ -148,7 +148,7 @@ static void forget_done(void) {
 static HdCuResult put(Operation operation) {
     forget_done();
     if (queued == MAX_OPERATIONS)
-        return fake_misuse(HD_CU_ERROR_OUT_OF_MEMORY, "nobody waits for what is queued");
+        return fake_misuse(HD_CU_ERROR_OUT_OF_MEMORY, "the program never waits for queued work");
     queue[queued++] = operation;
     return fake_lost();
 }
@@ -170,8 +170,7 @@ static HdCuResult check_event(HdCuEvent event, bool must_be_recorded) {
 static HdCuResult check_copy(HdCuPointer device, const void *host, size_t bytes,
                              HdCuStream stream) {
     if (bytes == 0 || host == NULL || fake_memory(device, bytes) == NULL)
-        return fake_misuse(FAKE_INVALID_VALUE, "a copy of %zu bytes goes beyond what is there",
-                           bytes);
+        return fake_misuse(FAKE_INVALID_VALUE, "a copy of %zu bytes exceeds the allocation", bytes);
     return check_stream(stream);
 }
 

@@ -95,7 +95,7 @@ TEST(pictures_repeat_or_end) {
     }
 }
 
-TEST(what_filters_light_adds_up) {
+TEST(attenuations_add_up) {
     vreal share = passing_share(splat_int(0), splat_int(0));
     assert_true(lane_real(&share, 0) == R(1.0));
     share = passing_share(splat_int(HD_DARK_DENSITY), splat_int(0));

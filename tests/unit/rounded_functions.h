@@ -53,7 +53,7 @@ static void check_roots(const real a[HD_LANES]) {
 }
 
 /* Every number in [1, 2) divides a random one of the same range; the roots of all in [1, 4). */
-TEST(all_digits_are_right) {
+TEST(all_digits_are_correct) {
     const uint32_t digits = (uint32_t)1 << 23;
     real a[HD_LANES], b[HD_LANES], drawn[HD_LANES];
     for (uint32_t i = 0; sizeof(real) == sizeof(float) && i < digits; i += SHARE * HD_LANES) {

@@ -240,7 +240,7 @@ TEST(a_small_job_asks_no_driver_and_a_large_one_compares_devices) {
     assert_false(candidates.is_free);
 }
 
-TEST(a_gpu_that_is_passed_over_is_told) {
+TEST(a_skipped_gpu_is_reported) {
     static const char passed[] =
         "near:0 (Broken) is passed over: no compiler is here; far:0 (Wrong) is passed over: it "
         "computes wrongly: 1 + 1; --math fast would take it, for other bytes";
@@ -296,7 +296,7 @@ TEST(a_list_names_each_once) {
                        .is_for_one = true);
 }
 
-TEST(more_devices_than_there_is_room_for) {
+TEST(more_devices_than_the_list_holds) {
     char list[8 * HD_MAX_WORKERS + 8] = "near:0";
     near.needs_no_driver = far.needs_no_driver = true; /* there is no result to read */
     for (int i = 0; i < MOST; i++)
@@ -315,7 +315,7 @@ TEST(more_devices_than_there_is_room_for) {
     assert_int_equal(team.count, HD_MAX_WORKERS);
 }
 
-TEST(all_are_those_that_can_do_it) {
+TEST(all_means_the_devices_that_can_render_it) {
     add(NEAR, "Turbo", 9)->nvidia_arch = 61;
     add(NEAR, "Turbo", 9)->nvidia_arch = 61;
     add(FAR, "Turbo", 9)->nvidia_arch = 61;

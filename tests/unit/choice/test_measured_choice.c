@@ -137,7 +137,7 @@ TEST(a_job_too_short_is_not_measured) {
 }
 
 /* Only a device that fails at work is tried again. */
-TEST(what_cannot_be_used_is_passed_over) {
+TEST(unusable_devices_are_skipped) {
     static const char *const notes[] = {"fake: Fake 1000 (driver 7) computes wrongly",
                                         "fake: it is missing", "fake: it fails"};
     for (int i = 0; i < 3; i++) {
@@ -235,7 +235,7 @@ TEST(a_gpu_has_its_candidates_and_a_cpu_pipelines_and_lanes) {
     }
 }
 
-TEST(what_the_options_fix_stays) {
+TEST(values_fixed_by_options_stay) {
     device.nvidia_arch = 90;
     options.pipeline = HD_PIPELINE_MEGA;
     options.block = 128;
@@ -261,7 +261,7 @@ static double unlucky_once(const HdRenderOptions *asked) {
     return fake.opened == 2 ? 1.4 : 0.5;
 }
 
-TEST(noise_decides_nothing) {
+TEST(noise_does_not_decide) {
     tune(nearly_alike);
     assert_int_equal(tuning.best, 0);
     fake.opened = 0;
@@ -275,7 +275,7 @@ static bool refuses_wavefronts_and_256(const HdRenderOptions *asked) {
 }
 
 /* This device is not NVIDIA's, which alone have limits of registers. */
-TEST(what_cannot_be_used_is_told) {
+TEST(unusable_devices_are_reported) {
     fake.refuses = refuses_wavefronts_and_256;
     tune(picky);
     assert_int_equal(tuning.count, 7);
@@ -297,7 +297,7 @@ static double likes_mega(const HdRenderOptions *asked) {
     return asked->pipeline == HD_PIPELINE_WAVEFRONT ? 2.0 : 1.0;
 }
 
-TEST(a_display_is_not_kept_by_deep_trees) {
+TEST(deep_trees_do_not_freeze_a_display) {
     device.has_timeout = true;
     tune(likes_mega);
     assert_int_equal(best().pipeline, HD_PIPELINE_MEGA);
@@ -438,7 +438,7 @@ static HdStatus measure(HdRenderer *renderer, double share, int times, HdTrial *
     return hd_trial(renderer, &job, &selection, trial, &error);
 }
 
-TEST(the_least_of_several_counts) {
+TEST(the_smallest_of_several_counts) {
     HdRenderer *renderer;
     HdTrial trial;
     measured = 0;

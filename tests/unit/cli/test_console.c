@@ -2,7 +2,7 @@
 #include "cli/console.h"
 #include "unit_test.h"
 
-TEST(lines_tell_rate_and_time_left) {
+TEST(lines_have_rate_and_time_left) {
     static const struct {
         HdProgress progress;
         const char *text;

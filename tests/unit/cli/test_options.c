@@ -134,7 +134,7 @@ TEST(options_belong_to_their_commands_and_have_values_or_none) {
         }
 }
 
-TEST(what_is_no_option_is_refused) {
+TEST(unknown_options_are_refused) {
     static const char *const commands[] = {"hedron", "hedron devices", "hedron render"};
     static const char *const wrong[] = {"--nonsense=1", "-x",    "--sizes=1x1", "-gpu",     "--GPU",
                                         "-oh",          "",      "--=1",        "-o=a.png", "-",

@@ -76,7 +76,7 @@ static void expect_line(const char *name, const char *told, const char *longest_
     json_decref(right);
 }
 
-TEST(a_line_has_everything) {
+TEST(a_line_has_every_value) {
     expect_line("A \"quoted\" \\ name\twith a tab", "A \\\"quoted\\\" \\\\ name\\twith a tab",
                 "62.5");
     expect_line("Intel\xae Xeon", "Intel? Xeon", "62.5"); /* another encoding stays JSON */
@@ -86,7 +86,7 @@ TEST(a_line_has_everything) {
     stored.times.longest_launch = 0.0625;
 }
 
-TEST(files_that_take_nothing_are_told) {
+TEST(files_that_accept_nothing_are_reported) {
     HdStatistics statistics;
     HdError error;
     HdDevice device = {.backend = &hd_backend_c};

@@ -102,7 +102,7 @@ TEST(launches_last_as_long_as_they_may) {
     assert_true(hd_longest_launch(&devices[GPU], &options) == 5e-4);
 }
 
-TEST(what_a_device_can_have_is_possible) {
+TEST(supported_requests_are_possible) {
     static const HdRenderOptions possible[] = {
         {.lanes = 1},
         {.lanes = 4},

@@ -86,7 +86,7 @@ TEST(a_warm_start_compiles_and_tests_nothing) {
     }
 }
 
-TEST(whatever_kernels_depend_on_counts) {
+TEST(everything_that_kernels_depend_on_counts) {
     expect_rendered(HD_OK, 1, 0);
     snprintf(device.name, sizeof device.name, "Fake 2000");
     expect_rendered(HD_OK, 1, 0);
@@ -112,7 +112,7 @@ TEST(damaged_kernels_are_compiled_anew) {
     }
 }
 
-TEST(what_a_driver_hides_is_not_cached) {
+TEST(kernels_that_a_driver_hides_are_not_cached) {
     fake.hides_binary = true;
     expect_rendered(HD_OK, 1, 0);
     expect_contains(note, "not cached; the driver does not hand them out");
@@ -135,7 +135,7 @@ TEST(the_wavefront_takes_over_unless_it_is_wrong_too) {
     expect_contains(text, "computes wrongly: ");
 }
 
-TEST(what_is_wrong_is_refused_and_frames_under_way_are_dropped) {
+TEST(errors_are_refused_and_frames_in_flight_are_dropped) {
     static const HdFrameRequest radiance = {.radiance = true};
     static const HdRenderOptions impossible = {.block = 33};
     HdFrame small = {.width = 1, .height = 1, .floats = HD_RADIANCE_FLOATS};
@@ -234,7 +234,7 @@ TEST(arithmetic_is_probed_once) {
     assert_false(hd_arithmetic_recall("Fake 2000", "driver 7", HD_PRECISION_FLOAT, &known));
 }
 
-TEST(division_that_was_healed_stays_so) {
+TEST(corrected_division_stays_corrected) {
     fake.divides_wrongly = true;
     expect_rendered(HD_OK, 1, 0);
     assert_true(fake.divides_by_fma);

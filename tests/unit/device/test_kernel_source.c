@@ -89,7 +89,7 @@ TEST(scenes_of_similar_size_need_the_same) {
     }
 }
 
-TEST(needs_are_told_in_words) {
+TEST(needs_are_printed_in_words) {
     char text[200];
     HdKernelNeeds needs = {.plane_bound = 8, .depth_bound = 16};
     hd_kernel_needs_describe(&needs, text, sizeof text);
@@ -103,7 +103,7 @@ TEST(needs_are_told_in_words) {
 }
 
 /* Neighbours in the list have other values. */
-TEST(whatever_a_shape_has_is_defined) {
+TEST(all_features_of_a_shape_are_defined) {
     char text[HD_KERNEL_DEFINES_SIZE];
     const HdKernelShape shape = {.lanes = 4,
                                  .precision = HD_PRECISION_DOUBLE,

@@ -143,7 +143,7 @@ TEST(after_a_slow_launch_sizes_rise_by_a_quarter_a_frame) {
     assert_int_equal(size.limit, 77);
 }
 
-TEST(small_launches_tell_little) {
+TEST(small_launches_are_weak_evidence) {
     HdLaunchSize size = hd_launch_size_start(100, HD_LAUNCH_SECONDS);
     const HdLaunchSize before = size;
     hd_launch_size_note(&size, before.least / 4.0, 10.0); /* one slow thread */

@@ -120,7 +120,7 @@ TEST(all_rays_are_traced_in_any_memory_by_launches_of_any_size) {
 
 /* With launches of at most their size, and enough memory, each level is a step for each. The rest
    of a deep tree's level would repeat all levels below it, so levels run whole. */
-TEST(room_decides_how_many_steps_there_are) {
+TEST(capacity_decides_the_number_of_steps) {
     const HdWaveRun frame = {.items = 64, .samples_per_item = 4, .depth = 5, .grain = 32};
     run(1 << 24, &frame, 1);
     assert_int_equal(steps, 6);
@@ -138,7 +138,7 @@ TEST(room_decides_how_many_steps_there_are) {
 }
 
 /* The places of a finished level serve the next one. */
-TEST(rays_go_below_those_that_made_them) {
+TEST(rays_are_placed_below_their_parents) {
     WaveSegment stack[] = {{.level = 0},
                            {.level = 1, .first = 0, .waiting = 8},
                            {.level = 2, .first = 100, .waiting = 8}};
@@ -149,7 +149,7 @@ TEST(rays_go_below_those_that_made_them) {
     assert_int_equal(top, 1);
 }
 
-TEST(plans_keep_to_their_budget) {
+TEST(plans_stay_within_their_budget) {
     const HdWaveNeeds few = {
         .bytes = 1 << 28, .depth = 4, .grain = 32, .samples = 1000, .samples_at_once = 10};
     assert_int_equal(hd_wave_plan(&few).sum_stride, 1000);

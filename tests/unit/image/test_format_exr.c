@@ -28,7 +28,7 @@ static void read_back(HdPictureValue values[VALUES], int bits) {
     assert_int_equal(facts.curve, HD_CURVE_LINEAR);
 }
 
-TEST(floats_come_back) {
+TEST(floats_read_back_equal) {
     float values[VALUES];
     HdPictureValue read[VALUES];
     for (int i = 0; i < VALUES; i++)

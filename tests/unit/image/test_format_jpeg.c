@@ -52,7 +52,7 @@ TEST(cut_files_are_refused) {
     }
 }
 
-TEST(hostile_files_are_refused) {
+TEST(malicious_files_are_refused) {
     const size_t size = load_texture_file("jpeg_444", bytes, sizeof bytes);
     unsigned char *frame = bytes; /* its head, then its length, bits, height and width */
     while (frame[0] != 0xff || frame[1] != 0xc0)

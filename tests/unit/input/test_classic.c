@@ -163,7 +163,7 @@ TEST(test_official_example) {
     assert_null(input.scene.solids);
 }
 
-TEST(test_what_is_a_number) {
+TEST(test_valid_numbers) {
     static const char *const cases[] = {"90", "+90.", "9E1", ".9e+2", "900.0e-1", "00090"};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         expect_token_accepted(VIEW, cases[i]);
@@ -234,7 +234,7 @@ static void expect_not_printed(const char *message) {
     assert_string_equal(text, "");
 }
 
-TEST(test_what_cannot_be_printed) {
+TEST(test_unprintable_scenes) {
     expect_parsed(official, 4);
     input.scene.solid_count = 2;
     expect_not_printed("the scene has 2 solids, expected 3");
@@ -274,7 +274,7 @@ TEST(test_every_truncation) {
     assert_int_equal(hd_classic_parse(&input, NULL, 0, "standard input", 4, &error), HD_BAD_INPUT);
 }
 
-TEST(test_what_is_no_number) {
+TEST(test_invalid_numbers) {
     static const char *const wrong[] = {
         "nan", "-inf", "infinity", "0x10", "1.5.2", "1,5", "--1", "+-1",   "1e",
         "1e+", ".",    "-",        "+.e1", "1.0f",  "1d5", "e5",  "1_000", "\xef\xbb\xbf.5"};

@@ -92,7 +92,7 @@ TEST(test_entries_share_meshes) {
     assert_null(file.mesh_entries);
 }
 
-TEST(test_every_wrong_file_is_told) {
+TEST(test_every_wrong_file_is_reported) {
     write_text("a.obj", corner_text);
     write_text("bad.obj", "v 0 0 0\nv 1 0 x\n");
     write_text("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");

@@ -165,7 +165,7 @@ TEST(test_changes_that_cannot_be_made) {
         expect_change_refused(changes[i][0], "%s", changes[i][1]);
 }
 
-TEST(test_changes_that_are_not_understood) {
+TEST(test_unknown_changes) {
     char changes[] = "=3 .image=3 image.=3 image..width=3 solids[]=3 solids[x]=3 solids[0=3 "
                      "solids[01]=3 solids[0]x=3 solids[9999999999]=3 [0]=3 solids[0].=3 "
                      "materials.\"my.glass.diffuse=1 materials.\"\".diffuse=1";
@@ -173,7 +173,7 @@ TEST(test_changes_that_are_not_understood) {
         expect_change_refused(change, "the path is not understood, expected one such as ");
 }
 
-TEST(test_keys_that_are_called_otherwise) {
+TEST(test_keys_with_other_names) {
     /* Pairs of an object's message and the right word. */
     static const char *const words[][2] = {
         {"camera.", "fov field_of_view position eye look_at target"},

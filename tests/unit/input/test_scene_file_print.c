@@ -40,7 +40,7 @@ static char *expect_round_trip(void) {
     return text;
 }
 
-TEST(test_values_that_are_hard_to_write) {
+TEST(test_values_that_are_hard_to_print) {
     static const char *const changes[] = {
         "image.width=320", /* unchanged */
         "camera.eye.r0=-0.0",
@@ -152,6 +152,6 @@ TEST(test_committed_schema) {
     fclose(stream);
     char *text = printed(hd_scene_schema_print);
     if (strcmp(committed, text) != 0)
-        fail_msg("%s is not what hd_scene_schema_print writes: write it anew", SCHEMA);
+        fail_msg("%s differs from the output of hd_scene_schema_print: write it again", SCHEMA);
     free(text);
 }

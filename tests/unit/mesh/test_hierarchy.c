@@ -357,7 +357,7 @@ TEST(boxes_of_every_kind_are_divided) {
     }
 }
 
-TEST(any_number_of_boxes) {
+TEST(any_number_of_boxes_works) {
     for (int count = 1; count <= 200; count++) {
         double cost;
         const Kind kind = {small, count, {1.0F, 1 + count % HD_MAX_LEAF}, 0, false};
@@ -407,7 +407,7 @@ static HdStatus build_few(void) {
 
 /* Each allocation fails in turn, until all succeed. Widening allocates twice at the start, once for
    the boxes, and at least once to grow. */
-TEST(tells_when_memory_runs_out) {
+TEST(a_lack_of_memory_is_an_error) {
     HdStatus status = HD_FAILED;
     for (failing_allocation = 0; status != HD_OK; failing_allocation++) {
         allocations = 0;
@@ -423,7 +423,7 @@ TEST(tells_when_memory_runs_out) {
 }
 
 /* The last one: the signal stays. */
-TEST(can_be_interrupted) {
+TEST(a_build_can_be_interrupted) {
     hd_interrupt_install();
     raise(SIGTERM);
     assert_int_equal(build_few(), HD_INTERRUPTED);

@@ -21,7 +21,7 @@ static HdMesh make_mesh(const HdVec3 *vertices, int vertex_count, const int32_t 
     return mesh;
 }
 
-TEST(triangles_without_an_area_are_told) {
+TEST(triangles_without_an_area_are_reported) {
     static const struct {
         bool has_area;
         HdVec3 at[3];
@@ -50,7 +50,7 @@ TEST(triangles_without_an_area_are_told) {
     }
 }
 
-TEST(what_belongs_to_a_triangle_moves_with_it) {
+TEST(a_triangles_data_moves_with_it) {
     const HdVec3 vertices[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}};
     const int32_t corners[5][3] = {{0, 1, 1}, {0, 1, 2}, {0, 1, 3}, {1, 3, 2}, {2, 0, 2}};
     const int32_t normals[5][3] = {{0, 1, 2}, {10, 11, 12}, {20, 21, 22}, {30, 31, 32}, {0, 0, 0}};
@@ -95,7 +95,7 @@ TEST(the_box_holds_all_triangles) {
     hd_mesh_free(&mesh);
 }
 
-TEST(angles_are_right) {
+TEST(angles_are_correct) {
     const HdVec3 x = {1.0, 0.0, 0.0};
     for (int i = 0; i <= 3600; i++) {
         const double angle = HD_PI * i / 3600.0;
@@ -164,7 +164,7 @@ TEST(smoothing_weights_by_angle_and_leaves_creases) {
 }
 
 /* A roof whose two sides meet at 60 degrees, and touch a third triangle in one point alone. */
-TEST(triangles_that_share_a_point_alone_are_apart) {
+TEST(triangles_that_share_only_a_point_are_not_smoothed) {
     const HdVec3 vertices[6] = {
         {0, 0, 0},  {0, 2, 0},  {1, 1, -0.57735026918962584}, {-1, 1, -0.57735026918962584},
         {1, -1, 0}, {-1, -1, 0}};

@@ -112,7 +112,7 @@ TEST(large_stars_are_cut) {
 }
 
 /* For any corners the number of triangles is right, and their corners exist. */
-TEST(rubbish_is_cut_somehow) {
+TEST(degenerate_polygons_are_cut_somehow) {
     uint32_t seed = 1;
     for (int round = 0; round < 3000; round++) {
         const int count = 4 + round % 40, size = 2 + round % 7;

@@ -69,7 +69,7 @@ static void expect_name(const char *expected, bool is_same) {
     assert_true((strcmp(path, expected) == 0) == is_same);
 }
 
-TEST(names_tell_what_decides_the_bytes) {
+TEST(names_depend_on_everything_that_decides_the_bytes) {
     char first[HD_MAX_PATH];
     find();
     assert_int_equal(hd_segment_path(&segments, 1, first, &error), HD_OK);
@@ -90,7 +90,7 @@ TEST(names_tell_what_decides_the_bytes) {
     expect_name(first, false);
 }
 
-TEST(what_others_have_there_stays) {
+TEST(other_programs_files_stay) {
     static const char *const names[] = {"it's.mkv.part-0-a",
                                         "it's.mkv.part-12345-0123456789abcdef",
                                         "it's.mkv",
@@ -111,7 +111,7 @@ TEST(what_others_have_there_stays) {
     assert_int_equal(chdir(".."), 0);
 }
 
-TEST(only_whole_files_are_taken_and_only_where_a_run_goes_on) {
+TEST(only_a_continued_run_uses_files_and_only_whole_ones) {
     char path[HD_MAX_PATH];
     find();
     for (int i = 0; i < 3; i++) {
@@ -209,7 +209,7 @@ TEST(a_segment_that_fails_ends_it) {
     abort_it(1);
 }
 
-TEST(what_cannot_be_joined_keeps_its_segments) {
+TEST(a_failed_join_keeps_the_segments) {
     add_in_new_run(0, FRAMES);
     fake_films(4, -1);
     assert_int_equal(hd_film_close(film, &error), HD_FAILED);

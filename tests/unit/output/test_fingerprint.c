@@ -40,7 +40,7 @@ static void change_each(const Bits *list, size_t count, bool expected) {
 }
 
 /* For each type of field, and each struct. */
-TEST(what_a_scene_file_tells_changes_it) {
+TEST(scene_values_change_the_fingerprint) {
     HdScene *scene = &file.scene;
     HdSolid *glass = &scene->solids[0], *rimmed = &scene->solids[1];
     HdMeshEntry *entry = file.mesh_entries;
@@ -99,7 +99,7 @@ static HdMesh mesh = {.vertex_count = 3,
 static HdPicture picture = {.texture = {.width = 1, .height = 1, .texels = texels}};
 static HdInstance instance = {.has_material = true};
 
-TEST(what_files_hold_changes_it) {
+TEST(file_contents_change_the_fingerprint) {
     HdScene *scene = &file.scene;
     const Bits list[] = {BITS(floor_texels),
                          BITS(texels),
@@ -135,7 +135,7 @@ TEST(what_files_hold_changes_it) {
     mesh.normals = normals;
 }
 
-TEST(names_and_what_lies_beside_do_not) {
+TEST(names_and_unused_values_do_not) {
     const Bits list[] = {BITS(materials[0]),
                          BITS(materials[2]),
                          BITS(materials[1].name),

@@ -109,7 +109,7 @@ TEST(a_picture_that_cannot_be_written_ends_it) {
     assert_int_equal(count_entries("other"), 8);
 }
 
-TEST(an_interruption_tells_how_far_it_came) {
+TEST(an_interruption_reports_its_progress) {
     assert_int_equal(start("run/%d.png", NULL, -1, false), HD_OK);
     for (int i = 0; i < 2; i++)
         give(take());
@@ -119,7 +119,7 @@ TEST(an_interruption_tells_how_far_it_came) {
     expect_files(2);
 }
 
-TEST(what_cannot_be_begun_leaves_nothing) {
+TEST(a_failed_start_leaves_nothing) {
     assert_int_equal(start("/dev/null/a_%d.data", "three/a_%d.data", -1, false), HD_FAILED);
     assert_null(store);
     assert_int_not_equal(access("three", F_OK), 0);
@@ -136,7 +136,7 @@ static void check_film(void) {
 }
 
 /* A continued run reads finished frames back. */
-TEST(films_and_pictures_go_side_by_side) {
+TEST(films_and_pictures_are_written_together) {
     struct stat kept;
     fake_films(WIDTH * HEIGHT * 4, 0);
     assert_int_equal(store_frames("run/%d.png", "films/film.mkv", -1, false), HD_OK);

@@ -95,7 +95,7 @@ TEST(whole_pictures_with_the_right_fingerprint_are_finished) {
     expect_finished(&plan, FRAMES - 3);
 }
 
-TEST(what_must_be_rendered_anyway_is_not) {
+TEST(frames_that_are_always_rendered_are_not_finished) {
     static const struct {
         const char *first, *second;
         int bits, finished;

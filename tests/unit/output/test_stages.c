@@ -153,7 +153,7 @@ static void take_in_order(int first, int count) {
 
 /* The third stage has several threads that work side by side and keep no order: it does not wait
    for the first item. */
-TEST(items_are_given_in_any_order) {
+TEST(items_may_be_submitted_in_any_order) {
     start(none_ready, ROOM);
     probes[2].gathers = 3;
     take_in_order(0, 4);
@@ -167,7 +167,7 @@ TEST(items_are_given_in_any_order) {
     expect_end(HD_OK, ITEMS);
 }
 
-TEST(nobody_takes_what_has_no_room) {
+TEST(nobody_claims_an_item_without_capacity) {
     const HdClaimer singles = {.ahead = 2};
     start(none_ready, ROOM);
     take_in_order(0, ROOM);
@@ -215,7 +215,7 @@ static void expect_waiting_gets(Waiting *waiting, int item) {
     assert_int_equal(waiting->item, item);
 }
 
-TEST(takers_that_wait_are_asked_again) {
+TEST(waiting_threads_are_asked_again) {
     Waiting waiting;
     start(none_ready, ROOM);
     start_waiting(&waiting);
@@ -239,7 +239,7 @@ TEST(takers_that_wait_are_asked_again) {
 
 /* Items before the one that failed are still wanted, and nobody leaves before they are
    submitted. */
-TEST(what_comes_before_a_failure_is_wanted) {
+TEST(items_before_a_failure_are_wanted) {
     Waiting waiting;
     HdError failure;
     start(none_ready, ROOM);
@@ -264,7 +264,7 @@ TEST(what_comes_before_a_failure_is_wanted) {
     assert_int_equal(probes[3].ended, 3);
 }
 
-TEST(a_gap_ends_it) {
+TEST(a_missing_item_ends_it) {
     start(none_ready, ROOM);
     take_in_order(0, 5);
     for (int i = 0; i < 5; i++)

@@ -29,7 +29,7 @@ static void expect_there(const char *path, bool expected) {
         fail_msg("%s is %s", path, expected ? "gone" : "still there");
 }
 
-TEST(those_of_the_run_go) {
+TEST(files_of_the_run_are_removed) {
     static const char *const names[] = {
         /* these are removed */
         "a/0001.png.tmp-4000000-0", "a/0012.png.tmp-1-17", "film.mp4.tmp-99-3",
@@ -49,7 +49,7 @@ TEST(those_of_the_run_go) {
 }
 
 /* A file of a killed process of this number, or of another machine. */
-TEST(a_name_that_is_taken_is_left_alone) {
+TEST(an_existing_file_is_left_alone) {
     char taken[64];
     HdAtomicFile file;
     assert_int_equal(mkdir("e", 0777), 0);
@@ -64,7 +64,7 @@ TEST(a_name_that_is_taken_is_left_alone) {
     assert_int_equal(count_entries("e"), 2);
 }
 
-TEST(numbered_folders_are_looked_through_and_folders_stay) {
+TEST(numbered_folders_are_searched_and_kept) {
     assert_int_equal(mkdir("d", 0777), 0);
     assert_int_equal(mkdir("d/0.png.tmp-1-0", 0777), 0);
     assert_int_equal(symlink("../a", "d/1.png.tmp-1-0"), 0);

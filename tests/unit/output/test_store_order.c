@@ -112,7 +112,7 @@ static HdStatus store_frames(HdDurability durability) {
     return status;
 }
 
-TEST(bytes_come_before_names_and_names_before_words) {
+TEST(bytes_precede_names_and_names_precede_reports) {
     assert_int_equal(store_frames(HD_DURABLE), HD_OK);
     assert_int_equal(done.told, FRAMES);
     assert_int_equal(count_entries("out"), FRAMES);

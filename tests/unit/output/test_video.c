@@ -171,7 +171,7 @@ static void trust_count(int frames) {
 static const char tags[] = "stream=codec_name,width,height,color_range,color_space,color_transfer,"
                            "color_primaries,r_frame_rate,nb_read_packets";
 
-TEST(mp4_tells_that_it_is_linear_and_odd_sizes_are_padded) {
+TEST(mp4_is_tagged_linear_and_odd_sizes_are_padded) {
     need_ffmpeg();
     trust_count(1);
     assert_int_equal(make_film("out/film.mp4", 33, 1, 1, &LINEAR), HD_OK);
@@ -232,7 +232,7 @@ TEST(names_reach_ffmpeg_unchanged) {
 
 /* ---- fake programs in place of FFmpeg ---- */
 
-TEST(an_older_film_stays_until_there_is_another) {
+TEST(an_old_film_stays_until_replaced) {
     HdVideo *video;
     struct stat found;
     HdFrame frame = make_frame(32, 16, RED);
@@ -249,7 +249,7 @@ TEST(an_older_film_stays_until_there_is_another) {
     hd_frame_free(&frame);
 }
 
-TEST(the_patience_is_whole_seconds) {
+TEST(the_timeout_is_whole_seconds) {
     static const char *const wrong[] = {"0", "86401", "1.5", "1s"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         setenv("HEDRON_FFMPEG_PATIENCE", wrong[i], 1);
@@ -264,7 +264,7 @@ TEST(the_patience_is_whole_seconds) {
     unsetenv("HEDRON_FFMPEG_PATIENCE");
 }
 
-TEST(failures_of_the_programs_are_told) {
+TEST(failures_of_the_programs_are_reported) {
     enum { LARGE = 600 }; /* a frame of that side exceeds all buffers */
     static const struct {
         const char *ffmpeg, *ffprobe;

@@ -43,7 +43,7 @@ static HdStatus render(Setup *setup) {
 }
 
 /* Two frames count as two, to the last count; a cancelled one ends before all of it is done. */
-TEST(all_samples_and_passes_are_told) {
+TEST(all_samples_and_passes_are_reported) {
     const struct {
         HdSampling sampling;
         double max_error;

@@ -28,7 +28,7 @@ static int wanting(HdFrameScheduler *scheduler, int left, double now) {
 }
 
 /* A frame of 10 s pays off if the others need as long for the rest. */
-TEST(slow_ones_leave_the_last_frames_to_others) {
+TEST(slow_workers_leave_the_last_frames_to_others) {
     HdFrameScheduler scheduler = scheduler_of(2, GPU(1.0), CPU(9.5), GPU(0.0));
     assert_int_equal(wanting(&scheduler, 10, 0.0), 3);
     assert_int_equal(wanting(&scheduler, 9, 0.0), 1);
@@ -75,7 +75,7 @@ TEST(cpus_wait_for_gpus) {
     assert_int_equal(wanting(&cpus, 100, 0.0), 3);
 }
 
-TEST(frames_under_way_count) {
+TEST(frames_in_flight_count) {
     HdFrameScheduler scheduler = scheduler_of(2, GPU(4.0), GPU(4.0), GPU(0.0));
     const HdScheduledWorker *worker = &scheduler.list[0];
     hd_scheduler_begun(&scheduler, 0, 10.0);

@@ -196,14 +196,14 @@ TEST(devices_share_the_frames) {
 
 /* The GPU finishes nothing before the CPU has rendered something, which can only be its
    estimate. */
-TEST(a_cpu_beside_gpus_estimates_its_pace) {
+TEST(a_cpu_with_gpus_estimates_its_pace) {
     the_cpu = 1;
     rules[0] = (Rule){FAKE_COLLECT, 1, &history.events[1][FAKE_COLLECT], 1, GO_ON};
     expect_all_made(2, 0);
 }
 
 /* The second device fails; the first one finishes nothing before. */
-TEST(others_trace_what_a_failed_device_had) {
+TEST(others_trace_a_failed_devices_frames) {
     const struct {
         FakePoint point;
         int count, made;
@@ -283,7 +283,7 @@ static void expect_spoilt(int frame, int devices, int dropped) {
     assert_int_equal(count_entries("run"), frame);
 }
 
-TEST(a_frame_that_cannot_be_ends_it_for_all) {
+TEST(an_impossible_frame_ends_it_for_all) {
     for (int mean = 0; mean < 2; mean++) {
         begin_again();
         scene.sampling = (HdSampling)mean;

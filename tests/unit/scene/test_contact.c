@@ -48,7 +48,7 @@ TEST(test_cubes) {
     }
 }
 
-TEST(test_what_counts_as_touching) {
+TEST(test_contact_threshold) {
     for (double size = 1e-12; size < 1e12; size *= 10.0) {
         const HdSolid cube = cube_at(0.0, 0.0, 0.0, 2.0 * size);
         const HdSolid just = cube_at((2.0 - 1.7e-9) * size, 0.0, 0.0, 2.0 * size);
@@ -200,7 +200,7 @@ static void expect_parted(HdScene *scene) {
     }
 }
 
-TEST(everything_is_parted) {
+TEST(all_contacts_are_separated) {
     HdSolid stack[] = {cube_at(0.0, 0.0, 1.0, 2.0),  cube_at(0.5, 0.25, 2.5, 1.0),
                        cube_at(2.0, 0.0, 1.0, 2.0),  cube_at(0.5, 0.0, 1.0, 1.0),
                        cube_at(-0.5, 0.0, 0.5, 1.0), cube_at(4.0, 0.0, 4.0, 0.5)};
@@ -229,7 +229,7 @@ TEST(everything_is_parted) {
 }
 
 /* Steps are as long as the greatest of the group, even if two of it do not touch its owner. */
-TEST(what_touches_in_turn_is_parted_by_equal_steps) {
+TEST(chains_of_contacts_are_separated_by_equal_steps) {
     HdSolid solids[] = {cube_at(0.0, 0.0, 4.0, 8.0), cube_at(4.5, 0.0, 4.0, 1.0),
                         cube_at(5.5, 0.0, 4.0, 1.0), cube_at(5.0, 0.0, 4.75, 0.5)};
     const double before = solids[1].circumradius, small = solids[3].circumradius;

@@ -82,7 +82,7 @@ static void see_two(HdScene *scene, double apart, HdSeen seen[4]) {
 }
 
 /* Inside a room only the room is visible, unless something reaches into it. */
-TEST(rays_see_what_is_there) {
+TEST(bounds_cover_visible_radiance) {
     HdSolid solids[2];
     HdSeen seen[4];
     HdScene scene = {.solids = solids, .background = {0.5, 0.0, 0.0}};

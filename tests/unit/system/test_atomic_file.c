@@ -23,7 +23,7 @@ static int lock_late(int descriptor, int operation) {
 }
 
 /* Another run mistook it for a stale one before it was locked. */
-TEST(one_that_was_removed_before_its_lock_is_not_written_to) {
+TEST(a_file_removed_before_its_lock_is_not_written_to) {
     HdAtomicFile file;
     char first[64];
     snprintf(first, sizeof first, "0.png.tmp-%ld-0", (long)getpid());
@@ -37,7 +37,7 @@ TEST(one_that_was_removed_before_its_lock_is_not_written_to) {
 }
 
 /* Another run removed the stale one and gave its name to a file of its own. */
-TEST(one_that_took_the_name_of_a_stale_one_stays) {
+TEST(a_file_that_took_a_stale_files_name_stays) {
     write_bytes("1.png.tmp-1-0", "stale", 5);
     write_bytes("other", "fresh", 5);
     comes_between = "other";
@@ -64,7 +64,7 @@ static void remove_locked(pid_t owner, bool is_done) {
 }
 
 /* Its child still writes. */
-TEST(that_of_a_process_that_is_gone_is_to_be_tried_again) {
+TEST(a_file_of_an_ended_process_is_tried_again) {
     const pid_t gone = fork();
     if (gone == 0)
         _exit(0);
@@ -88,7 +88,7 @@ static int note_sync(int descriptor) {
 REPLACE(fsync, note_sync)
 
 /* Another program may replace a file made for it. */
-TEST(a_reserved_one_is_named_as_another_program_left_it) {
+TEST(a_reserved_file_keeps_the_name_of_its_replacement) {
     HdAtomicFile file;
     struct stat found;
     assert_int_equal(hd_atomic_file_reserve(&file, "3.mkv", &error), HD_OK);
@@ -113,7 +113,7 @@ static void expect_failure(HdAtomicFile *file, const char *message) {
 }
 
 /* The bytes are on the disk before the name is. */
-TEST(only_what_is_to_last_is_synced) {
+TEST(only_lasting_files_are_synced) {
     HdAtomicFile file;
     syncs = 0;
     assert_int_equal(hd_atomic_file_open(&file, "fleeting", &error), HD_OK);
@@ -142,7 +142,7 @@ TEST(a_write_that_failed_leaves_the_old_file) {
     assert_int_equal(count_entries("old"), 1);
 }
 
-TEST(what_goes_away_meanwhile_is_named) {
+TEST(a_vanished_file_is_named) {
     HdAtomicFile file;
     char message[HD_MAX_PATH + 64];
     open_for(&file, "going/file");

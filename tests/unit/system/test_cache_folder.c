@@ -64,7 +64,7 @@ static int mode_of(const char *path) {
 }
 
 /* Private to the user from the first instant, whatever the mask. */
-TEST(what_is_put_is_got_by_the_user_alone) {
+TEST(only_the_user_can_read_entries) {
     HdAtomicFile file;
     put("a");
     assert_int_equal(mode_of(find_entry()), 0600);
@@ -156,7 +156,7 @@ TEST(entries_of_another_key_are_noticed) {
     expect_untrusted("another key");
 }
 
-TEST(what_is_no_file_is_not_read) {
+TEST(only_regular_files_are_read) {
     put("a");
     assert_int_equal(rename(find_entry(), "elsewhere"), 0);
     assert_int_equal(symlink("../elsewhere", entry_file), 0);
@@ -172,7 +172,7 @@ TEST(what_is_no_file_is_not_read) {
 }
 
 /* The entry ("") or the folder; only an entry is made again. */
-TEST(what_is_open_to_others_is_not_used) {
+TEST(folders_open_to_others_are_not_used) {
     static const struct {
         const char *path;
         mode_t mode;
@@ -246,7 +246,7 @@ TEST(the_folder_is_found_in_order) {
 }
 
 /* As on a full disk, or for too large an entry. */
-TEST(a_write_that_fails_leaves_what_was_there) {
+TEST(a_failed_write_leaves_the_old_file) {
     static const char large[1 << 14];
     struct rlimit before, limit;
     put("a");

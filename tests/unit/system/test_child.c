@@ -45,7 +45,7 @@ static void expect_end(bool is_good, const char *words) {
 
 /* Signals that were ignored, such as by nohup, stay ignored; our own handling of lost readers does
    not. */
-TEST(it_tells_how_it_ended_and_what_was_said) {
+TEST(the_end_and_the_output_are_reported) {
     static const struct {
         const char *script, *how, *said;
     } cases[] = {
@@ -68,7 +68,7 @@ TEST(it_tells_how_it_ended_and_what_was_said) {
     signal(SIGHUP, SIG_DFL);
 }
 
-TEST(what_is_sent_comes_back) {
+TEST(sent_bytes_are_echoed) {
     enum { SIZE = 3 << 20 };
     uint8_t *bytes = malloc(SIZE);
     assert_non_null(bytes);
@@ -91,7 +91,7 @@ TEST(what_is_sent_comes_back) {
 }
 
 /* The check comes every 0.2 s. */
-TEST(one_that_hangs_is_killed) {
+TEST(a_hanging_program_is_killed) {
     static const uint8_t bytes[1 << 20];
     run("sleep 1000");
     assert_false(hd_child_end(&child, 300, how));
@@ -105,7 +105,7 @@ TEST(one_that_hangs_is_killed) {
 }
 
 /* It reads, then it writes: each for longer than the timeout, but with shorter pauses. */
-TEST(one_that_works_is_waited_for) {
+TEST(a_working_program_is_waited_for) {
     static const uint8_t bytes[12 << 17];
     run("for i in 1 2 3 4 5 6; do sleep 0.22; head -c 262144 >/dev/null; done; "
         "for i in 1 2 3 4 5 6; do sleep 0.22; echo; done");
@@ -153,7 +153,7 @@ static void expect_no_start(const char *path, HdStatus status, const char *reaso
     expect_none();
 }
 
-TEST(one_that_cannot_start_is_told) {
+TEST(a_failed_start_is_reported) {
     write_bytes("text", "no program", 10);
     expect_no_start("./none", HD_UNAVAILABLE, "cannot start ./none: No such file");
     expect_no_start("./text", HD_UNAVAILABLE, "cannot start ./text: Permission denied");

@@ -51,7 +51,7 @@ static void expect_synced(const char *path, const char *names) {
     assert_string_equal(synced_names, names);
 }
 
-TEST(folders_are_synced_up_to_one_that_was) {
+TEST(folders_are_synced_up_to_a_synced_one) {
     expect_synced("a/b/1.png", "/a/b /a . ");
     expect_synced("a/b/2.png", "/a/b ");
     expect_synced("a/c/1.png", "/a/c /a ");
@@ -74,7 +74,7 @@ TEST(a_sync_that_a_signal_ends_is_begun_again) {
     }
 }
 
-TEST(a_disk_that_fails_is_told) {
+TEST(a_failing_disk_is_reported) {
     answers[0] = EDQUOT;
     answers[2] = EIO;
     assert_int_equal(hd_sync_file(STDIN_FILENO, "a/1.png", &error), HD_FAILED);

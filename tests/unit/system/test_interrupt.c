@@ -157,8 +157,8 @@ static const struct {
     {"it is announced", take_it, "", SIGTERM, "stopping\n"},
     {"it is announced", take_it, "", SIGHUP, "stopping\n"},
     {"nothing is to be announced", announce_nothing, "", SIGTERM, ""},
-    {"two at once are the same wish", take_two_at_once, "", SIGINT, "stopping\n"},
-    {"another thread takes it where the main thread is stuck", wait_deaf, "", SIGTERM, ""},
+    {"two at once count as one", take_two_at_once, "", SIGINT, "stopping\n"},
+    {"another thread takes it if the main thread is stuck", wait_deaf, "", SIGTERM, ""},
     {"a second one later ends it at once", take_a_second_one, "100", -SIGINT, ""},
     {"who does not end in time is ended", hang, "0.1", -SIGTERM, too_late},
     {"whose main thread is stuck, too", hang_deaf, "0.1", -SIGTERM, too_late},
@@ -178,7 +178,7 @@ TEST(signals_end_it_as_they_should) {
     }
 }
 
-TEST(the_patience_is_a_time) {
+TEST(the_timeout_is_a_time) {
     static const struct {
         const char *text;
         bool is_good;

@@ -72,7 +72,7 @@ static HdStatus create_with(HdThreadPool **pool, int threads) {
     return status;
 }
 
-TEST(those_that_start_do_the_work) {
+TEST(the_started_threads_do_the_work) {
     HdThreadPool *pool;
     char note[HD_FALLBACK_LENGTH];
     assert_int_equal(create_with(&pool, 2), HD_OK);

@@ -74,7 +74,7 @@ TEST(runs_are_of_one_cluster_and_within_their_sphere) {
     }
 }
 
-TEST(where_no_light_ends_one_lane_has_none) {
+TEST(one_lane_has_no_runs_without_falloff) {
     for (int i = 0; i < scene.light_count; i++)
         scene.lights[i].falloff = (HdFalloff){0};
     const Light *lights = compile(1);

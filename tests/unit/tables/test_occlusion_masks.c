@@ -116,7 +116,7 @@ static bool cannot_occlude(int from, int light, int object) {
 }
 
 /* Masks of single lights, and before them one of all lights. */
-TEST(segments_miss_what_is_beside) {
+TEST(segments_miss_excluded_objects) {
     int nonoccluders = 0, others = 0, crossed = 0;
     for (int from = 0; from < OBJECTS; from++)
         for (int object = 0; object < OBJECTS; object++) {
@@ -144,7 +144,7 @@ TEST(segments_miss_what_is_beside) {
 
 /* The dodecahedron and the cube overlap, the icosahedron is in the floor. The first light is in the
    tetrahedron, the second one is not. */
-TEST(solids_that_others_reach_into_are_not_apart) {
+TEST(solids_that_others_reach_into_are_not_isolated) {
     static const int isolated[OBJECTS] = {1, 1, 0, 0, 0, 0};
     for (int i = 0; i < OBJECTS; i++)
         assert_int_equal(objects[i].isolated, isolated[i]);

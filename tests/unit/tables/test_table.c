@@ -24,7 +24,7 @@ static HdError error;
 static const HdMemoryBudget device = {
     .name = "Device", .advice = "do this", .memory = 4e9, .at_once = 1e9};
 
-TEST(bytes_are_told_shortly) {
+TEST(bytes_are_printed_briefly) {
     static const struct {
         double bytes;
         const char *text;
@@ -109,7 +109,7 @@ TEST(a_scene_may_be_too_large_for_the_machine) {
 }
 
 /* PoCL reports as little memory as requested, and allows a quarter of it at once. */
-TEST(opencl_tells_what_is_too_large) {
+TEST(opencl_reports_too_large_tables) {
     HdDevice devices[HD_MAX_DEVICES];
     HdRenderOptions options = {.lanes = 1};
     HdRenderer *renderer;

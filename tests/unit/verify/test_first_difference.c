@@ -55,7 +55,7 @@ static const char *difference(const char *frame, void (*how)(const HdSceneTables
 }
 
 /* A fault of mirrors shows only after a reflection; one of the sky at once, in the corner. */
-TEST(pixel_sample_and_depth_are_told) {
+TEST(pixel_sample_and_depth_are_reported) {
     assert_string_equal(difference("tetrahedron", with_nothing),
                         "asked again it renders as plain C does");
     expect_contains(difference("tetrahedron", with_other_mirrors), "depth 1 of the ray: ");

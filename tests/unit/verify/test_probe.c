@@ -123,7 +123,7 @@ TEST(expectations_are_known) {
 }
 
 /* Division alone may be replaced by fused operations. */
-TEST(faults_are_told_or_healed) {
+TEST(faults_are_reported_or_corrected) {
     static const struct {
         Fault fault;
         const char *primitive, *cause; /* NULL: none is reported */

@@ -44,7 +44,7 @@ static void expect_loading(const char *folder, HdStatus expected, const char *me
     assert_int_equal(WEXITSTATUS(status), expected);
 }
 
-TEST(a_driver_is_loaded_or_told_to_be_missing_or_old) {
+TEST(a_driver_is_loaded_or_reported_as_missing_or_old) {
     setenv("FAKE_CUDA_DRIVER", "13010", 1);
     expect_loading(FAKE_CUDA, HD_OK, "CUDA_ERROR_OUT_OF_MEMORY, sm_61, driver for CUDA 13.1");
     assert_int_equal(symlink(STUB_NVRTC, "libcuda.so.1"), 0);
@@ -56,7 +56,7 @@ TEST(a_driver_is_loaded_or_told_to_be_missing_or_old) {
                    "the NVIDIA driver (libcuda.so.1) is not installed");
 }
 
-TEST(what_may_help_a_driver_to_start_is_told) {
+TEST(remedies_for_a_failing_driver_are_reported) {
     static const struct {
         const char *code, *version;
         HdStatus status;
@@ -117,7 +117,7 @@ TEST(errors_have_their_words) {
     }
 }
 
-TEST(what_a_device_does_not_survive_is_a_loss) {
+TEST(errors_that_lose_the_device) {
     static const HdCuResult losses[] = {46, 214, 220, 700, 702, 709, 714, 715, 716, 717, 718, 719};
     for (HdCuResult code = 1; code < 1000; code++) {
         bool is_loss = false;

@@ -34,7 +34,7 @@ static void expect_checked(int arch, int driver_major, HdStatus expected) {
     assert_int_equal(hd_nvrtc_check("some device", arch, driver_major, &error), expected);
 }
 
-TEST(what_is_remembered_is_not_loaded_while_it_is_as_it_was) {
+TEST(an_unchanged_remembered_library_is_not_loaded) {
     const struct timespec other[2] = {{.tv_sec = 1000}, {.tv_sec = 1000}};
     setenv("HEDRON_NVRTC", "/no/such/library.so", 1);
     expect_checked(61, 12, HD_UNAVAILABLE);
@@ -102,7 +102,7 @@ TEST(the_newest_that_suits_the_driver_is_taken) {
 
 #define PACKAGE "lib/python3.11/site-packages/nvidia/cuda_nvrtc/lib"
 
-TEST(it_is_looked_for_where_people_put_it) {
+TEST(usual_folders_are_searched) {
     static const char *const found[][2] = {
         {"CUDA_HOME", "lib64"},
         {"CUDA_PATH", "lib64"},
@@ -131,7 +131,7 @@ TEST(it_is_looked_for_where_people_put_it) {
                 "branch 470 is the last for this card; found: ");
 }
 
-TEST(one_that_is_named_is_the_only_one) {
+TEST(a_named_library_is_the_only_candidate) {
     static const char *const ignored[] = {"libnvrtc.so.13.0", "libnvrtc.so.12.99",
                                           "libnvrtc.so.0.1"};
     setenv("CUDA_HOME", "there", 1);

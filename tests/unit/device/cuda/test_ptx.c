@@ -19,7 +19,7 @@ const HdCudaPtx hd_cuda_ptx[] = {
 };
 const int hd_cuda_ptx_count = sizeof hd_cuda_ptx / sizeof *hd_cuda_ptx;
 
-TEST(what_does_all_is_found) {
+TEST(suitable_ptx_is_found) {
     static const struct {
         HdKernelShape shape;
         int expected;

@@ -174,7 +174,7 @@ TEST(memory_is_kept_while_it_is_enough) {
     hd_gpu_release(&gpu, &memory);
 }
 
-TEST(a_lack_of_memory_is_told) {
+TEST(a_lack_of_memory_is_reported) {
     HdGpuMemory memory = {0};
     card.room = 1000;
     assert_int_equal(reserve(&memory, HD_GPU_DEVICE, 1001), HD_FAILED);
@@ -198,7 +198,7 @@ static const HdWaveNeeds queue_needs = {.bytes = 4 * HD_WAVE_MIN_BYTES,
                                         .samples_at_once = 32};
 
 /* The queue of two workers; half of it is tried if memory is short. */
-TEST(a_queue_is_cut_to_what_there_is) {
+TEST(a_queue_is_cut_to_the_available_memory) {
     static const struct {
         size_t room;
         HdStatus status;
@@ -223,7 +223,7 @@ TEST(a_queue_is_cut_to_what_there_is) {
     expect_contains(error.message, "the rays of the queue need 2.");
 }
 
-TEST(a_queue_counts_from_0_and_tells_what_it_lacks) {
+TEST(a_queue_counts_from_0_and_reports_its_missing_memory) {
     HdGpuWaveQueue queue = {0};
     HdWaveNeeds needs = queue_needs;
     unsigned taken = 1;
@@ -257,7 +257,7 @@ static void expect_compiled(HdStatus status, HdStatus expected, int compiled) {
     assert_int_equal(card.compiled, compiled);
 }
 
-TEST(kernels_are_built_for_other_needs_or_the_probe_only) {
+TEST(kernels_are_built_only_for_other_needs_or_the_probe) {
     expect_compiled(build(8), HD_OK, 1);
     expect_compiled(build(8), HD_OK, 1);
     expect_compiled(build(16), HD_OK, 2);
@@ -292,7 +292,7 @@ TEST(groups_are_as_large_as_the_kernels_allow) {
     assert_int_equal(program.group_size, 1);
 }
 
-TEST(groups_that_were_asked_for_are_not_made_smaller) {
+TEST(requested_groups_are_not_made_smaller) {
     program.block = 128;
     card.most = 128;
     assert_int_equal(build(8), HD_OK);
@@ -305,7 +305,7 @@ TEST(groups_that_were_asked_for_are_not_made_smaller) {
     assert_false(program.is_built || card.has_kernels);
 }
 
-TEST(what_fails_is_tried_again) {
+TEST(failed_devices_are_tried_again) {
     card.breaks = true;
     expect_compiled(build(8), HD_UNAVAILABLE, 1);
     expect_compiled(build(8), HD_UNAVAILABLE, 2);

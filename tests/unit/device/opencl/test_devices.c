@@ -111,7 +111,7 @@ AT_START(hide_displays)
 static HdDevice devices[HD_MAX_DEVICES];
 static HdError error;
 
-TEST(devices_and_obstacles_are_described) {
+TEST(devices_and_unsupported_reasons_are_described) {
     static const char all[] = "it is not available, its driver has no compiler, it is older than "
                               "OpenCL 1.2, it is not little-endian";
     static const char *const unsupported_reasons[COUNT] = {"", "", "it is older than OpenCL 1.2",
@@ -147,7 +147,7 @@ TEST(devices_are_found_by_number) {
 
 /* ---- errors ---- */
 
-TEST(a_lost_device_is_told) {
+TEST(a_lost_device_is_reported) {
     static const struct {
         const char *function;
         cl_int code;

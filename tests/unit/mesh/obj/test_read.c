@@ -51,7 +51,7 @@ static void expect_refused(const char *text, const char *message) {
     expect_refused_bytes(text, strlen(text), message);
 }
 
-TEST(everything_of_a_face_is_read) {
+TEST(all_parts_of_a_face_are_read) {
     HdMesh mesh = read_text("v -1.5 +2 .5e1 1.0\nv 1 0 0 0.5 0.5 0.5\nv\t0\t1\t-0.25E-1\n"
                             "vt 0.25 0.5 0\nvt 0.75\nvn 0 0 2\nvn 0 0 0\n"
                             "f 1/1/1 2/2/1 3//2\nf 3 2/1 1//1\nf -3/-1/-2 -2/ -1//\n");
@@ -149,7 +149,7 @@ TEST(long_lines_and_comments_pass) {
         "a.obj: line 11001: with those that continue it, it is longer than 65000 bytes");
 }
 
-TEST(files_that_cannot_be_read_are_told_apart) {
+TEST(files_that_cannot_be_read_are_distinguished) {
     /* The first byte of a process' memory is at no address. */
     static const char *const files[][2] = {{"missing.obj", "No such file or directory"},
                                            {"folder", "Is a directory"},
@@ -166,7 +166,7 @@ TEST(files_that_cannot_be_read_are_told_apart) {
     }
 }
 
-TEST(what_is_no_obj_file_is_told) {
+TEST(a_file_that_is_not_obj_is_reported) {
 #define NO_FACES                                                                                   \
     "cannot read the mesh a.obj: it has no faces, so it is empty or no OBJ file (of other "        \
     "formats, such as STL, PLY and glTF, Blender or assimp can make one)"
@@ -182,7 +182,7 @@ TEST(what_is_no_obj_file_is_told) {
                    "a.obj: line 2: it begins with byte 0x1b, so this is no OBJ file");
 }
 
-TEST(wrong_numbers_are_told) {
+TEST(wrong_numbers_are_reported) {
     static const struct {
         const char *expected, *numbers[12];
     } wrong[] = {
@@ -214,7 +214,7 @@ TEST(wrong_numbers_are_told) {
 
 #define BACK " counted back from here"
 
-TEST(wrong_faces_are_told) {
+TEST(wrong_faces_are_reported) {
     static const struct {
         const char *face, *problem;
     } wrong[] = {
@@ -375,7 +375,7 @@ TEST(materials_are_mapped) {
     assert_true(read_material("newmtl n\nd 1\nnewmtl m\nTr 0.75\n").material.transmission == 0.75);
 }
 
-TEST(what_is_not_used_is_noted) {
+TEST(unused_statements_are_noted) {
     static const struct {
         const char *statements, *notes;
     } cases[] = {
@@ -596,7 +596,7 @@ TEST(memory_is_limited) {
 }
 
 /* Files whose names and first words are not those of OBJ. */
-TEST(words_of_other_files_are_not_told) {
+TEST(other_files_are_not_quoted) {
     static const char *const cases[][2] = {
         {"root:x:0 hidden\nf password\n", "corner '...' of a face"},
         {"root:x:0 hidden\n", "it has no faces"},
