@@ -135,8 +135,8 @@ static void trace_and_shade(const Room *room, HdVec3 origin, HdVec3 direction, i
     }
 }
 
-/* ---- paths of mirrors in other renderers: triangles and rays in float, in world coordinates, and
-   a method against hitting the surface that a ray leaves; none is part of the product ---- */
+/* ---- paths in other renderers: triangles and rays in float, in world coordinates, with a method
+   against hitting the surface that a ray leaves; not part of the product ---- */
 
 enum { MAX_PLAIN_TRIANGLES = 128 };
 

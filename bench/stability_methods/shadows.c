@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Segments to lights on the surface of an opaque solid: how many open ones are blocked and blocked
-   ones open; and the effect of a light at the lit point itself. */
+/* Segments to lights on the surface of an opaque solid: counts open ones that are blocked, and
+   blocked ones that are open. Also the effect of a light at the lit point itself. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

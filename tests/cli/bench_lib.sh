@@ -43,7 +43,7 @@ print(svg.tagName, len(svg.getElementsByTagName("text")) > 0, len(svg.getElement
 
 # expect_bench_refusal CODE TEXT OPTIONS...: of the program `bench`.
 expect_bench_refusal() {
-    expect_exit "$1" timeout "$patience" "$bench" "${@:3}"
+    expect_exit "$1" timeout "$time_limit" "$bench" "${@:3}"
     expect_stderr_contains "$2"
     expect_stdout_lines 0
 }

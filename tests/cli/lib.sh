@@ -138,7 +138,7 @@ expect_sentence() {
 
 # expect_refusal CODE COMMAND...: that exit code at once, one sentence, and no standard output.
 expect_refusal() {
-    expect_exit "$1" timeout "$patience" "${@:2}"
+    expect_exit "$1" timeout "$time_limit" "${@:2}"
     if ((code == $1)); then
         expect_sentence
         expect_stdout_lines 0
@@ -252,7 +252,7 @@ wait_until() {
 
 # wait_for WHAT COMMAND...: until it succeeds, at most for the timeout.
 wait_for() {
-    wait_until "$patience" "${@:2}" || fail "waited in vain for $1"
+    wait_until "$time_limit" "${@:2}" || fail "timed out waiting for $1"
 }
 
 # In a group of its own, so that the shell does not make it ignore SIGINT. Sets `pid`.
@@ -274,12 +274,12 @@ send() {
 }
 
 # Seconds after which a program counts as hanging: more than any needs on a slow and busy machine.
-patience=300
+time_limit=300
 
 # expect_end CODE: the started program ends by itself, with this code.
 expect_end() {
-    if ! wait_until "$patience" is_gone "$pid"; then
-        fail "still running after $patience s"
+    if ! wait_until "$time_limit" is_gone "$pid"; then
+        fail "still running after $time_limit s"
         kill -KILL -- "-$pid" 2>/dev/null || true
     fi
     code=0

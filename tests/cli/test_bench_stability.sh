@@ -32,8 +32,8 @@ expect_counts 0.0 'print(sum(wrong("crossings", None, method, key, lambda e: e["
     + sum(wrong("paths", None, method, "lost") for method in ("ours_solids", "ours_triangles")) + wrong("paths", None, "ours_double", "strayed")
     + sum(wrong("shadows", None, "ours", key) for key in ("blocked", "opened", "nan")))'
 expect_counts True 'print(all(wrong("paths", None, method, "strayed", m.is_in_target) <= 0.01 for method in ("ours_solids", "ours_triangles")))'
-# Failures of others: small triangles by a determinant below 1e-6, edges and corners, distant things by world coordinates,
-# paths and shadows by an epsilon, lights on edges; and cases without failures.
+# Failures of others: small triangles by a determinant below 1e-6, edges and corners, distant things by world coordinates.
+# Paths and shadows fail by an epsilon, lights on edges; and there are cases without failures.
 expect_counts '[]' 'some = [("crossings", "t_junctions", "ours_triangles", "missed", None, 0.001),
     ("crossings", "interior", "moeller_trumbore_1e-6", "missed", lambda e: e["scale"] < 1e-3, 0.95),
     ("crossings", "corners", "watertight", "twice", m.is_at_origin, 0.02),

@@ -7,7 +7,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/bench_lib.sh"
 
 # A program with three devices of the CPU kind, of which one is unusable, and a GPU. A frame takes 10 ms of tracing on c, 20 on
-# opencl and 1 on cuda, and each frame after the first more than the one before; 100 lights add 5. It logs its arguments. In
+# opencl and 1 on cuda; 100 lights add 5. Each frame after the first takes more than the one before. It logs its arguments. In
 # the run whose number the file `hold` has, it waits after two frames until it is killed.
 mkdir fake
 cat >fake/hedron <<'FAKE'
@@ -66,7 +66,7 @@ study=("$bench" --hedron fake/hedron --others 100 --results none --quick --machi
 
 # fake_study CODE MODE OPTIONS...
 fake_study() {
-    FAKE_MODE=$2 expect_exit "$1" timeout "$patience" "${study[@]}" "${@:3}"
+    FAKE_MODE=$2 expect_exit "$1" timeout "$time_limit" "${study[@]}" "${@:3}"
 }
 
 # hold_in RUN COMMAND...: starts it and waits for its run with that number in the log. Sets `pid`, and `held`.
@@ -202,7 +202,7 @@ expect_python '5 True' 'table = open("table.md", encoding="utf-8").read()' \
 # ---- the program itself; a folder whose name would be a pattern
 mkdir '##%d'
 study[2]=$hedron
-TMPDIR="$PWD/##%d" expect_exit 0 "${no_nvidia[@]}" timeout "$patience" "${study[@]}" --out 'real/##%d' --device c --repeats 1 --parts threads
+TMPDIR="$PWD/##%d" expect_exit 0 "${no_nvidia[@]}" timeout "$time_limit" "${study[@]}" --out 'real/##%d' --device c --repeats 1 --parts threads
 expect_value 'real/##%d/study.json' '[r["failures"], all(e["summary"]["trace_ms"]["median"] > 0 for e in r["measurements"]), m["threads", "", 1, "c:0"]["renderer"].count(", 1 thread")]' \
     '[[], true, 1]'
 expect_python '[True, True, False, None]' 'import re' 'page = open("real/##%d/report.html", encoding="utf-8").read()' \

@@ -16,7 +16,7 @@ film=()
 # expect_orderly_failure CODE WORDS COMMAND...: one sentence, and no file except whole frames, which are removed.
 expect_orderly_failure() {
     local file
-    expect_exit "$1" timeout "$patience" "${@:3}"
+    expect_exit "$1" timeout "$time_limit" "${@:3}"
     expect_sentence
     expect_stderr_contains "$2"
     expect_stdout_lines 0

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The CUDA backend against its driver, which runs kernels without a device: wrong ones are an error, caching, cutting of
-# launches, failing calls; pictures and films equal those of plain C. The conformance suite checks frames in flight together.
+# The CUDA backend against its driver, which runs kernels without a device: errors of wrong ones, caching, cutting of launches,
+# failing calls. Pictures and films equal those of plain C. The conformance suite checks frames in flight together.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"

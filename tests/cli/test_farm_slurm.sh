@@ -9,7 +9,7 @@ source "$cli_folder/slurm_cluster.sh"
 
 need_slurm
 command -v ffmpeg >"$logs/which" || skip "there is no ffmpeg"
-patience=600 # seconds, for a busy machine
+time_limit=600 # seconds, for a busy machine
 submit=$project/farm/slurm/hedron-submit
 report=$project/farm/slurm/hedron-report
 
@@ -45,7 +45,7 @@ frame_path() {
 
 # wait_for_held A B: hedron has stored frame A, and is held before frame B or earlier. Sets `held`.
 wait_for_held() {
-    if ! wait_until "$patience" test -s "$(frame_path "$1")" -a -s "$gate/pid-$1-$2"; then
+    if ! wait_until "$time_limit" test -s "$(frame_path "$1")" -a -s "$gate/pid-$1-$2"; then
         fail "the frames $1-$2 are not held"
         tail -n 30 "the out"/hedron-farm/*/*.log "$cluster/log/slurmctld" >&2 || true
         exit 1
@@ -58,7 +58,7 @@ parent_of() {
 }
 
 wait_for_empty_queue() {
-    if ! wait_until "$patience" queue_is_empty; then
+    if ! wait_until "$time_limit" queue_is_empty; then
         fail "Slurm still has jobs"
         squeue >&2 || true
         tail -n 30 "$cluster"/log/* >&2 || true
@@ -98,7 +98,7 @@ kill -KILL "$held"
 wait_for_held 6 8
 echo "killing task 2, process $(parent_of "$held")"
 kill -KILL "$(parent_of "$held")"
-wait_until "$patience" is_gone "$held" || fail "the renderer outlives its task"
+wait_until "$time_limit" is_gone "$held" || fail "the renderer outlives its task"
 wait_for_held 9 11
 echo "cancelling task 3"
 expect_exit 0 scancel "${job}_3"

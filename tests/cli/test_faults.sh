@@ -64,7 +64,7 @@ note_leader="echo \$\$ >'$work/leader.new'; mv '$work/leader.new' '$work/leader'
 expect_stuck() {
     printf 'old' >film.mkv
     fake "$1" "$note_leader; $2"
-    expect_exit 1 timeout "$patience" "${with_tools[@]}" HEDRON_FFMPEG_PATIENCE=1 "${render[@]}" --frames 0-2 \
+    expect_exit 1 timeout "$time_limit" "${with_tools[@]}" HEDRON_FFMPEG_PATIENCE=1 "${render[@]}" --frames 0-2 \
         -o film.mkv -o '%d.data'
     rm "$work/tools/$1"
     expect_sentence
@@ -153,7 +153,7 @@ expect_files .
 
 # ---- threads that the system refuses
 refused_from() {
-    run timeout "$patience" env FAILING_THREADS_AFTER="$1" LD_PRELOAD="$failing" "${@:2}"
+    run timeout "$time_limit" env FAILING_THREADS_AFTER="$1" LD_PRELOAD="$failing" "${@:2}"
 }
 few=("$hedron" render --backend c "${small[@]}" --frames 0-2 -o '%d.data' --threads 4)
 "${few[@]}" --quiet >"$logs/which"

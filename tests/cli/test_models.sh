@@ -8,7 +8,7 @@ model=$(realpath "$2")/hedron_model
 
 # One sentence of the program's own, nothing on standard output: expect_model_refusal CODE WHAT ARGUMENT...
 expect_model_refusal() {
-    expect_exit "$1" timeout "$patience" "$model" "${@:3}"
+    expect_exit "$1" timeout "$time_limit" "$model" "${@:3}"
     expect_stdout_lines 0
     expect_stderr_contains "$2"
     if (($(grep -c -E '^hedron_model: .{10,}$' "$logs/stderr") != 1 || $(wc -l <"$logs/stderr") != 1)); then
@@ -98,7 +98,7 @@ expect_exit 1 bash -c "ulimit -f 100; '$model' knot 20000 -o old.obj"
 expect_stderr_contains 'hedron_model: cannot write old.obj: File too large'
 expect_same old.obj <(echo old)
 start "$model" soup 10000000 -o late.obj
-wait_until "$patience" compgen -G 'late.obj.tmp-*' >/dev/null || fail "there is no temporary file"
+wait_until "$time_limit" compgen -G 'late.obj.tmp-*' >/dev/null || fail "there is no temporary file"
 kill -INT "$pid"
 expect_end 130
 expect_stderr_contains 'hedron_model: interrupted'

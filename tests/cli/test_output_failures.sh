@@ -73,7 +73,7 @@ expect_refusal 2 "${render[@]}" --frames 0 -o "$(printf '%05000d' 0).png"
 long=$(printf '%0252d' 0)
 : >blocked
 for name in "$long.png" "$long%d.pfm" blocked/picture.png; do
-    run timeout "$patience" "$hedron" render --quiet --backend c --size 1600x1200 --samples 16 --depth 12 --frames 0 -o "$name"
+    run timeout "$time_limit" "$hedron" render --quiet --backend c --size 1600x1200 --samples 16 --depth 12 --frames 0 -o "$name"
     expect_failure 1 2
 done
 rm blocked
@@ -169,7 +169,7 @@ ffmpeg=$(command -v ffmpeg)
 
 # ---- FFmpeg fails, with more bytes than the buffers on the way hold; output/test_video covers other failures
 fake ffmpeg 'read -r -N 1000 -t 5 || true; echo "had enough" >&2; kill -9 $$'
-expect_exit 1 timeout "$patience" "${with_tools[@]}" "${render[@]}" --quiet --size 400x300 --frames 0-2 -o film.mp4
+expect_exit 1 timeout "$time_limit" "${with_tools[@]}" "${render[@]}" --quiet --size 400x300 --frames 0-2 -o film.mp4
 expect_stderr_contains 'signal 9'
 expect_stdout_lines 0
 expect_files .
@@ -185,7 +185,7 @@ expect_stdout_lines 0
 # A talkative FFmpeg does not block the run; the new film replaces the old one.
 fake ffmpeg "head -c 1000000 /dev/zero | tr '\\0' x >&2; exec '$ffmpeg' \"\$@\""
 rm -f ./*.data
-expect_exit 0 timeout "$patience" "${with_tools[@]}" "${render[@]}" --size 400x300 --frames 0-2 -o film.mkv
+expect_exit 0 timeout "$time_limit" "${with_tools[@]}" "${render[@]}" --size 400x300 --frames 0-2 -o film.mkv
 expect_files . film.mkv
 [[ $(head -c 3 film.mkv) != old ]] || fail 'the old film is still there'
 

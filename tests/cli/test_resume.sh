@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # A repeated run renders the missing frames only, and makes the same files: numbered pictures, films after their last whole
-# segment; also after being killed, as often as a third argument says.
+# segment. It may have been killed, as often as a third argument says.
 # shellcheck disable=SC2317 # wait_until calls functions by their names
 set -euo pipefail
 # shellcheck source=lib.sh

@@ -29,14 +29,14 @@ render=("$hedron" render --backend c --frames 0 --quiet -o picture.data)
 # refuse WHAT...: bad.json is refused, with each of these in the message; 'render' prints the same and makes no file.
 refuse() {
     local what
-    expect_exit 2 timeout "$patience" "$hedron" check bad.json
+    expect_exit 2 timeout "$time_limit" "$hedron" check bad.json
     for what in "$@"; do
         expect_stderr_contains "$what"
     done
     expect_stdout_lines 0
     grep -q -E '^hedron: (cannot read the scene )?bad\.json' "$logs/stderr" || fail 'the message names no file'
     cp "$logs/stderr" "$work/checked"
-    expect_exit 2 timeout "$patience" "${render[@]}" bad.json
+    expect_exit 2 timeout "$time_limit" "${render[@]}" bad.json
     expect_stdout_lines 0
     expect_same "$logs/stderr" "$work/checked"
 }

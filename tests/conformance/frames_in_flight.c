@@ -75,7 +75,7 @@ static bool collect(Views *views, HdRenderer *renderer, int round) {
 }
 
 /* Submits each frame before collecting its predecessor. The last one is dropped. */
-void check_flights(const Target *target, int *pictures, int *different) {
+void check_frames_in_flight(const Target *target, int *pictures, int *different) {
     Views views;
     HdError error;
     open_views(&views, target);

@@ -8,6 +8,6 @@
 /* Renders a picture as radiance and in 8 bits on each curve, several frames in flight, and compares
    each with the frame rendered alone. Prints differences on `label`; adds to the numbers of
    pictures compared and of those that differ. */
-void check_flights(const Target *target, int *pictures, int *different);
+void check_frames_in_flight(const Target *target, int *pictures, int *different);
 
 #endif

@@ -226,7 +226,7 @@ static void check_renderer(const HdDevice *device, const HdRenderOptions *wanted
              precision, device->name, text, ptx, one_build ? ", one build" : "");
     if (frames != FEW)
         check_truths(&target, &tally->truths, &tally->untrue);
-    check_flights(&target, &tally->frames, &tally->different);
+    check_frames_in_flight(&target, &tally->frames, &tally->different);
     compare_frames(&target, frames, options, golden, tally);
     tally->renderers++;
     hd_renderer_close(target.renderer);

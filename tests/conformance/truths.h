@@ -13,8 +13,8 @@
 typedef struct Check {
     const Target *target;
     int checked, failed;
-    double tolerance; /* relative */
-    const char *told; /* the last failed truth: only its first wrong pixel is printed */
+    double tolerance;         /* relative */
+    const char *failed_truth; /* the last failed truth: only its first wrong pixel is printed */
 } Check;
 
 HdFrame render(const Check *check, const HdScene *scene, const HdCamera *camera);

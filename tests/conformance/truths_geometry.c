@@ -31,9 +31,9 @@ static void check_mirror_series(Check *check) {
     }
 }
 
-/* Through clear glass that halves the light at each face, a white background is exactly 4^-k for
-   every ray that passes k solids, also at edges and corners: no face is missed or hit twice.
-   Returns the number of pixels that look through the solid. */
+/* Clear glass halves the light at each face. A white background is then exactly 4^-k for every ray
+   that passes k solids, also at edges and corners: no face is missed or hit twice. Returns the
+   number of pixels that look through the solid. */
 static int check_no_leaks(Check *check, HdSolidKind kind, HdVec3 aim) {
     HdScene scene;
     HdCamera camera;

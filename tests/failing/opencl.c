@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A driver that fails, preloaded before the OpenCL library. FAILING_OPENCL is the name of a
-   function, FAILING_OPENCL_AT the number of its first call that fails, from 1, FAILING_OPENCL_TIMES
-   how many of them fail, by default all from there, and FAILING_OPENCL_CODE their error.
+   function, FAILING_OPENCL_AT the number of its first call that fails, from 1. FAILING_OPENCL_TIMES
+   is how many of them fail, by default all from there, and FAILING_OPENCL_CODE their error.
    FAILING_OPENCL_HANGS, if set, is a file that is made before the call waits for ever.
    FAILING_OPENCL_TEXT is a text that the compiler mistakes for FAILING_OPENCL_FOR, everywhere in a
    program. FAILING_OPENCL_NAME is the name of each device. With FAILING_OPENCL_LIES the driver

@@ -115,7 +115,7 @@ static Memory *take(size_t bytes) {
     return memory;
 }
 
-static HdCuResult give_back(Memory **link) {
+static HdCuResult release(Memory **link) {
     Memory *memory = *link;
     bool held = holds(memory);
     fake_expect_idle();
@@ -153,7 +153,7 @@ HdCuResult cuMemFree_v2(HdCuPointer pointer) {
     FAKE_CALL(cuMemFree);
     for (Memory **link = &all; *link != NULL; link = &(*link)->next)
         if (pointer != 0 && (*link)->address == pointer)
-            return give_back(link);
+            return release(link);
     return fake_misuse(FAKE_INVALID_VALUE, "memory of the device is freed that is not there");
 }
 
@@ -172,7 +172,7 @@ HdCuResult cuMemFreeHost(void *data) {
     FAKE_CALL(cuMemFreeHost);
     for (Memory **link = &all; *link != NULL; link = &(*link)->next)
         if ((*link)->address == 0 && (*link)->data == data)
-            return give_back(link);
+            return release(link);
     return fake_misuse(FAKE_INVALID_VALUE, "memory of the host is freed that is not there");
 }
 

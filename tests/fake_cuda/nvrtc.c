@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Stands in for NVRTC 12.8, or with FAKE_NVRTC_MAJOR=13 for 13.0, which supports nothing before
-   sm_75: the system's compiler builds the text, with device.h before it, as a shared object that
+   sm_75. The system's compiler builds the text, with device.h before it, as a shared object that
    the fake driver runs. With FAKE_NVRTC_WRONG it computes wrongly. The folder FAKE_NVRTC_CACHE,
    which must exist, keeps earlier builds. */
 #define _GNU_SOURCE /* posix_spawn_file_actions_addchdir_np */

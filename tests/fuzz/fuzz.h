@@ -17,8 +17,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 /* Returns a new copy with a zero byte behind it, as text; the caller frees it. */
 char *fuzz_text(const uint8_t *data, size_t size);
 
-/* Writes a file of that name into a folder of this process, which is removed at its end, and
-   returns the path, valid until the next call with the same name. */
+/* Writes a file of that name into a folder of this process, which is removed at its end. Returns
+   the path, valid until the next call with the same name. */
 const char *fuzz_file(const char *name, const void *data, size_t size);
 
 /* Ends the process with a message unless the condition holds. */

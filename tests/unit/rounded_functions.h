@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Compares division and roots of fused operations with the processor's: in float all digits of a
-   divisor and of a number under a root, in both precisions the probe's hard cases. */
+   divisor and of a number under a root. In both precisions it tests the probe's hard cases. */
 #define HD_LANES          8
 #define HD_ROUNDED_BY_FMA 1
 

@@ -66,9 +66,9 @@ def fronts(memory):
 
 
 def fronts_caption(limit, drawn):
-    told = [f"{label} comes to {number(these[-1]['rmse'], 3)} in {number(these[-1]['ms'], 3)} ms ({these[-1]['name']})."
+    sentences = [f"{label} comes to {number(these[-1]['rmse'], 3)} in {number(these[-1]['ms'], 3)} ms ({these[-1]['name']})."
             for label, these in drawn.items()]
-    return (f"{' '.join(told)} The chart ends at {ENOUGH_NEARER} times the reference's own error of "
+    return (f"{' '.join(sentences)} The chart ends at {ENOUGH_NEARER} times the reference's own error of "
             f"{number(limit / ENOUGH_NEARER, 2)}.")
 
 

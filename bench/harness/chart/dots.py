@@ -31,11 +31,11 @@ def radius(share):
     return SMALL + (LARGE - SMALL) * part
 
 
-def dot(sheet, x, y, share, told=""):
+def dot(sheet, x, y, share, hint=""):
     if share:
-        sheet.mark("circle", x, y, radius(share), "bad", told)
+        sheet.mark("circle", x, y, radius(share), "bad", hint)
     elif share is not None:
-        sheet.mark("circle", x, y, NEVER, "soft", told)
+        sheet.mark("circle", x, y, NEVER, "soft", hint)
 
 
 def dots(about, title, caption, blocks, drawn):
@@ -64,7 +64,7 @@ def dots(about, title, caption, blocks, drawn):
             for start, block, shares in zip(starts, blocks, each.shares):
                 sheet.stroke([(start - step / 2, y), (start + step * (len(shares) - 0.5), y)], None, 1, 'class="grid"')
                 for place, share in enumerate(shares):
-                    told = "" if share is None else f"{each.name}, {block.words} {block.columns[place]}: {100 * share:.3g} %"
-                    dot(sheet, start + step * place, y, share, told)
+                    hint = "" if share is None else f"{each.name}, {block.words} {block.columns[place]}: {100 * share:.3g} %"
+                    dot(sheet, start + step * place, y, share, hint)
             sheet.y += 24
     return Chart(about, title, caption, paint)

@@ -84,11 +84,11 @@ class Painter:
             y = sheet.y + deep / 2
             bottom = sheet.y + deep
         else:
-            names, told = sheet.wrapped(rows[0].name, NAMES * sheet.width - 16), sheet.wrapped(words, WORDS * sheet.width)
-            bottom = sheet.y + max(deep, sheet.line * max(len(names), len(told)) + 4)
+            names, notes = sheet.wrapped(rows[0].name, NAMES * sheet.width - 16), sheet.wrapped(words, WORDS * sheet.width)
+            bottom = sheet.y + max(deep, sheet.line * max(len(names), len(notes)) + 4)
             y = (sheet.y + bottom) / 2
             for these, x, anchor, kind in ((names, NAMES * sheet.width - 14, "end", ""),
-                                           (told if words else (), sheet.width * (1 - WORDS), "start", "soft")):
+                                           (notes if words else (), sheet.width * (1 - WORDS), "start", "soft")):
                 for place, each in enumerate(these):
                     sheet.text(x, y + 5 + sheet.line * (place - (len(these) - 1) / 2), each, anchor, kind)
         sheet.stroke([(self.scale.start, y), (self.scale.end, y)], None, 1, 'class="grid"')

@@ -97,9 +97,9 @@ class Sheet:
         kind = f" class=\"{look(colour)}\" stroke=\"currentColor\" fill=\"none\"" if colour is not None else ""
         self.add(f"<path d=\"{path}\"{kind} stroke-width=\"{width:g}\" {more}/>")
 
-    def mark(self, name, x, y, size, colour, told="", hollow=False):
-        """Draws one of MARKS; `told` appears when the reader points at it."""
-        words = f"<title>{html.escape(told)}</title>" if told else ""
+    def mark(self, name, x, y, size, colour, hint="", hollow=False):
+        """Draws one of MARKS; `hint` appears when the reader points at it."""
+        words = f"<title>{html.escape(hint)}</title>" if hint else ""
         start = f"class=\"{look(colour)}\" stroke=\"currentColor\" stroke-width=\"1.8\""
         fill = "class=\"paper\"" if hollow and name not in ("cross", "plus") else "fill=\"currentColor\""
         if name == "circle":

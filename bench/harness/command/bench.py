@@ -20,15 +20,15 @@ NEWS_SECONDS = 10  # seconds between lines of progress if the error output is no
 
 class News:
     """Progress: one line that changes on a terminal, or a line every few seconds."""
-    told = None
+    shown_at = None
 
     def __call__(self, words, seconds_left=None):
         if seconds_left is not None:
             words += f"; about {int(seconds_left // 60)}:{int(seconds_left % 60):02} left of the timing"
         if os.isatty(2):
             print(f"\r\033[K{words}", end="", file=sys.stderr, flush=True)
-        elif self.told is None or time.monotonic() - self.told >= NEWS_SECONDS:
-            self.told = time.monotonic()
+        elif self.shown_at is None or time.monotonic() - self.shown_at >= NEWS_SECONDS:
+            self.shown_at = time.monotonic()
             print(words, file=sys.stderr, flush=True)
 
     @staticmethod

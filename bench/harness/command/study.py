@@ -155,12 +155,12 @@ class Study(Bench):
         files.remove_old(out, ["study_*"])  # removes the charts of removed sections too
         charts = {name: chart for section in drawn for name, (chart, _) in section.charts.items()}
         files.draw(charts, out)
-        wrong, told = [[f"{each['machine']['name']}: {each['pictures']['sentence']}" for each in found
+        wrong, remarks = [[f"{each['machine']['name']}: {each['pictures']['sentence']}" for each in found
                         if (each["pictures"]["same"] is False) is differ] for differ in (True, False)]
         failed = [f"FAILED: {words}" for words in result["failures"]]
-        results.write_text(out / "report.html", html.page(found, drawn, answer.opening(PARTS, found), [*wrong, *failed], told))
+        results.write_text(out / "report.html", html.page(found, drawn, answer.opening(PARTS, found), [*wrong, *failed], remarks))
         results.write_text(out / "study.csv", html.csv_text(found))
-        print(*summary_lines(result), "", *failed, *wrong, *told, sep="\n")
+        print(*summary_lines(result), "", *failed, *wrong, *remarks, sep="\n")
         if results.is_unfinished(result):
             print("Interrupted: the same call continues.")
         print(f"The page: {out / 'report.html'}; all figures: {self.file} and study.csv")

@@ -273,10 +273,10 @@ def time_words(best, size):
 
 def best_words(found):
     """Returns a sentence about the device that needs the least time for a pixel."""
-    told = [(best, size, device.name) for device in found for size, best in filter(None, [at_guide(device)]) if best]
-    if not told:
+    candidates = [(best, size, device.name) for device in found for size, best in filter(None, [at_guide(device)]) if best]
+    if not candidates:
         return f"No setting comes to an RMSE of {GUIDE}. "
-    best, size, name = min(told, key=lambda each: each[0]["ms"] / (each[1][0] * each[1][1]))
+    best, size, name = min(candidates, key=lambda each: each[0]["ms"] / (each[1][0] * each[1][1]))
     return f"An RMSE of {GUIDE} takes {time_words(best, size)} on {name}, by {' '.join(best['options'])}. "
 
 

@@ -117,14 +117,14 @@ class Frames(Bench):
                 number(each["ratio_to_fastest"], 3)]
 
     def tell(self):
-        told = [f"hedron {self.program.version}, {scene_words(self.result)}", machine_words(self.result), ""]
+        printed = [f"hedron {self.program.version}, {scene_words(self.result)}", machine_words(self.result), ""]
         if self.measured:
-            told += [*tables.lines([HEAD, *map(self.cells, self.measured)]), ""]
-        told += [f"{each.get('label') or each['device']} {'failed' if each.get('failed') else 'cannot run'}: {each['reason']}"
+            printed += [*tables.lines([HEAD, *map(self.cells, self.measured)]), ""]
+        printed += [f"{each.get('label') or each['device']} {'failed' if each.get('failed') else 'cannot run'}: {each['reason']}"
                  for each in [*self.result["devices"], *self.plan.jobs] if each["reason"] is not None]
         if not self.result["complete"]:
-            told.append("Interrupted: figures are of what was measured until then.")
-        print(*told, self.result["pictures"]["sentence"], *files.draw(self.charts(), self.arguments.out),
+            printed.append("Interrupted: figures are of what was measured until then.")
+        print(*printed, self.result["pictures"]["sentence"], *files.draw(self.charts(), self.arguments.out),
               f"All times: {self.file}", sep="\n")
 
     def charts(self):

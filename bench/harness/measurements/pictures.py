@@ -96,8 +96,8 @@ def fill(section):
     section.pictures = [(each["name"], words(each), each["png"]) for each in entries if each["name"] not in black]
     section.notes.append(LEGEND)
     if black:
-        told = [f"{name}, {f'at most {number(most, 3)} of 255' if most else 'no pixel'}" for name, most in black.items()]
-        section.notes.append(f"Maps that are all black are not shown: {'; '.join(told)}.")
+        unseen = [f"{name}, {f'at most {number(most, 3)} of 255' if most else 'no pixel'}" for name, most in black.items()]
+        section.notes.append(f"Maps that are all black are not shown: {'; '.join(unseen)}.")
     section.notes.append(f"Made on {found['machine']['name']}{dagger(found)}, {' x '.join(map(str, found['gallery']['size']))}.")
 
 

@@ -76,12 +76,12 @@ def points_of(result, device):
     return [point for point in points if point["seconds"] > 0 and not point.get("meshes") and point["samples"] >= LEAST_SAMPLES]
 
 
-def choose_device(result, wish):
+def choose_device(result, selection):
     peaks = {label: rate for label, rate in (result.get("peaks") or {}).items() if rate}
-    label = wish or next(iter(peaks), None)
+    label = selection or next(iter(peaks), None)
     if label not in peaks:
-        raise Problem(3, "the file has no GPU whose lanes are known" if wish is None else
-                      f"--device is '{wish}', expected one of {', '.join(peaks) or 'none'}")
+        raise Problem(3, "the file has no GPU whose lanes are known" if selection is None else
+                      f"--device is '{selection}', expected one of {', '.join(peaks) or 'none'}")
     return label, peaks[label]
 
 

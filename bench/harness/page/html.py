@@ -97,9 +97,9 @@ def machines(results, pictures):
                for result in results if result["hedron"]["options"]]
     absent = [f"{result['machine']['name']}: nothing was measured of {', '.join(parts)}."
               for result in results if (parts := parts_without_figures(result))]
-    told = [*changed, *map(noise_words, results), *absent, *pictures]
+    sentences = [*changed, *map(noise_words, results), *absent, *pictures]
     return ["<details id=\"machines\"><summary>Machines, programs and method</summary>", table(machine_rows(results)), "<ul>",
-            *(f"<li>{text(each)}</li>" for each in told), f"<li>{METHOD}</li>", "</ul></details>"]
+            *(f"<li>{text(each)}</li>" for each in sentences), f"<li>{METHOD}</li>", "</ul></details>"]
 
 
 def warnings(results, failures):

@@ -191,17 +191,17 @@ def growth(line):
     return x, first["median"], last_x, last["median"]
 
 
-def few(told):
+def few(sentences):
     """Returns a sentence for each of the first few."""
-    more = len(told) - MOST_SENTENCES
-    return " ".join(f"{sentence(each)}." for each in told[:MOST_SENTENCES]) + (
+    more = len(sentences) - MOST_SENTENCES
+    return " ".join(f"{sentence(each)}." for each in sentences[:MOST_SENTENCES]) + (
         f" The figures below have {more} more." if more > 0 else "")
 
 
-def range_words(told):
+def range_words(pairs):
     """Returns the least and the most of [(value, name of device)]."""
-    words = [f"{number(value, 3)} on {name}" for value, name in (min(told), max(told))]
-    return " up to ".join(words[:len(told)])
+    words = [f"{number(value, 3)} on {name}" for value, name in (min(pairs), max(pairs))]
+    return " up to ".join(words[:len(pairs)])
 
 
 def growth_words(drawn, what="", words=axis_number):
@@ -210,19 +210,19 @@ def growth_words(drawn, what="", words=axis_number):
     if not grown:
         return "There is one point only."
     _, x, _, last_x, _ = grown[0]
-    told = range_words([(last / first, line.short) for line, _, first, _, last in grown])
+    factors = range_words([(last / first, line.short) for line, _, first, _, last in grown])
     ends = f"From {words(x)} to {words(last_x)} {what}".rstrip()
-    return f"{ends} the time of a frame grows by a factor of {told}."
+    return f"{ends} the time of a frame grows by a factor of {factors}."
 
 
 def best_words(drawn, words=axis_number):
     """Returns the fastest point of each line, in sentences."""
-    told = []
+    sentences = []
     for line in drawn:
         x, spread = min(line.points, key=lambda point: point[1]["median"])
         worst = max(each["median"] for _, each in line.points)
-        told.append(f"{words(x)} is fastest on {line.short}: {ratio(worst / spread['median'])} as fast as the slowest")
-    return few(told)
+        sentences.append(f"{words(x)} is fastest on {line.short}: {ratio(worst / spread['median'])} as fast as the slowest")
+    return few(sentences)
 
 
 def proportional(drawn):

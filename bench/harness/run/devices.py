@@ -28,22 +28,22 @@ def entry(backend, device):
     return {"label": label(known), **known}
 
 
-def chosen(backends, wishes):
+def chosen(backends, selections):
     """Returns the requested devices, or all."""
     found = [entry(backend, device) for backend in backends for device in backend["devices"] or [{}]]
-    if not wishes:
+    if not selections:
         return found
     picked = []
-    for wish in wishes:
-        name, colon, number = wish.partition(":")
+    for selection in selections:
+        name, colon, number = selection.partition(":")
         names = [backend["name"] for backend in backends]
         if name not in names or (colon and not number.isdecimal()):
-            raise Problem(2, f"--device is '{wish}', expected BACKEND or BACKEND:NUMBER with one of the backends "
+            raise Problem(2, f"--device is '{selection}', expected BACKEND or BACKEND:NUMBER with one of the backends "
                              f"{', '.join(names)}")
         matches = [each for each in found if each["backend"] == name
                    and (not colon or each["index"] is None or each["index"] == int(number))]
         if not matches:
-            raise Problem(3, f"--device is '{wish}', which 'hedron devices' does not list")
+            raise Problem(3, f"--device is '{selection}', which 'hedron devices' does not list")
         picked += [each for each in matches if each not in picked]
     return picked
 

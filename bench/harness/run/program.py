@@ -76,12 +76,12 @@ class Program:
 
     def render(self, device, scene, frames, options, folder, output="#######.data", cores=None, path=None,
                look=None, variables=None):
-        """Runs hedron in a new folder, where no name in the path counts as a pattern; `cores`, `path` (for PATH) and
-        `variables` of the environment are optional. Returns a dictionary: the exit "code" (None if the run was interrupted);
-        the first line of the error output as "message", all of it as "said"; "frames", the lines of the statistics; "digests"
-        of frames that are files of their own; "wall" seconds of the program, "cpu" seconds of it and its children; the "load";
-        "others", the share of all usable processors' time that other programs took (None if the system does not report it);
-        "noisy", whether that is too much. `look` is called with the folder before its removal, and gives "seen". """
+        """Runs hedron in a new folder, where no name in the path counts as a pattern. `cores`, `path` (for PATH) and
+        `variables` of the environment are optional. `look` is called with the folder before its removal, and gives "seen".
+        Returns a dictionary: the exit "code" (None if the run was interrupted); the first line of the error output as "message",
+        all of it as "said"; "frames", the lines of the statistics. "digests" are of frames that are files of their own. "wall" are
+        seconds of the program, "cpu" seconds of it and its children, "load" is the machine's. "others" is the share of all usable
+        processors' time that other programs took (None if the system does not report it); "noisy", whether that is too much."""
         place = Path(folder, "run")
         place.mkdir()
         command = [self.path, "render", "--quiet", *options, "--backend", device["backend"],

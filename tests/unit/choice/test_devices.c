@@ -135,7 +135,7 @@ static void add_name(int number, const HdDevice *device) {
              device->backend->name, device->index);
 }
 
-static const char *told(HdStatus status, HdStatus expected) {
+static const char *result_text(HdStatus status, HdStatus expected) {
     assert_int_equal(status, expected);
     return status == HD_OK ? names : error.message;
 }
@@ -150,7 +150,7 @@ static const char *opened_by(HdDeviceSelection selection, HdStatus expected) {
         assert_non_null(team.list[i].renderer);
         add_name(i, &team.list[i].device);
     }
-    return told(status, expected);
+    return result_text(status, expected);
 }
 
 static const char *found_by(HdDeviceSelection selection, HdStatus expected) {
@@ -159,7 +159,7 @@ static const char *found_by(HdDeviceSelection selection, HdStatus expected) {
     const HdStatus status = hd_candidates_find(&candidates, &selection, &error);
     for (int i = 0; i < candidates.count; i++)
         add_name(i, &candidates.list[i].device);
-    return told(status, expected);
+    return result_text(status, expected);
 }
 
 static const char *named(const char *backend, const char *device, HdStatus expected) {
@@ -168,7 +168,7 @@ static const char *named(const char *backend, const char *device, HdStatus expec
     const HdStatus status = hd_devices_named(backend, device, devices, &count, &error);
     for (int i = 0; i < count; i++)
         add_name(i, &devices[i]);
-    return told(status, expected);
+    return result_text(status, expected);
 }
 
 #define expect_opened(expected, ...)                                                               \

@@ -25,7 +25,7 @@ static double read_clock(void) {
 }
 REPLACE(hd_monotonic_seconds, read_clock)
 
-static HdStatus take_time(FakePoint point, int index, HdError *failure) {
+static HdStatus advance_time(FakePoint point, int index, HdError *failure) {
     (void)failure;
     now += point == FAKE_COLLECT ? frame_seconds[index] : 0.0;
     return HD_OK;
@@ -38,7 +38,7 @@ static int begin(void **state) {
     (void)state;
     int count;
     memset(&fake, 0, sizeof fake);
-    fake.event = take_time;
+    fake.event = advance_time;
     clock_step = 0.0;
     frame_seconds[0] = 0.4;
     frame_seconds[1] = 0.0;

@@ -173,8 +173,8 @@ TEST(other_kinds_are_refused) {
     get_bytes();
     find("a.json"); /* the label */
     find("--depth 3");
-    /* After a channel's name and its zero byte: the type, four bytes, and 8 more to the sampling;
-       after the name of the data window's type: its size and four numbers. */
+    /* After a channel's name and its zero byte come the type, four bytes, and 8 more to the
+       sampling. After the name of the data window's type come its size and four numbers. */
     unsigned char *green = find("chlist") + 7 + 4 + 18;
     unsigned char *window = find("dataWindow") + 11 + 6 + 4;
     const struct {

@@ -182,9 +182,9 @@ TEST(the_largest_side_is_read) {
     expect_contains(error.message, "sparse: it has 5368709120 bytes, expected at most 4294967296");
 }
 
-/* The hashes are of other programs' output, each channel as 16 bits, the lower ones first: of PNG
-   (named by colour type, bits and whether it is interlaced) a reader in another language, of JPEG
-   `djpeg -nosmooth -dct int`, with whichever libjpeg is here. */
+/* The hashes are of other programs' output, each channel as 16 bits, the lower ones first. For PNG
+   (named by colour type, bits and whether it is interlaced) that is a reader in another language,
+   for JPEG `djpeg -nosmooth -dct int`, with whichever libjpeg is here. */
 TEST(every_kind_is_read) {
     static const struct {
         const char *name;

@@ -22,9 +22,9 @@ expect_change_refused(HdSceneChange change, const char *format, ...) {
     va_start(arguments, format);
     vsnprintf(message + used, sizeof message - used, format, arguments);
     va_end(arguments);
-    const char *told = expect_refused(rich_text, change, message);
-    assert_ptr_equal(strstr(told, message), told);
-    assert_null(strchr(told, '\n'));
+    const char *got = expect_refused(rich_text, change, message);
+    assert_ptr_equal(strstr(got, message), got);
+    assert_null(strchr(got, '\n'));
 }
 
 /* A field of numbers: both ends of its range, and values just outside. */
@@ -277,11 +277,11 @@ static const struct {
 
 TEST(test_wrong_texts) {
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
-        const char *told = expect_refused(refused[i].text, refused[i].change, refused[i].message);
-        if (strncmp(told, "a.json", 6) != 0 || strstr(told + 6, refused[i].message) != told + 6)
-            fail_msg("'%s', expected 'a.json%s'", told, refused[i].message);
-        if (strchr(told, '\n') != NULL && strchr(refused[i].message, '\n') == NULL)
-            fail_msg("'%s' has more than one line", told);
+        const char *got = expect_refused(refused[i].text, refused[i].change, refused[i].message);
+        if (strncmp(got, "a.json", 6) != 0 || strstr(got + 6, refused[i].message) != got + 6)
+            fail_msg("'%s', expected 'a.json%s'", got, refused[i].message);
+        if (strchr(got, '\n') != NULL && strchr(refused[i].message, '\n') == NULL)
+            fail_msg("'%s' has more than one line", got);
     }
 }
 

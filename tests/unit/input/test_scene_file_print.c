@@ -13,8 +13,8 @@ static HdError error;
 
 typedef HdStatus Print(FILE *out, HdError *error);
 
-static HdStatus print_first(FILE *out, HdError *told) {
-    return hd_scene_file_print(out, &first, told);
+static HdStatus print_first(FILE *out, HdError *failure) {
+    return hd_scene_file_print(out, &first, failure);
 }
 
 /* Prints a scene; the caller frees the text. */

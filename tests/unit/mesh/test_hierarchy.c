@@ -117,7 +117,7 @@ static void of_all_sizes(HdBox *box, int i) {
     }
 }
 
-/* Points on the axes, each 64 times nearer to the origin than the last: the outermost point has a
+/* Points on the axes, each 64 times nearer to the origin than the last. The outermost point has a
    bin of its own and all others share one, so that each split removes one point. */
 static void deep(HdBox *box, int i) {
     *box = (HdBox){{0}, {0}};

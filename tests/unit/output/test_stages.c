@@ -56,7 +56,7 @@ static int capacity;
 static const bool none_ready[ITEMS];
 
 /* Faults may be added to the probes afterwards, before items are submitted. */
-static void start(const bool *ready, int room_of_stages) {
+static void start(const bool *ready, int capacity_of_stages) {
     HdStage list[4];
     for (int i = 0; i < 4; i++) {
         probes[i] = (Probe){.threads = threads[i], .fails_at = -1, .fails_late_at = -1};
@@ -65,14 +65,14 @@ static void start(const bool *ready, int room_of_stages) {
     }
     probes[1].before = &probes[0];
     probes[3].before = &probes[2];
-    capacity = room_of_stages;
+    capacity = capacity_of_stages;
     assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, ready, capacity, &error), HD_OK);
 }
 
 static const HdClaimer anybody = {.wants = NULL};
 
 /* Submits items from that one on until all are submitted or one failed; returns their number. */
-static int give_items_from(int first) {
+static int submit_items_from(int first) {
     int given = first, item;
     while ((item = hd_stages_claim(stages, &anybody, true)) >= 0) {
         assert_int_equal(item, given);
@@ -127,7 +127,7 @@ TEST(a_failure_of_any_stage_leaves_the_items_before_it) {
         char expected[32];
         start(none_ready, ROOM);
         probes[i % 4].fails_at = item;
-        assert_true(give_items_from(0) <= item + ROOM);
+        assert_true(submit_items_from(0) <= item + ROOM);
         assert_false(hd_stages_wait(stages, item));
         assert_int_equal(hd_stages_claim(stages, &anybody, false), -1);
         expect_end(HD_FAILED, item);
@@ -139,14 +139,14 @@ TEST(a_failure_of_any_stage_leaves_the_items_before_it) {
     start(none_ready, ROOM);
     probes[0].fails_at = 5;
     probes[2].fails_late_at = 3;
-    give_items_from(0);
+    submit_items_from(0);
     expect_end(HD_FAILED, 3);
     assert_string_equal(error.message, "item 3 failed");
 }
 
 /* ---- several workers ---- */
 
-static void take_in_order(int first, int count) {
+static void claim_in_order(int first, int count) {
     for (int i = first; i < first + count; i++)
         assert_int_equal(hd_stages_claim(stages, &anybody, false), i);
 }
@@ -156,21 +156,21 @@ static void take_in_order(int first, int count) {
 TEST(items_may_be_submitted_in_any_order) {
     start(none_ready, ROOM);
     probes[2].gathers = 3;
-    take_in_order(0, 4);
+    claim_in_order(0, 4);
     for (int i = 3; i > 0; i--)
         hd_stages_submit(stages, i);
     while (!(probes[2].done[1] && probes[2].done[2] && probes[2].done[3]))
         nap(1);
     assert_int_equal(probes[0].begun + probes[1].begun + probes[3].begun, 0);
     hd_stages_submit(stages, 0);
-    assert_int_equal(give_items_from(4), ITEMS);
+    assert_int_equal(submit_items_from(4), ITEMS);
     expect_end(HD_OK, ITEMS);
 }
 
 TEST(nobody_claims_an_item_without_capacity) {
     const HdClaimer singles = {.ahead = 2};
     start(none_ready, ROOM);
-    take_in_order(0, ROOM);
+    claim_in_order(0, ROOM);
     assert_int_equal(hd_stages_claim(stages, &anybody, false), -1);
     assert_int_equal(hd_stages_claim(stages, &singles, false), ROOM);
     assert_int_equal(hd_stages_claim(stages, &singles, false), ROOM + 1);
@@ -243,7 +243,7 @@ TEST(items_before_a_failure_are_wanted) {
     Waiting waiting;
     HdError failure;
     start(none_ready, ROOM);
-    take_in_order(0, 5);
+    claim_in_order(0, 5);
     hd_fail(&failure, HD_BAD_INPUT, "item 3 cannot be");
     hd_stages_fail(stages, 3, &failure);
     hd_fail(&failure, HD_FAILED, "nor can item 4");
@@ -256,7 +256,7 @@ TEST(items_before_a_failure_are_wanted) {
     hd_stages_release(stages, 4);
     hd_stages_release(stages, 1);
     start_waiting(&waiting);
-    take_in_order(1, 1);
+    claim_in_order(1, 1);
     hd_stages_submit(stages, 1);
     expect_waiting_gets(&waiting, -1);
     expect_end(HD_BAD_INPUT, 3);
@@ -266,7 +266,7 @@ TEST(items_before_a_failure_are_wanted) {
 
 TEST(a_missing_item_ends_it) {
     start(none_ready, ROOM);
-    take_in_order(0, 5);
+    claim_in_order(0, 5);
     for (int i = 0; i < 5; i++)
         if (i != 2)
             hd_stages_submit(stages, i);

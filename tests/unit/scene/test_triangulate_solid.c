@@ -168,8 +168,8 @@ static void expect_materials(const HdMesh *mesh, const HdSolid *solid, bool has_
 }
 
 /* Returns the kernels' result (surface.h) for a point relative to the centre, with other widths
-   than the solid's: twice the number of the edge whose disc is visible, or -2, and 1 more on the
-   rim. */
+   than the solid's. It is twice the number of the edge whose disc is visible, or -2, and 1 more on
+   the rim. */
 static int by_rule(const HdSolid *solid, const HdPlatonic *shape, int face, HdVec3 point,
                    double rim_width, double disc_radius) {
     double nearest = -HUGE_VAL;

@@ -24,7 +24,7 @@ static void pass(double seconds) {
 
 static int number;
 
-static void take_it(void) {
+static void raise_one(void) {
     hd_interrupt_announce("stopping\n");
     errno = EDOM;
     if (hd_interrupt_signal() != 0 || raise(number) != 0 || errno != EDOM)
@@ -40,7 +40,7 @@ static void announce_nothing(void) {
     _exit(hd_interrupt_signal());
 }
 
-static void take_two_at_once(void) {
+static void raise_two_at_once(void) {
     hd_interrupt_announce("stopping\n");
     raise(SIGINT);
     raise(SIGTERM);
@@ -67,7 +67,7 @@ static void leave_a_file(void) {
     hd_cleanup_add_file("left");
 }
 
-static void take_a_second_one(void) {
+static void raise_a_second_one(void) {
     leave_a_file();
     raise(SIGTERM);
     pass(0.51);
@@ -153,13 +153,13 @@ static const struct {
     int outcome;
     const char *said;
 } cases[] = {
-    {"it is announced", take_it, "", SIGINT, "stopping\n"},
-    {"it is announced", take_it, "", SIGTERM, "stopping\n"},
-    {"it is announced", take_it, "", SIGHUP, "stopping\n"},
+    {"it is announced", raise_one, "", SIGINT, "stopping\n"},
+    {"it is announced", raise_one, "", SIGTERM, "stopping\n"},
+    {"it is announced", raise_one, "", SIGHUP, "stopping\n"},
     {"nothing is to be announced", announce_nothing, "", SIGTERM, ""},
-    {"two at once count as one", take_two_at_once, "", SIGINT, "stopping\n"},
+    {"two at once count as one", raise_two_at_once, "", SIGINT, "stopping\n"},
     {"another thread takes it if the main thread is stuck", wait_deaf, "", SIGTERM, ""},
-    {"a second one later ends it at once", take_a_second_one, "100", -SIGINT, ""},
+    {"a second one later ends it at once", raise_a_second_one, "100", -SIGINT, ""},
     {"who does not end in time is ended", hang, "0.1", -SIGTERM, too_late},
     {"whose main thread is stuck, too", hang_deaf, "0.1", -SIGTERM, too_late},
     {"what the parent ignored stays ignored, but for children", look_at_others, "", 0, ""},
