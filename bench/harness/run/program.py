@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Runs hedron, and the programs beside it. Hedron's statistics are the source of times: no start of a program, no compiling of
-kernels is in them. What a whole run takes is beside them, as `wall`, and what other programs took of the processors
-meanwhile."""
+"""Runs hedron and its companion programs. Hedron's statistics are the source of times: they contain neither the start of a
+program nor the compiling of kernels. Beside them are the time of the whole run, as `wall`, and the share of the processors
+that other programs took meanwhile."""
 import functools
 import hashlib
 import json
