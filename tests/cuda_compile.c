@@ -75,8 +75,8 @@ static bool parse(Options *options, int argc, char **argv) {
     return options->arch > 0;
 }
 
-/* A kernel's use in the assembler's report, in the lines after "Compiling entry function 'X'":
-   registers, bytes of stack frame, of spill stores and of spill loads. */
+/* Finds a kernel's use in the assembler's report, in the lines after "Compiling entry function
+   'X'": registers, bytes of stack frame, of spill stores and of spill loads. */
 static bool find_usage(const char *log, const char *kernel, int usage[4]) {
     char heading[80];
     snprintf(heading, sizeof heading, "entry function '%s'", kernel);

@@ -134,7 +134,7 @@ static bool is_interrupted(const void *context) {
     return hd_interrupt_signal() != 0;
 }
 
-/* The first one compiles alone, as it probes the device's arithmetic; the others side by side. */
+/* Opens the first one alone, as it probes the device's arithmetic; the others side by side. */
 static HdStatus open_all(const Bench *bench, Contender *contenders, int count, HdError *error) {
     Opening opening = {bench, contenders}, others = {bench, contenders + 1};
     HdThreadPool *pool;
@@ -160,7 +160,7 @@ static bool render(Contender *contender, Bench *bench, uint64_t *hash) {
     return status == HD_OK;
 }
 
-/* Round -1 warms up. */
+/* Runs a round; round -1 warms up. */
 static int run_round(Bench *bench, Contender *contenders, int count, int round,
                      uint64_t *expected) {
     int different = 0;

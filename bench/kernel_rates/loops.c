@@ -118,7 +118,7 @@ static HdWork make_rays(const HdTable *scene, const HdTable *frame, int most) {
     return walk_twice(scene, frame, visit_rays, &walk);
 }
 
-/* As the ray tree does before it computes direct light. */
+/* Visits the lit points as the ray tree does before it computes direct light. */
 static void visit_points(const HdTable *scene, const HdTable *frame, const Sight *sight,
                          Walk *walk) {
     HD_DECLARE_TABLES(scene, frame)
@@ -196,7 +196,7 @@ NOT_INLINED uint64_t OF_BUILD(light)(const HdTable *scene, const HdTable *frame,
     return (uint64_t)sum_of_lanes(tests);
 }
 
-/* The compiler must not know the numbers, or it would compute ahead. */
+/* Sums the chains' numbers. The compiler must not know them, or it would compute ahead. */
 static double sum_of_chains(const vreal *chains) {
     double sum = 0;
     for (int i = 0; i < HD_PEAK_CHAINS; i++)

@@ -328,7 +328,7 @@ static bool read_scene(Bench *bench, const char *path) {
     return true;
 }
 
-/* 0, or an exit code. */
+/* Returns 0, or an exit code. */
 static int read_arguments(Bench *bench, int count, char **words) {
     for (int i = 1; i < count; i++) {
         if (strcmp(words[i], "--count") == 0)

@@ -14,7 +14,7 @@ typedef struct HdCompiled {
     HdFrameTables frame; /* frame of the last eye */
 } HdCompiled;
 
-/* A solid without rims and lights. */
+/* Returns a solid without rims and lights. */
 HdSolid hd_plain_solid(HdSolidKind kind, HdVec3 centre, double radius, HdVec3 degrees,
                        HdFaceKind faces);
 

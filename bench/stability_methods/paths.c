@@ -221,7 +221,7 @@ static HdFloat3 move_off(HdFloat3 p, HdFloat3 normal) {
     return (HdFloat3){moved(p.x, normal.x), moved(p.y, normal.y), moved(p.z, normal.z)};
 }
 
-/* Nearer to the triangle than a point computed along the ray. */
+/* Blends the corners: nearer to the triangle than a point computed along the ray. */
 static HdFloat3 blend(const HdFloatTriangle *triangle, const HdMeeting *meeting) {
     float b = meeting->share_b, c = meeting->share_c, a = 1.0f - b - c;
     HdFloat3 p = triangle->a, q = triangle->b, r = triangle->c;

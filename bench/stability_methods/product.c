@@ -9,7 +9,7 @@ static Vec3 rounded(HdVec3 v) {
     return vec3_splat((real)v.x, (real)v.y, (real)v.z);
 }
 
-/* Fills the frame's tables that light does not need. */
+/* The frame's tables that light does not need. */
 static const HdTable no_frame[HD_FRAME_TABLE_COUNT];
 
 static Sample no_sample(void) {

@@ -43,7 +43,7 @@ void hd_shape_add_zero_areas(HdShape *shape);
 /* Puts every triangle there twice. */
 void hd_shape_double(HdShape *shape);
 
-/* A rotation about all three axes, in degrees. */
+/* Returns a rotation about all three axes, in degrees. */
 HdVec3 hd_random_turn(uint64_t *random);
 
 HdVec3 hd_random_direction(uint64_t *random);

@@ -181,7 +181,8 @@ static bool baldwin_weber(const HdFloatRay *ray, const HdFloatTriangle *triangle
     return true;
 }
 
-/* Permuted inner product of the Pluecker coordinates of the ray and of the line from a to b. */
+/* Returns the permuted inner product of the Pluecker coordinates of the ray and of the line from a
+   to b. */
 static float pluecker_side(const HdFloatRay *ray, HdFloat3 a, HdFloat3 b) {
     return dot(ray->direction, cross(a, b)) + dot(ray->moment, sub(b, a));
 }

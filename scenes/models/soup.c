@@ -12,7 +12,7 @@ static const double size = 0.7;
 
 static const double root_of_3 = 1.7320508075688772;
 
-/* Returns a point in the ball of radius 1, not too close to its centre. */
+/* Fills a point in the ball of radius 1, not too close to its centre. */
 static void random_point(uint64_t *state, double point[3]) {
     double square;
     do {

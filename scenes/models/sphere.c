@@ -20,7 +20,8 @@ static int count_triangles(int wanted) {
     return 12 * n * n;
 }
 
-/* On the cube -1..1. Equal angles, not equal lengths, make cells of about the same size. */
+/* Returns a coordinate on the cube -1..1. Equal angles, not equal lengths, make cells of about the
+   same size. */
 static double cube_coordinate(int index, int n) {
     double sine, cosine;
     if (index == 0 || index == n)
@@ -70,7 +71,8 @@ static int vertex_number(const int place[3], int n) {
     return before + side + 2 * (j - 1) + (i == n);
 }
 
-/* A side of the cube: the two axes of its cells, counterclockwise as seen from outside. */
+/* Writes a side of the cube; the two axes of its cells turn counterclockwise as seen from
+   outside. */
 static void write_side(HdObjWriter *writer, int n, int across, int up, int fixed, int level) {
     for (int j = 0; j < n; j++) {
         for (int i = 0; i < n; i++) {

@@ -70,7 +70,7 @@ typedef struct Tally {
     int renderers, frames, different, truths, untrue;
 } Tally;
 
-/* The committed hashes; every frame must be there. */
+/* Reads the committed hashes; every frame must be there. */
 static bool read_golden(Golden *golden) {
     bool good = true;
     for (int i = 0; i < hd_golden_frame_count; i++)

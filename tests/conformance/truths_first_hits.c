@@ -8,7 +8,7 @@
 enum { WIDTH = 37, HEIGHT = 29, SIDE = 3 };
 static const double FLOOR_Z = -1.0, HALF_SIDE = 3.0, CUBE_HALF = 0.5;
 
-/* A cube along the axes, hovering above a square floor; they are numbers 1 and 2. */
+/* Builds a cube along the axes, hovering above a square floor; they are numbers 1 and 2. */
 static void build(HdScene *scene, HdCamera *camera) {
     build_scene(scene, WIDTH, HEIGHT, SIDE, 2, 1, 0);
     build_solid(scene, 0, HD_HEXAHEDRON, hd_vec3(0.0, 0.0, 0.25), CUBE_HALF * sqrt(3.0), grey(0.5),

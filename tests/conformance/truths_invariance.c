@@ -131,7 +131,7 @@ static void check_quarter_turn(Check *check) {
 
 enum { LIGHTS = 7 };
 
-/* Lit by lights alone: no background and no ambient light. */
+/* Renders with lights alone: no background and no ambient light. */
 static HdFrame render_lit(const Check *check, int first_light, double power) {
     const Place origin = {.scale = 1.0};
     HdScene scene, lit;
@@ -193,9 +193,9 @@ static void check_doubled_light(Check *check) {
     hd_frame_free(&before);
 }
 
-/* A point of the floor below the origin is seen from one place and lit from another. One solid of
-   glass is on the first segment and two are on the second. Both places have equal height and
-   distance, so that only the segments are swapped. */
+/* Renders a point of the floor below the origin, seen from one place and lit from another. One
+   solid of glass is on the first segment and two are on the second. Both places have equal height
+   and distance, so that only the segments are swapped. */
 static double render_swapped(const Check *check, HdVec3 eye, HdVec3 light, double transmission) {
     HdScene scene;
     HdCamera camera;

@@ -6,7 +6,7 @@
 #include "truths.h"
 #include "verify/scene_builder.h"
 
-/* A cube with no emission of its own. */
+/* Builds a cube with no emission of its own. */
 static void build_clear_cube(HdScene *scene, int width, int height, int depth, HdVec3 rotation,
                              double index, double background) {
     build_scene(scene, width, height, 1, depth, 1, 0);
@@ -16,7 +16,7 @@ static void build_clear_cube(HdScene *scene, int width, int height, int depth, H
     scene->solids[0].face.index_of_refraction = index;
 }
 
-/* One ray that hits a face at the critical angle plus `excess`, from the denser side. */
+/* Checks one ray that hits a face at the critical angle plus `excess`, from the denser side. */
 static void check_critical_angle(Check *check, HdVec3 rotation, int face, double index,
                                  double excess) {
     const double glow = 0.2, background = 0.5;

@@ -60,7 +60,7 @@ __asm__(".text\n"
         "    ret\n"
         ".size fake_switch, . - fake_switch\n");
 
-/* A stack on which fake_switch returns to `begin`, as if called. */
+/* Prepares a stack on which fake_switch returns to `begin`, as if called. */
 static void *prepare(unsigned char *stack, void (*begin)(void)) {
     enum { KEPT = 6 };
     uintptr_t top = ((uintptr_t)stack + STACK) & ~(uintptr_t)63;

@@ -32,7 +32,7 @@ struct CUfunc_st {
 
 /* ---- modules ---- */
 
-/* A shared object ends with the table of its sections. */
+/* Returns the size of a shared object, which ends with the table of its sections. */
 static size_t image_size(const void *image) {
     Elf64_Ehdr header;
     memcpy(&header, image, sizeof header);
@@ -74,7 +74,8 @@ static bool is_refused(void) {
 /* Limits that kernels are built with, unless PTX is loaded with another limit. */
 enum { REGISTERS = 64 };
 
-/* PTX has its head and a NUL before it, machine code its architecture behind it. */
+/* Finds the object: PTX has its head and a NUL before it, machine code its architecture behind
+   it. */
 static const void *find_object(const void *image, bool *suits) {
     const char *head = image;
     int arch = 0;

@@ -100,7 +100,7 @@ static void run_to_event(const struct CUevent_st *event, int before) {
         }
 }
 
-/* After the context is lost nothing happens any more. */
+/* Runs an operation; after the context is lost nothing happens any more. */
 static void carry_out(Operation *operation) {
     operation->done = true;
     if (operation->kind == WAIT)

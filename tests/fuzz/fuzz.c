@@ -32,7 +32,7 @@ void fuzz_expect(int holds, const char *what) {
     abort();
 }
 
-/* In memory if there is such a file system: campaigns write millions of files. */
+/* Makes the folder in memory if possible: campaigns write millions of files. */
 static void make_folder(void) {
     const char *memory = access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp";
     snprintf(folder, sizeof folder, "%s/hedron-fuzz-XXXXXX", memory);

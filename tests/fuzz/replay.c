@@ -24,7 +24,7 @@ static size_t random_below(size_t limit) {
     return (size_t)(random_state >> 11) % limit;
 }
 
-/* An input of its own size, so that a sanitizer detects a byte read too many. */
+/* Runs a copy of its own size, so that a sanitizer detects a byte read too many. */
 static void run_copy(const uint8_t *bytes, size_t size) {
     uint8_t *copy = malloc(size > 0 ? size : 1);
     fuzz_expect(copy != NULL, "no memory");

@@ -19,7 +19,7 @@ static HdStatus parse(HdSceneFile *file, const char *text, size_t size, HdError 
     return hd_scene_file_parse(file, text, size, &source, error);
 }
 
-/* NULL: a path is not UTF-8, which JSON cannot express. */
+/* Prints the scene; NULL: a path is not UTF-8, which JSON cannot express. */
 static char *print(const HdSceneFile *file, size_t *size) {
     static HdError error;
     char *text = NULL;

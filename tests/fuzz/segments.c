@@ -55,7 +55,7 @@ static int make_files(char *text, const char *film, const char *names[MAX_NAMES]
     return count;
 }
 
-/* Matching files are gone, the others exist; removes these at the end. */
+/* Expects matching files gone and the others present; removes these at the end. */
 static void check_files(const char *film, const char *names[], int count, Kind gone, bool is_end) {
     char path[HD_MAX_PATH];
     for (int i = 0; i < count; i++) {

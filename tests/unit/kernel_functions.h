@@ -114,7 +114,7 @@ TEST(attenuations_add_up) {
 enum { CHANNELS = 3, WAYS = 3, DEAD_LANE = 1 };
 static const double seen_times[WAYS] = {1.0, 2.0, 4.0};
 
-/* With weight (lane + 1) / 4 in one channel. */
+/* Makes rays of weight (lane + 1) / 4 in one channel. */
 static Ray make_ray(int channel) {
     Ray ray = eye_ray(vec3_zero(), ~eq_int(lane_numbers(), splat_int(DEAD_LANE)));
     ray.weight = vec3_zero();

@@ -131,7 +131,7 @@ static int tear_down(void **state) {
     return timed->test->teardown_func != NULL ? timed->test->teardown_func(&timed->state) : 0;
 }
 
-/* Output of cmocka and the tests of a file, shown after a failure. */
+/* Shows the output of cmocka and the tests of a file, after a failure. */
 static void show(int log_file) {
     char bytes[4096];
     ssize_t size;

@@ -16,7 +16,7 @@ static HdJob job;
 static HdDeviceTeam team;
 static HdCandidates candidates;
 
-/* Each reading of the clock takes a millisecond. */
+/* Reads the clock; each reading takes a millisecond. */
 static double read_clock(void) {
     static double now;
     return now += 1e-3;

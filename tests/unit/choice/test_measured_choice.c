@@ -197,7 +197,7 @@ static HdRenderOptions best(void) {
     return tuning.candidates[tuning.best].options;
 }
 
-/* A GPU that prefers the wavefront, 96 registers, groups of 256, 320 of them. */
+/* Prefers the wavefront, 96 registers, groups of 256, 320 of them, as some GPU may. */
 static double picky(const HdRenderOptions *asked) {
     double seconds = asked->pipeline == HD_PIPELINE_WAVEFRONT ? 1.0 : 1.2;
     seconds *= asked->registers == 96 ? 0.9 : 1.0;
@@ -346,7 +346,7 @@ static void remember(void) {
 
 static HdTeamDevice opened;
 
-/* The device opens, or refuses to. */
+/* Returns whether the record was used: the device opens, or refuses to. */
 static bool is_recalled(void) {
     opened = (HdTeamDevice){.device = device};
     HdStatus status = hd_team_device_open(&opened, &options, &job, false, &error);

@@ -253,7 +253,7 @@ TEST(operands_and_options_mix) {
     }
 }
 
-/* A line with so many repetitions of an option. */
+/* Returns a line with so many repetitions of an option. */
 static const char *repeated(const char *option, int count) {
     static char line[4096];
     strcpy(line, "hedron render");

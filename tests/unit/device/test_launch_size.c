@@ -4,7 +4,7 @@
 
 #include "unit_test.h"
 
-/* Returns the seconds of a launch of `count` pieces of a frame's work, from number `first` on. */
+/* Seconds of a launch of `count` pieces of a frame's work, from number `first` on. */
 typedef double Cost(double first, double count);
 
 typedef struct Frame {

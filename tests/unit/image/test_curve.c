@@ -14,7 +14,7 @@ static uint16_t encode16(HdCurve curve, float value) {
     return code;
 }
 
-/* The formula of IEC 61966-2-1. */
+/* Computes the formula of IEC 61966-2-1. */
 static double to_linear(double value) {
     return value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4);
 }

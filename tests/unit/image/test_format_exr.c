@@ -78,7 +78,7 @@ TEST(halves_are_the_nearest) {
     assert_true(isnan(read[count].linear));
 }
 
-/* A number that half does not have: of a layer's channel, by the place of its name. */
+/* Returns a number that half does not have: of a layer's channel, by the place of its name. */
 static float number_at(int pixel, int which) {
     return (float)(70001 + 16 * pixel + which);
 }

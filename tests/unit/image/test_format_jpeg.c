@@ -13,7 +13,7 @@ enum { SIDE = 24 };
 static HdError error;
 static unsigned char bytes[65536];
 
-/* A copy of its own size lets the sanitizer detect a read past the end. */
+/* Checks a copy of its own size, so that the sanitizer detects a read past the end. */
 static void check_refused(const unsigned char *file, size_t size, const char *part) {
     HdTexture texture;
     unsigned char *copy = malloc(size);

@@ -11,7 +11,7 @@ static const HdPictureStyle LINEAR_8 = {HD_CURVE_LINEAR, 8};
 static HdError error;
 static unsigned char bytes[65536];
 
-/* Random enough that no compression makes it small. */
+/* Returns numbers so random that no compression makes them small. */
 static uint32_t next_random(uint32_t *seed) {
     *seed = *seed * 1664525u + 1013904223u;
     return *seed >> 16;

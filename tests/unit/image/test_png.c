@@ -27,7 +27,7 @@ static void put_chunk(FILE *file, const char *type, const unsigned char *bytes, 
     put_number(file, size > 0 ? crc32(sum, bytes, size) : sum);
 }
 
-/* A white pixel, and so many chunks of a MiB after it or, by `before`, before it. */
+/* Makes a white pixel, and so many chunks of a MiB after it or, by `before`, before it. */
 static FILE *make_file(int surplus, bool before) {
     static const unsigned char head[13] = {0, 0, 0, 1, 0, 0, 0, 1, 8, 2, 0, 0, 0};
     static const unsigned char row[4] = {0, 255, 255, 255};

@@ -339,7 +339,8 @@ TEST(test_zero_bytes_and_a_byte_order_mark) {
     hd_scene_file_free(&file);
 }
 
-/* `head`, so many times the element, which may have a number in it, with commas, and `tail`. */
+/* Returns `head`, so many times the element, which may have a number in it, with commas, and
+   `tail`. */
 static char *repeat(const char *head, const char *element, int count, const char *tail) {
     const size_t size = strlen(head) + (size_t)count * (strlen(element) + 8) + strlen(tail) + 1;
     char *text = malloc(size);

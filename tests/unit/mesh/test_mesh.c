@@ -108,7 +108,7 @@ TEST(angles_are_correct) {
     expect_near(hd_angle(hd_vec3(1, 1, 0), hd_vec3(1, 1, 1e-9)), 1e-9 / sqrt(2.0), 1e-24);
 }
 
-/* A cube whose 12 triangles have vertices of their own, at 8 places. */
+/* Makes a cube whose 12 triangles have vertices of their own, at 8 places. */
 static HdMesh make_cube(void) {
     static const double sides[6][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, -1}, {1, 1}, {-1, 1}};
     HdVec3 vertices[36];

@@ -36,8 +36,8 @@ static void set_outline(const double (*outline)[2], int count, int first, int tu
     }
 }
 
-/* Every triangle has the polygon's orientation, and all together its area: so they do not
-   overlap. */
+/* Expects every triangle to have the polygon's orientation, and all together its area: so they do
+   not overlap. */
 static void expect_cut_from(const double (*outline)[2], int count, int first, double area) {
     for (int i = 0; i < 6; i++) {
         const int turn = i / 2;

@@ -171,7 +171,7 @@ static void abort_it(int left) {
     assert_int_equal(count_entries("out"), left);
 }
 
-/* The film has every frame, and no other file remains. */
+/* Closes the film, which then has every frame, and no other file remains. */
 static void close_it(void) {
     uint8_t bytes[4 * FRAMES + 1];
     assert_int_equal(hd_film_close(film, &error), HD_OK);

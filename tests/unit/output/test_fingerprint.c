@@ -26,7 +26,7 @@ typedef struct Bits {
     size_t size;
 } Bits;
 
-/* For each of these, one bit of the first byte and one of the last. */
+/* Changes, in each of these, one bit of the first byte and one of the last. */
 static void change_each(const Bits *list, size_t count, bool expected) {
     for (size_t i = 0; i < count; i++) {
         unsigned char *bytes = list[i].place;

@@ -91,7 +91,7 @@ static HdStatus store_frames(const char *first, const char *second, int fails_at
     return status;
 }
 
-/* The folder has as many files as note_stored saw, and nothing else; it is removed. */
+/* Expects as many files as note_stored saw, and nothing else, and removes the folder. */
 static void expect_files(int count) {
     assert_int_equal(count_entries("run"), count);
     assert_int_equal(remove_folder("run"), 0);

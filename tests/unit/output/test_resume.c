@@ -36,7 +36,7 @@ static HdFrame make_frame(int number) {
     return frame;
 }
 
-/* As the run of that plan would. */
+/* Writes a frame as the run of that plan would. */
 static void write_frame(const HdOutputPlan *plan, int index, int number) {
     const HdPictureLabel label = {
         .scene = "",

@@ -134,8 +134,7 @@ TEST(a_failure_of_any_stage_leaves_the_items_before_it) {
         snprintf(expected, sizeof expected, "item %d failed", item);
         assert_string_equal(error.message, expected);
     }
-    /* An item that fails while an earlier one is at work does not hide the earlier one's
-       failure. */
+    /* An item that fails while an earlier one is at work does not hide that one's failure. */
     start(none_ready, ROOM);
     probes[0].fails_at = 5;
     probes[2].fails_late_at = 3;

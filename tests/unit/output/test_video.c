@@ -86,14 +86,14 @@ static HdStatus make_film(const char *path, int width, int height, int count,
     return status;
 }
 
-/* The film must fail, say why, and leave no file. */
+/* Expects the film to fail, say why, and leave no file. */
 static void check_failure(int side, int frames, HdStatus expected, const char *part) {
     assert_int_equal(make_film("out/film.mp4", side, side, frames, &STYLE), expected);
     expect_contains(error.message, part);
     assert_int_equal(count_entries("out"), 0);
 }
 
-/* Returns ffprobe's values of these properties, one a line. */
+/* Compares ffprobe's values of these properties, one a line. */
 static void check_film(const char *path, const char *properties, const char *expected) {
     char command[300], text[1000] = "";
     snprintf(command, sizeof command,
@@ -126,8 +126,8 @@ static const uint8_t colours[COLOURS][4] = {
     {255, 0, 0, 255}, {0, 255, 0, 255},    {0, 0, 255, 255},  {255, 255, 255, 255},
     {0, 0, 0, 255},   {200, 100, 50, 255}, {30, 60, 90, 255}, {128, 128, 128, 255}};
 
-/* A frame for each colour, and one with more colours than a palette has. A player that follows the
-   tags shows the original. */
+/* Makes a frame for each colour, and one with more colours than a palette has. A player that
+   follows the tags shows the original. */
 static void film_colours(const char *path, int rate, double tolerance) {
     const HdOutputStyle style = {STYLE.picture, rate};
     static uint8_t rgb[FRAMES * PIXELS * 3];

@@ -221,7 +221,7 @@ TEST(others_trace_a_failed_devices_frames) {
     }
 }
 
-/* The second device fails with its first frame after the other one has made so many. */
+/* Lets the second device fail with its first frame after the other one has made so many. */
 static void fail_second_after(int made) {
     rules[0] = (Rule){FAKE_COLLECT, 1, &history.events[1][FAKE_COLLECT], 1, GO_ON};
     rules[1] = (Rule){FAKE_COLLECT, 1, &history.events[0][FAKE_COLLECT], made, FAIL};

@@ -182,7 +182,7 @@ TEST(contacts_of_floors_and_lights) {
     assert_int_equal(hd_touching_lights(&cube, lights, 2, &first), 0);
 }
 
-/* Nothing coincides any more, and nothing has moved by more than a few millionths. */
+/* Expects that nothing coincides any more, and nothing has moved by more than a few millionths. */
 static void expect_parted(HdScene *scene) {
     double before[8];
     for (int i = 0; i < scene->solid_count; i++)

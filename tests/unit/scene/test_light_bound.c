@@ -9,7 +9,7 @@ static HdMaterial plain(void) {
                         .index_of_refraction = 1.0};
 }
 
-/* The bound is at least the radiance, and not much more. */
+/* Expects a bound of at least the radiance, and not much more. */
 static void expect_bound(HdVec3 bound, double x, double y, double z) {
     const double bounds[3] = {bound.x, bound.y, bound.z}, least[3] = {x, y, z};
     for (int i = 0; i < 3; i++)

@@ -252,7 +252,7 @@ TEST(test_the_eye_never_at_the_target) {
              scene.eye.cylinder.z_frequency = 1.0; scene.target.cylinder.z0 = -4.1);
 }
 
-/* Two cubes with edges 2 long, side by side on the floor, `apart` between their centres. */
+/* Puts two cubes with edges 2 long side by side on the floor, `apart` between their centres. */
 static void set_cubes(double apart, double height) {
     for (int i = 0; i < 2; i++) {
         solids[i].kind = HD_HEXAHEDRON;

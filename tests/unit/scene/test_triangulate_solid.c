@@ -73,7 +73,7 @@ static int compare_pairs(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
-/* Each directed edge occurs once, and once the other way; no hole, no handle, no unused vertex. */
+/* Expects each directed edge once, and once the other way; no hole, no handle, no unused vertex. */
 static void expect_closed(const HdMesh *mesh) {
     const size_t count = 3 * (size_t)mesh->triangle_count;
     int64_t *edges = malloc(count * sizeof *edges);
@@ -92,7 +92,8 @@ static void expect_closed(const HdMesh *mesh) {
     free(edges);
 }
 
-/* Each triangle has an area and lies in the face that its group names, outer side out. */
+/* Expects each triangle to have an area and lie in the face that its group names, outer side
+   out. */
 static void expect_on_faces(const HdMesh *mesh, const HdSolid *solid) {
     HdPlatonic shape = hd_solid_shape(solid);
     for (int t = 0; t < mesh->triangle_count; t++) {
@@ -310,7 +311,7 @@ TEST(test_bad_numbers) {
     }
 }
 
-/* Each triangle lies where its texture coordinates say, and all of them cover the floor. */
+/* Expects each triangle where its texture coordinates say, and all of them to cover the floor. */
 static void expect_floor(const HdFloor *floor, int divisions, double area) {
     HdMesh mesh;
     HdError error;

@@ -49,7 +49,7 @@ TEST(a_file_that_took_a_stale_files_name_stays) {
     assert_int_equal(access("1.png.tmp-1-0", F_OK), -1);
 }
 
-/* A file of the process whose lock is held. */
+/* Removes a file of the process whose lock is held. */
 static void remove_locked(pid_t owner, bool is_done) {
     char path[64];
     snprintf(path, sizeof path, "2.mkv.tmp-%ld-0", (long)owner);

@@ -67,7 +67,7 @@ static double along(const Plane *plane, HdVec3 v) {
     return (double)plane->x * v.x + (double)plane->y * v.y + (double)plane->z * v.z;
 }
 
-/* A point on the surface, relative to the object. */
+/* Returns a point on the surface, relative to the object. */
 static HdVec3 point_on(int object) {
     HdVec3 v = {between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0)};
     if (object == FLOOR)

@@ -60,7 +60,7 @@ TEST(an_unchanged_remembered_library_is_not_loaded) {
 
 /* ---- choosing among stubs (stub_nvrtc.c), which alone compile for sm_7 ---- */
 
-/* Below the folder that such a variable names. */
+/* Puts a stub below the folder that such a variable names. */
 static void put(const char *below, const char *name) {
     char command[2000];
     snprintf(command, sizeof command, "mkdir -p there/%s && cp %s there/%s/%s", below, STUB_NVRTC,

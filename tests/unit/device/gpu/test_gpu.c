@@ -251,7 +251,7 @@ static HdStatus build_probe(void) {
     return hd_gpu_build_probe(&program, &gpu, &error);
 }
 
-/* Number of kernels compiled then in total. */
+/* Expects so many kernels compiled in total. */
 static void expect_compiled(HdStatus status, HdStatus expected, int compiled) {
     assert_int_equal(status, expected);
     assert_int_equal(card.compiled, compiled);

@@ -36,7 +36,7 @@ static HdMesh read_text(const char *text) {
     return read_bytes(text, strlen(text));
 }
 
-/* The whole message is expected. */
+/* Expects the whole message. */
 static void expect_refused_bytes(const void *bytes, size_t size, const char *message) {
     HdMesh mesh;
     write_bytes("a.obj", bytes, size);
@@ -462,7 +462,7 @@ TEST(too_many_materials_are_refused) {
                                        "expected at most 65536");
 }
 
-/* `note` is the only one. */
+/* Expects `note` as the only one. */
 static void expect_note_of(const char *statements, const char *note) {
     HdMesh mesh = read_triangle(statements);
     assert_int_equal(notes.count, 1);
@@ -515,7 +515,7 @@ TEST(libraries_stay_in_the_folder) {
     hd_mesh_free(&mesh);
 }
 
-/* Returns a material with the map; NULL: none. */
+/* Expects a material with the map; NULL: none. */
 static void expect_texture(const char *library, const char *map, const char *texture) {
     char text[128];
     snprintf(text, sizeof text, "newmtl m\nmap_Kd  %s \n", map);
