@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Compiles the kernels for an NVIDIA architecture, without a device, and tells what they need of
-   it:
+/* Compiles the kernels for an NVIDIA architecture, without a device, and prints the
+   resources that they need:
 
        cuda_compile --arch N [--nvrtc LIBRARY] [--double] [--fast] [--wavefront] [--refracts]
                     [--lit-from-behind] [--many-lights] [--meshes] [--bounded] [--block N]
                     [--registers N]
 
-   Exits 0 when they compile and no convergence barrier is saved to a register (docs/lost-light.md),
-   1 otherwise, 77 when no NVRTC here knows the architecture. */
+   Exit codes: 0 they compile and save no convergence barrier to a register (docs/lost-light.md),
+   1 otherwise, 77 no NVRTC here supports the architecture. */
 #include <elf.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -20,7 +20,7 @@ enum { SKIPPED = 77, USAGE = 2 };
 
 typedef struct Options {
     int arch;
-    int registers; /* 0: as many as suit */
+    int registers; /* 0: the default */
     const char *nvrtc;
     HdKernelShape shape;
 } Options;
@@ -75,7 +75,7 @@ static bool parse(Options *options, int argc, char **argv) {
     return options->arch > 0;
 }
 
-/* What the assembler's report says that a kernel uses, in the lines after "Compiling entry function
+/* Finds a kernel's use in the assembler's report, in the lines after "Compiling entry function
    'X'": registers, bytes of stack frame, of spill stores and of spill loads. */
 static bool find_usage(const char *log, const char *kernel, int usage[4]) {
     char heading[80];
@@ -118,7 +118,7 @@ static bool report(const Options *options, const HdNvrtc *nvrtc, const HdCudaCod
 enum { INSTRUCTION_BYTES = 16, OPCODE_MASK = 0xfff, OPEN_BARRIER = 0x945, SAVE_BARRIER = 0x355 };
 enum { NO_REGISTER = 0xff, BARRIER_REGISTERS = 16 };
 
-/* Bits 16 to 23 name what an instruction writes: of BSSY a barrier, of BMOV a register. */
+/* Bits 16 to 23 name an instruction's target: of BSSY a barrier, of BMOV a register. */
 static bool check_barriers(const HdCudaCode *code) {
     const unsigned char *image = (const unsigned char *)code->image;
     bool is_used[BARRIER_REGISTERS] = {false};
@@ -168,7 +168,7 @@ int main(int argc, char **argv) {
     const HdCudaTarget target = {.arch = options.arch};
     char flags[1024];
     hd_cuda_options(flags, sizeof flags, target, &options.shape);
-    size_t length = strlen(flags); /* the log is to tell each kernel's registers and spills */
+    size_t length = strlen(flags); /* the log must have each kernel's registers and spills */
     snprintf(flags + length, sizeof flags - length, " --ptxas-options=-v");
     bool ok = hd_cuda_compile(&code, &nvrtc, target, flags, &error) == HD_OK;
     if (!ok) {

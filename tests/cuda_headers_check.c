@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Compiles only if src/device/cuda/api.h declares what NVIDIA's headers declare. Built where a
-   toolkit is installed; there is nothing to run. */
+/* Compiles only if src/device/cuda/api.h matches NVIDIA's headers. Built if a toolkit is installed;
+   there is nothing to run. */
 #include <cuda.h>
 #include <nvrtc.h>
 
 #include "device/cuda/api.h"
 
-/* An enumeration is compatible with the integer type that the compiler gives it, so that ours
- * match. */
+/* An enumeration is compatible with the integer type that the compiler chooses, so that ours
+   match. */
 #define CHECK(member_type, symbol)                                                                 \
     _Static_assert(_Generic(&symbol, member_type : 1, default : 0),                                \
                    #symbol " is not declared as in NVIDIA's header");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The command lines of the programs that render by every backend. */
+/* Parses the command lines of the programs that render on every backend. */
 #ifndef HD_TESTS_OPTIONS_H
 #define HD_TESTS_OPTIONS_H
 
@@ -13,7 +13,7 @@ extern const int lane_counts[LANE_COUNTS];
 extern const char *const lane_names[LANE_COUNTS + 1];
 extern const char *const precision_names[3];
 
-/* An option and where its value goes, one of the pointers. */
+/* An option and its destination, one of the pointers. */
 typedef struct Option {
     const char *name;
     bool *flag; /* without a value */
@@ -24,8 +24,8 @@ typedef struct Option {
     const char *const *choices; /* ends with NULL */
 } Option;
 
-/* `options` ends with one without a name. False, and a message, where something is not understood.
- */
+/* Parses the arguments; `options` ends with one without a name. Returns false and prints a message
+   if something is not understood. */
 bool parse_options(const Option *options, int count, char **arguments);
 
 #endif

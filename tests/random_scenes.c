@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Renders random scenes by a backend and by plain C and compares the bytes:
+/* Renders random scenes on a backend and on plain C and compares the bytes:
 
        hedron_random_scenes [--backend NAME] [--device N] [--precision float|double]
                             [--pipeline NAME] [--lanes N] [--block N] [--registers N] [--ptx ARCH]
                             [--seed N] [--scenes N] [--kind N] [--general] [--threads N]
 
-   --general renders every scene by kernels that do everything, --kind those of one kind alone. A
-   seed makes the same scene everywhere. Exits 0 where all are equal, 1 where one differs, 2 where
-   it is called wrongly, 77 where the backend has no such device. */
+   --general renders every scene by general kernels, --kind those of one kind alone. A seed makes
+   the same scene everywhere. Exit codes: 0 equal, 1 differences, 2 wrong usage, 77 the backend has
+   no such device. */
 #include <inttypes.h>
 #include <stdio.h>
 

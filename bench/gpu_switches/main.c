@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Measures the switches prepared for GPUs, interleaved in one process: every switch renders the
-   scene's first frame once a round, and the bytes must be those of the first switch.
+/* Measures the switches for GPUs, interleaved in one process: every switch renders the scene's
+   first frame once a round, and the bytes must be those of the first switch.
 
        hedron_gpu_switches [--backend NAME] [--device NUMBER] [--double] [--rounds N] [--seconds S]
                            [--only NAME,...] [--without NAME,...] [--threads N] SCENE [CHANGE...]
@@ -8,7 +8,7 @@
    A CHANGE is KEY=VALUE, as after --set. Prints
 
      scene NAME WIDTH HEIGHT RAYS
-     time SWITCH MEDIAN Q1 Q3 RATIO      ms of tracing; times that of the first switch
+     time SWITCH MEDIAN Q1 Q3 RATIO      ms of tracing; multiple of the first switch
      kernels SWITCH SECONDS DESCRIPTION  time of compiling
      skip SWITCH REASON
 
@@ -32,14 +32,14 @@
 
 enum { MAX_ROUNDS = 99, MAX_CHANGES = 32, MAX_SWITCHES = 64, SKIPPED = 77, USAGE = 2 };
 
-/* What is measured against what the program does by itself. */
+/* A switch and what it changes of the program's own choice. */
 typedef struct Switch {
     const char *name;
     HdPipeline pipeline;
-    int registers, block; /* 0: what suits */
-    size_t queue_bytes;   /* of the wavefront; 0: what suits */
-    bool is_bounded;      /* for surveyed scenes only */
-    bool is_cuda;         /* for CUDA only */
+    int registers, block; /* limits; 0: the program's choice */
+    size_t queue_bytes;   /* memory of the wavefront; 0: the program's choice */
+    bool is_bounded;      /* applies to scenes with an error bound only */
+    bool is_cuda;         /* applies to CUDA only */
 } Switch;
 
 #define MEGA      .pipeline = HD_PIPELINE_MEGA
@@ -47,7 +47,7 @@ typedef struct Switch {
 
 #define GIB ((size_t)1 << 30)
 
-/* The first one is what the others are compared with. */
+/* The first one is the base of all comparisons. */
 static const Switch switches[] = {
     {"mega", MEGA},
     {"registers-64", MEGA, .registers = 64, .is_cuda = true},
@@ -68,7 +68,7 @@ typedef struct Bench {
     const HdBackend *backend;
     int number, rounds, threads;
     double seconds;
-    const char *only, *without; /* NULL: all, none */
+    const char *only, *without; /* names between commas; NULL: all, none */
     HdPrecision precision;
     HdDevice device;
     HdSceneFile file;
@@ -76,7 +76,7 @@ typedef struct Bench {
     HdFrame frame;
 } Bench;
 
-/* A switch at work. */
+/* A switch with its renderer and times. */
 typedef struct Contender {
     const Switch *is;
     HdFrameMaker maker;
@@ -134,7 +134,7 @@ static bool is_interrupted(const void *context) {
     return hd_interrupt_signal() != 0;
 }
 
-/* The first one alone, for it probes the device's arithmetic; the others side by side. */
+/* Opens the first one alone, as it probes the device's arithmetic; the others side by side. */
 static HdStatus open_all(const Bench *bench, Contender *contenders, int count, HdError *error) {
     Opening opening = {bench, contenders}, others = {bench, contenders + 1};
     HdThreadPool *pool;
@@ -160,7 +160,7 @@ static bool render(Contender *contender, Bench *bench, uint64_t *hash) {
     return status == HD_OK;
 }
 
-/* The round -1 warms up. */
+/* Runs a round; round -1 warms up. */
 static int run_round(Bench *bench, Contender *contenders, int count, int round,
                      uint64_t *expected) {
     int different = 0;
@@ -207,7 +207,7 @@ static void print_times(Contender *contenders, int count) {
     }
 }
 
-/* Returns how many pictures differ or failed. */
+/* Returns the number of pictures that differ or failed. */
 static int measure(Bench *bench, Contender *contenders, int count) {
     uint64_t expected = 0;
     int wrong = run_round(bench, contenders, count, -1, &expected);
@@ -236,7 +236,7 @@ static int measure(Bench *bench, Contender *contenders, int count) {
 
 /* ---- command line ---- */
 
-/* Whether the name is one of those between commas. */
+/* Returns whether the name is in a list separated by commas. */
 static bool is_named(const char *names, const char *name) {
     size_t length = strlen(name);
     for (const char *at = names; at != NULL; at = strchr(at, ',')) {
@@ -290,7 +290,7 @@ static bool parse_option(Bench *bench, const char *name, const char *value) {
     return bench->rounds > 0 && bench->rounds <= MAX_ROUNDS && bench->threads > 0;
 }
 
-/* Returns where the scene is among the arguments; 0 where they are wrong. */
+/* Returns the scene's index among the arguments; 0 if they are wrong. */
 static int parse(Bench *bench, int argc, char **argv) {
     int i = 1;
     for (; i < argc && strncmp(argv[i], "--", 2) == 0; i++) {

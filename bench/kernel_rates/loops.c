@@ -23,7 +23,7 @@ typedef struct Points {
     Vec3 mirrored;
 } Points;
 
-/* A packet of the view and what it meets. */
+/* A packet of the view and its hits. */
 typedef struct Sight {
     Ray ray;
     LocalOrigin local_origin;
@@ -42,7 +42,7 @@ static int sum_of_lanes(vint a) {
     return sum;
 }
 
-/* The packet that begins at sample `first` of an item; 0 where it lies outside of the picture. */
+/* Returns the packet that begins at sample `first` of an item; 0 if it lies outside the picture. */
 static int look(const HdTable *scene, const HdTable *frame, int item, int first, Sight *sight) {
     HD_DECLARE_TABLES(scene, frame)
     Vec3 direction;
@@ -57,16 +57,16 @@ static int look(const HdTable *scene, const HdTable *frame, int item, int first,
     return 1;
 }
 
-/* What passes over the view's packets: the first time to count those wanted, the second to take
-   `most` of them evenly. */
+/* A pass over the view's packets: the first counts the wanted ones, the second takes `most` of them
+   evenly. */
 typedef struct Walk {
     int most;
-    int found, wanted; /* wanted: how many were found the first time; 0 then */
+    int found, wanted; /* wanted: packets that the first pass found; 0 during it */
     HdWork work;
-    size_t size; /* of an item of work */
+    size_t size; /* bytes of an item of work */
 } Walk;
 
-/* Where the sight is one to take, the place for it, else NULL. */
+/* Returns the place to store a sample of the view, or NULL if it is not to be taken. */
 static void *take(Walk *walk) {
     long long number = walk->found++;
     if (walk->wanted == 0)
@@ -118,7 +118,7 @@ static HdWork make_rays(const HdTable *scene, const HdTable *frame, int most) {
     return walk_twice(scene, frame, visit_rays, &walk);
 }
 
-/* As the ray tree does it before it calls for the direct light. */
+/* Visits the lit points as the ray tree does before it computes direct light. */
 static void visit_points(const HdTable *scene, const HdTable *frame, const Sight *sight,
                          Walk *walk) {
     HD_DECLARE_TABLES(scene, frame)
@@ -196,7 +196,7 @@ NOT_INLINED uint64_t OF_BUILD(light)(const HdTable *scene, const HdTable *frame,
     return (uint64_t)sum_of_lanes(tests);
 }
 
-/* The compiler must not know the numbers, or it would compute ahead. */
+/* Sums the chains' numbers. The compiler must not know them, or it would compute ahead. */
 static double sum_of_chains(const vreal *chains) {
     double sum = 0;
     for (int i = 0; i < HD_PEAK_CHAINS; i++)

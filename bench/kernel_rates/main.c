@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Rates of the kernels' two hot loops on one thread, and the arithmetic peak beside them; or, with
-   --count, the instructions that the loops execute. bench/study speed reads the output:
+/* Measures the kernels' two hot loops and the arithmetic peak on one thread; with --count, counts
+   the instructions that the loops execute. bench/study speed reads the output:
 
      build SET LANES
      rate NAME UNIT PER_CPU_SECOND           a line for each round
-     counted NAME SET LANES SYMBOL AMOUNT    work that was stepped through, in the unit of its rate
-     step NAME OFFSET TIMES                  an instruction of SYMBOL, as far from its first one
-     uncounted NAME                          the system does not let a process be stepped
+     counted NAME SET LANES SYMBOL AMOUNT    work of the stepped calls, in the unit of its rate
+     step NAME OFFSET TIMES                  an instruction of SYMBOL, by its offset
+     uncounted NAME                          the system does not allow stepping
 
    Exit codes: 0 done, 1 a scene cannot be read, 2 wrong usage. */
 #define _GNU_SOURCE
@@ -32,23 +32,23 @@
 HD_BUILDS
 #undef X
 
-/* Packets of rays and of points: enough to be like the view, few enough for the second-level cache.
- */
+/* Numbers of packets and of points: enough to represent the view, few enough for the second-level
+   cache. */
 enum { MAX_RAYS = 512, MAX_POINTS = 64 };
-/* What is stepped through, which takes up to 0.2 ms an instruction. */
+/* Numbers when stepping, which takes up to 0.2 ms an instruction. */
 enum { COUNTED_RAYS = 24, COUNTED_POINTS = 4 };
 enum { MAX_SCENES = 16, MAX_MEASURES = 64 };
 
 /* The tables of a scene's first frame. */
 typedef struct HdLoopScene {
-    const char *name;        /* of its file, without folder and ending */
-    HdSceneTables tables[2]; /* for packets; for single lanes */
+    const char *name;        /* name of its file, without folder and ending */
+    HdSceneTables tables[2]; /* tables for packets; for single lanes */
     HdFrameTables frame;
 } HdLoopScene;
 
 typedef struct HdMeasure {
     char name[96];
-    const char *unit; /* of what is done */
+    const char *unit; /* unit of the work */
     const HdLoops *loops;
     const HdLoopScene *scene; /* NULL: an arithmetic peak */
     HdWork work;
@@ -66,7 +66,7 @@ typedef struct Bench {
 
 /* ---- counting the instructions that a function executes, one by one ---- */
 
-/* How often the instruction at each offset from a function's first one was executed. */
+/* Execution counts of instructions, by offset from a function's first one. */
 typedef struct HdSteps {
     uint32_t *times; /* owned */
     long size;       /* offsets from 0 to size - 1 are watched */
@@ -85,7 +85,7 @@ static _Noreturn void run_child(void (*work)(void *), void *context) {
     _exit(0);
 }
 
-/* Steps the child, which is stopped, to its end. */
+/* Steps the stopped child to its end. */
 static bool trace_and_shade(HdSteps *steps, uintptr_t start, pid_t child) {
     int status;
     while (ptrace(PTRACE_SINGLESTEP, child, NULL, NULL) == 0 &&
@@ -102,7 +102,7 @@ static bool trace_and_shade(HdSteps *steps, uintptr_t start, pid_t child) {
 }
 
 /* Runs work(context) in a child process, instruction by instruction, and counts those from `start`
-   on. False where the system does not allow it. Free `steps->times` either way. */
+   on. Returns false if the system does not allow it. The caller frees `steps->times` either way. */
 static bool count_steps(HdSteps *steps, uintptr_t start, void (*work)(void *), void *context) {
     int status;
     steps->size = WATCHED_BYTES;
@@ -130,7 +130,7 @@ static bool count_steps(HdSteps *steps, uintptr_t start, void (*work)(void *), v
 
 #endif
 
-/* ---- a measure ---- */
+/* ---- a measurement ---- */
 
 enum { PEAK_ROUNDS = 1 << 16 };
 
@@ -145,8 +145,8 @@ static bool compile(HdLoopScene *scene, HdSceneFile *file, int lanes, HdError *e
                             error) == HD_OK;
 }
 
-/* Reads a scene file, for packets of so many lanes; without `floor` its floor is left out. Prints
-   what is wrong and returns false on failure. */
+/* Reads a scene file for packets of so many lanes, without its floor unless `floor`. Prints the
+   problem and returns false on failure. */
 static bool read_loop_scene(HdLoopScene *scene, const char *path, bool floor, int lanes) {
     const HdSceneSource source = {.loads_files = true};
     HdSceneFile file;
@@ -171,14 +171,14 @@ static void free_loop_scene(HdLoopScene *scene) {
         hd_scene_tables_free(&scene->tables[i]);
 }
 
-/* For kernels of so many lanes: those that it was read for, or one. */
+/* Returns the table for kernels of so many lanes: those that it was read for, or one. */
 static const HdTable *tables_for(const HdLoopScene *scene, int lanes) {
     return scene->tables[lanes == 1].table;
 }
 
-/* Does the measure's work once, and returns how much it was, in its unit. */
+/* Does the measurement's work once, and returns its amount in its unit. */
 static double run_measure(const HdMeasure *measure) {
-    static volatile double kept; /* so that no work is in vain */
+    static volatile double kept; /* keeps the compiler from removing the work */
     (void)kept;
     const HdLoops *loops = measure->loops;
     const HdLoopScene *scene = measure->scene;
@@ -203,14 +203,14 @@ static double run_measure(const HdMeasure *measure) {
     return done;
 }
 
-/* Of this thread: what others do to the machine is not in it, but for caches and clocks. */
+/* Returns this thread's seconds: other programs affect them only through caches and clocks. */
 static double processor_seconds(void) {
     struct timespec now;
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Its work for a second of the processor's time, from at least `seconds` of it. */
+/* Returns the work for a second of processor time, measured over at least `seconds`. */
 static double rate_of(const HdMeasure *measure, double seconds) {
     run_measure(measure); /* warms the caches */
     double start = processor_seconds(), end = start, done = 0;
@@ -221,7 +221,7 @@ static double rate_of(const HdMeasure *measure, double seconds) {
     return done / (end - start);
 }
 
-/* ---- all measures ---- */
+/* ---- all measurements ---- */
 
 /* Returns the build for this processor, with its usual lanes or with one lane; ends the program
    with a message if there is none. */
@@ -328,7 +328,7 @@ static bool read_scene(Bench *bench, const char *path) {
     return true;
 }
 
-/* 0, or an exit code. */
+/* Returns 0, or an exit code. */
 static int read_arguments(Bench *bench, int count, char **words) {
     for (int i = 1; i < count; i++) {
         if (strcmp(words[i], "--count") == 0)

@@ -36,7 +36,7 @@ bool hd_compiled_begin(HdCompiled *compiled, const HdSolid *solids, int count, i
     scene->exposure = 1.0;
     scene->frame_count = 1;
     scene->field_of_view_degrees = 60.0;
-    scene->target.cylinder.z0 = -1.0; /* not at the eye; the frames' cameras are others */
+    scene->target.cylinder.z0 = -1.0; /* not the eye: other frames have other cameras */
     scene->solids = calloc((size_t)count + 1, sizeof *scene->solids);
     scene->lights = calloc((size_t)lights + 1, sizeof *scene->lights);
     if (scene->solids == NULL || scene->lights == NULL) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Rays aimed at closed surfaces, tried against every triangle: each must cross the surface once on
+/* Rays aimed at closed surfaces, tested against every triangle: each must cross the surface once on
    its way in and once on its way out. */
 #include <math.h>
 #include <stdio.h>
@@ -14,7 +14,7 @@
 
 enum { MAX_METHODS = 12, RAYS_A_TURN = 50, MAX_TRIES = 100 };
 
-/* From where rays come, in sizes; how far off a hit may be before it counts as misplaced. */
+/* Distance of rays' origins, in sizes; error beyond which a hit counts as misplaced. */
 static const double distance = 3.0, tolerance = 1e-3;
 static const double min_facing = 0.05, min_graze = 1e-4, max_graze = 1e-2;
 
@@ -59,10 +59,10 @@ typedef struct Stage {
     HdCompiled solid; /* clear, for the kernels */
 } Stage;
 
-/* A ray in sizes about the shape's centre, and as it is rounded. */
+/* A ray in sizes about the shape's centre, and rounded. */
 typedef struct Aimed {
     HdVec3 origin;
-    bool is_silhouette; /* whether it meets anything is for rounding to decide */
+    bool is_silhouette; /* whether rounding decides if it hits */
     HdVec3 world_origin, world_direction;
     HdVec3 mesh_origin, mesh_direction;
     HdVec3 direction;
@@ -115,7 +115,7 @@ static void put(Stage *stage, HdPlace place, const HdTriangleTests *tests) {
     }
 }
 
-/* A direction from the point back to where the ray comes from. */
+/* Returns a direction from the point back to the ray's origin. */
 static HdVec3 way_back(const HdShape *shape, const HdAim *aim, RayOctant way, uint64_t *random) {
     HdVec3 normal = shape->normals[aim->triangle];
     if (way == ALONG_AXES) {
@@ -136,7 +136,7 @@ static HdVec3 way_back(const HdShape *shape, const HdAim *aim, RayOctant way, ui
         if (hd_aim_facing(shape, aim, away) > min_facing)
             break;
     }
-    return away; /* at a needle's tip there is none */
+    return away; /* a needle's tip has none */
 }
 
 static Aimed aim_ray(const Stage *stage, const Case *each, int number, uint64_t *random) {
@@ -198,7 +198,7 @@ static HdCrossings count_crossings(const Stage *stage, const HdTriangleTests *te
     return crossings;
 }
 
-/* Where the tests of `tests` have their tallies. */
+/* Adds the results of `tests` to their tallies; returns the number of methods. */
 static int try_tests(Stage *stage, const HdTriangleTests *tests, const Aimed *ray,
                      HdCrossings truth, bool judges, Tally *tallies) {
     for (int i = 0; i < tests->count; i++) {
@@ -209,8 +209,8 @@ static int try_tests(Stage *stage, const HdTriangleTests *tests, const Aimed *ra
     return tests->count;
 }
 
-/* In double, of the corners as they are rounded; but a crack at a T-junction is there by this
-   rounding, and is what is looked for. */
+/* In double, of the rounded corners. A crack at a T-junction exists because of this rounding, and
+   is what the study looks for. */
 static HdCrossings true_crossings(const Stage *stage, const Case *each, HdVec3 (*corners)[3],
                                   HdVec3 origin, HdVec3 direction) {
     if (each->shape == T_JUNCTIONS)

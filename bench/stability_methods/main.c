@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* How often methods fail where methods fail, beside the kernels' own. bench/study stability reads
-   the output, a line for each study, case, method and place:
+/* Counts failures of published methods and of the kernels' own. bench/study stability reads the
+   output, a line for each study, case, method and place:
 
      STUDY CASE METHOD SCALE OFFSET KEY=NUMBER...
 
-   SCALE is how large things are, OFFSET how many sizes they are away from the world's origin. Keys:
+   SCALE is the size of things, OFFSET their distance from the world's origin in sizes. Keys:
 
      crossings  tried (rays), missed, twice, wrong (either), misplaced
-     paths      tried, completed (30 bounces), followed (that the path in double makes); tried_far,
+     paths      tried, completed (30 bounces), followed (as the path in double); tried_far,
                 followed_far (300 bounces)
      shadows    tried (segments that are open), blocked; tried_shut, opened; nan (of both)
 
-   Ends with 0, 1 where something goes wrong, 2 where it is called wrongly. */
+   Exit codes: 0 done, 1 a failure, 2 wrong usage. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

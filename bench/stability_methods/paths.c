@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Paths between mirrors: how many come to their 30th bounce, and how many still meet the faces that
-   the path in double meets; and after hundreds. */
+/* Paths between mirrors: how many reach their 30th bounce, and how many still hit the faces of the
+   path in double; and after hundreds. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -14,18 +14,18 @@
 #include "studies.h"
 
 /* ---- mirrored solids, and the paths of rays between them in double: independent of the kernels
- * ---- */
+   ---- */
 
 enum { MAX_ROOM_SOLIDS = 3 };
 
-/* Convex solids, of circumradius 1 about the origin the first, whose faces mirror on both sides;
-   the others lie within the first. */
+/* Convex solids about the origin that mirror on both sides. The first has circumradius 1, and the
+   others lie within it. */
 typedef struct Room {
     int count;
     HdSolidKind kind[MAX_ROOM_SOLIDS];
     HdVec3 degrees[MAX_ROOM_SOLIDS], centre[MAX_ROOM_SOLIDS];
     double radius[MAX_ROOM_SOLIDS];
-    HdPlatonic shape[MAX_ROOM_SOLIDS]; /* turned, of circumradius 1 */
+    HdPlatonic shape[MAX_ROOM_SOLIDS]; /* rotated, of circumradius 1 */
 } Room;
 
 typedef enum RoomKind { ROOM_EMPTY, ROOM_WITH_SOLIDS, ROOM_KINDS } RoomKind;
@@ -42,7 +42,7 @@ static void add(Room *room, HdSolidKind kind, HdVec3 centre, double radius, uint
     hd_platonic_rotate(&room->shape[n], room->degrees[n]);
 }
 
-/* `turn` chooses among the solids; turned at random. */
+/* Makes randomly rotated solids; `turn` chooses among their kinds. */
 static void make_room(Room *room, RoomKind kind, int turn, uint64_t *random) {
     HdVec3 origin = hd_vec3(0.0, 0.0, 0.0), aside = hd_vec3(0.2511, -0.1037, 0.0892);
     room->count = 0;
@@ -68,7 +68,7 @@ static bool is_within(const Room *room, int solid, HdVec3 point, double margin) 
     return true;
 }
 
-/* A place within the first solid and outside of the others. */
+/* Returns a place within the first solid and outside the others. */
 static HdVec3 find_eye(const Room *room, uint64_t *random) {
     for (;;) {
         HdVec3 eye = hd_scale(hd_random_direction(random), random_between(random, 0.0, 0.6));
@@ -80,13 +80,13 @@ static HdVec3 find_eye(const Room *room, uint64_t *random) {
     }
 }
 
-/* Where a path goes on: the solid and the face, and how far away. */
+/* The next hit of a path: the solid, the face and the distance. */
 typedef struct Next {
     double t;
     HdBounce at;
 } Next;
 
-/* Out of a solid that the ray runs within. */
+/* Puts the exit of a ray within the solid into `next`, if it is nearer. */
 static void leave(const Room *room, int solid, HdVec3 origin, HdVec3 direction, Next *next) {
     for (int face = 0; face < room->shape[solid].face_count; face++) {
         double slope = hd_dot(room->shape[solid].face_normal[face], direction);
@@ -117,7 +117,7 @@ static void enter(const Room *room, int solid, HdVec3 origin, HdVec3 direction, 
         *next = (Next){in, {solid, entered}};
 }
 
-/* The faces that a path meets, `count` of them. */
+/* Follows a path; fills the `count` faces that it hits. */
 static void trace_and_shade(const Room *room, HdVec3 origin, HdVec3 direction, int count,
                             HdBounce *bounces) {
     int last = -1;
@@ -135,8 +135,8 @@ static void trace_and_shade(const Room *room, HdVec3 origin, HdVec3 direction, i
     }
 }
 
-/* ---- paths of mirrors as others follow them: triangles and rays in float, in world coordinates,
-   and something against meeting the surface that a ray leaves; none is part of the product ---- */
+/* ---- paths in other renderers: triangles and rays in float, in world coordinates, with a method
+   against hitting the surface that a ray leaves; not part of the product ---- */
 
 enum { MAX_PLAIN_TRIANGLES = 128 };
 
@@ -148,15 +148,15 @@ typedef struct PlainScene {
 } PlainScene;
 
 enum { AVOIDANCES = 8 };
-/* What keeps a ray from meeting the surface that it leaves. */
+/* The method that keeps a ray from hitting the surface that it leaves. */
 typedef struct Avoidance {
-    float epsilon;          /* nearer hits count as none */
+    float epsilon;          /* nearer hits do not count */
     float relative_epsilon; /* likewise, times the largest coordinate of the ray's origin */
     bool moves_origin, skips_triangle, skips_face;
     bool is_moeller_trumbore; /* instead of the watertight test with the tie rule */
 } Avoidance;
 
-enum { moeller_trumbore = 1 }; /* among the tests: that with a least determinant of 0 */
+enum { moeller_trumbore = 1 }; /* index among the tests: that with a least determinant of 0 */
 
 static const Avoidance avoidances[AVOIDANCES] = {
     {.epsilon = 1e-3f},     {.epsilon = 1e-4f},
@@ -221,7 +221,7 @@ static HdFloat3 move_off(HdFloat3 p, HdFloat3 normal) {
     return (HdFloat3){moved(p.x, normal.x), moved(p.y, normal.y), moved(p.z, normal.z)};
 }
 
-/* Nearer to the triangle than a point computed along the ray. */
+/* Blends the corners: nearer to the triangle than a point computed along the ray. */
 static HdFloat3 blend(const HdFloatTriangle *triangle, const HdMeeting *meeting) {
     float b = meeting->share_b, c = meeting->share_c, a = 1.0f - b - c;
     HdFloat3 p = triangle->a, q = triangle->b, r = triangle->c;
@@ -233,7 +233,7 @@ static bool is_same(HdBounce a, HdBounce b) {
     return a.object == b.object && a.face == b.face;
 }
 
-/* Whether a ray that leaves triangle `last` (-1: the eye) crosses another. */
+/* Returns whether a ray that leaves triangle `last` (-1: the eye) crosses another. */
 static bool crosses(const PlainScene *scene, int number, const HdFloatRay *ray, int last,
                     int triangle, HdMeeting *meeting) {
     const Avoidance *avoidance = &avoidances[number];
@@ -248,7 +248,7 @@ static bool crosses(const PlainScene *scene, int number, const HdFloatRay *ray, 
            meeting->t > (last >= 0 ? least : 0.0f);
 }
 
-/* The triangle that a ray meets first, -1: none. */
+/* Returns the first triangle that a ray hits; -1: none. */
 static int closest(const PlainScene *scene, int number, HdFloatRay *ray, int last, HdMeeting *met) {
     int found = -1;
     hd_triangle_tests.prepare_ray(ray);
@@ -263,7 +263,7 @@ static int closest(const PlainScene *scene, int number, HdFloatRay *ray, int las
     return found;
 }
 
-/* Where a path goes on from a triangle; `side` is 1 on its outer side, else -1. */
+/* Returns the next origin of a path on a triangle; `side` is 1 on its outer side, else -1. */
 static HdFloat3 go_on_from(const PlainScene *scene, int number, const HdFloatRay *ray, int met,
                            const HdMeeting *meeting, float side) {
     HdFloat3 normal = scene->normals[met];
@@ -273,7 +273,7 @@ static HdFloat3 go_on_from(const PlainScene *scene, int number, const HdFloatRay
     return along(ray->origin, ray->direction, meeting->t);
 }
 
-/* Follows a path of mirrors; returns how many faces it met, at most `most`. */
+/* Follows a path of mirrors; returns the number of faces hit, at most `most`. */
 static int follow_plainly(const PlainScene *scene, int number, HdFloat3 eye, HdFloat3 direction,
                           int most, HdBounce *bounces) {
     HdFloatRay ray = {.origin = eye, .direction = direction};
@@ -295,7 +295,7 @@ static int follow_plainly(const PlainScene *scene, int number, HdFloat3 eye, HdF
 /* ---- the study ---- */
 
 enum { BOUNCES = 30, MANY_BOUNCES = 300, PATHS_A_ROOM = 250 };
-enum { FEW = 5 }; /* a path of so many goes on to many bounces */
+enum { FEW = 5 }; /* bounces after which a path is likely to have many more */
 
 /* The plain methods, then the product's. */
 enum { OURS_SOLIDS = AVOIDANCES, OURS_TRIANGLES, OURS_DOUBLE, METHODS };
@@ -350,7 +350,7 @@ static bool put(Stage *stage, HdPlace place) {
     return done;
 }
 
-/* Returns -1 where it cannot be. */
+/* Returns -1 if it cannot be. */
 static int walk(Stage *stage, int method, const Path *path, int most, HdBounce *found) {
     HdVec3 eye = hd_add(stage->centre, hd_scale(path->eye, stage->scale));
     if (method < OURS_SOLIDS)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Segments to lights that lie on the surface of an opaque solid: how many are blocked that should
-   be open, and open that should be blocked; and what a light at the lit point itself does. */
+/* Segments to lights on the surface of an opaque solid: counts open ones that are blocked, and
+   blocked ones that are open. Also the effect of a light at the lit point itself. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 
 enum { SEGMENTS_A_LAMP = 60, LIGHTS_AN_EDGE = 3, FREE_LIGHTS = 20 };
 
-/* What counts as clearly outside or behind of a face, in sizes. */
+/* Distances, in sizes, that count as clearly outside or behind a face. */
 static const double margin = 0.02;
 static const double floor_height = -1.5, floor_side = 3.0;
 
@@ -23,7 +23,7 @@ typedef enum Where { EDGE_LIGHTS, EDGE_LIGHTS_FROM_WITHIN, FACE_LIGHTS, AT_THE_P
 static const char *const where_names[] = {"edge_lights", "edge_lights_from_within", "face_lights",
                                           "light_at_the_point"};
 
-/* How others tell whether something lies between: where along the segment hits count. */
+/* Occlusion tests of other renderers: the range along the segment in which hits count. */
 typedef struct Window {
     const char *name;
     bool normalised;
@@ -40,8 +40,8 @@ static const Window windows[] = {
 enum { WINDOWS = sizeof windows / sizeof *windows, OURS = WINDOWS, OURS_DOUBLE, METHODS };
 
 typedef struct Tally {
-    long long open, blocked_wrongly; /* of segments that should be open */
-    long long shut, opened_wrongly;  /* of others */
+    long long open, blocked_wrongly; /* counts of segments that should be open */
+    long long shut, opened_wrongly;  /* counts of the others */
     long long no_numbers;
 } Tally;
 
@@ -51,17 +51,17 @@ typedef struct Stage {
     HdFloatTriangle triangles[HD_MAX_SHAPE_TRIANGLES];
     HdVec3 centre;
     double scale;
-    HdVec3 light[FREE_LIGHTS]; /* on faces, in sizes about the centre */
+    HdVec3 light[FREE_LIGHTS]; /* lights on faces, in sizes about the centre */
     int light_face[FREE_LIGHTS];
     HdCompiled compiled[2]; /* for float and for double */
 } Stage;
 
-/* In sizes about the solid's centre. */
+/* A segment, in sizes about the solid's centre. */
 typedef struct Segment {
     HdVec3 point, light;
-    int number;   /* of the light */
-    int faces[2]; /* that hold the light, -1: none */
-    int own_face; /* of the solid, that holds the point; -1: it is on the floor */
+    int number;   /* position of the light */
+    int faces[2]; /* faces that hold the light, -1: none */
+    int own_face; /* face of the solid that holds the point; -1: it is on the floor */
 } Segment;
 
 static HdVec3 place_of(const Stage *stage, HdVec3 point) {
@@ -127,7 +127,7 @@ static bool put(Stage *stage, Where where, HdPlace place, int turn, uint64_t *ra
            compile(stage, kind, degrees, where, true);
 }
 
-/* ---- segments, and what is true of them ---- */
+/* ---- segments, and the truth about them ---- */
 
 static Segment segment_to_edge(const Stage *stage, bool from_within, uint64_t *random) {
     const HdPlatonic *solid = &stage->solid;
@@ -161,7 +161,8 @@ static Segment choose_segment(const Stage *stage, Where where, int number, uint6
     return segment;
 }
 
-/* 1: nothing lies between the ends, 0: the solid does, -1: it is too near to tell. */
+/* Returns 1 if nothing lies between the ends, 0 if the solid does, -1 if it is too near to
+   decide. */
 static int is_open(const Stage *stage, const Segment *segment) {
     double most = -1e30;
     if (segment->own_face >= 0)
@@ -205,7 +206,7 @@ static bool ours_blocks(const Stage *stage, bool is_double, const Segment *segme
     HdVec3 from = is_within ? segment->point : hd_sub(segment->point, floor_centre);
     point.point = hd_scale(from, stage->scale);
     int plane_count = solid->face_count == 4 ? 4 : solid->face_count / 2;
-    point.face = 2 * plane_count; /* of the floor, which comes last */
+    point.face = 2 * plane_count; /* index of the floor, which comes last */
     if (is_within) {
         point.face = solid->face_count == 4 ? 2 * segment->own_face : segment->own_face;
         point.normal = hd_scale(solid->face_normal[segment->own_face], -1.0);

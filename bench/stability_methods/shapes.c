@@ -19,7 +19,7 @@ static void add(HdShape *shape, int a, int b, int c, int face) {
     shape->normals[n] = face < 0 ? hd_vec3(0.0, 0.0, 0.0) : hd_normalize(normal);
 }
 
-/* The face's vertices, counterclockwise from outside; returns how many. */
+/* Fills the face's vertices, counterclockwise from outside; returns their number. */
 static int vertices_of_face(const HdPlatonic *solid, int face, int *found) {
     HdVec3 normal = solid->face_normal[face], first = {0.0, 0.0, 0.0};
     double angles[HD_MAX_VERTICES];
@@ -57,7 +57,7 @@ void hd_shape_of_platonic(HdShape *shape, const HdPlatonic *solid) {
     }
 }
 
-/* The place of the edge's middle among the vertices, or -1: the face has none there. */
+/* Returns the index of the edge's middle among the vertices, or -1 if the face has none. */
 static int middle_of_edge(const HdShape *shape, const HdPlatonic *solid, int face, int a, int b) {
     for (int e = 0; e < solid->edge_count; e++) {
         const HdPlatonicEdge *edge = &solid->edge[e];

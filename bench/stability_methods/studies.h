@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What hedron_stability_methods measures. Each study prints lines as main.c tells and returns false
-   where memory runs out. */
+/* The studies of hedron_stability_methods. Each prints lines as main.c describes and returns false
+   if memory runs out. */
 #ifndef HD_BENCH_STUDIES_H
 #define HD_BENCH_STUDIES_H
 
@@ -9,33 +9,33 @@
 #include "base/vector.h"
 #include "triangle_tests.h"
 
-/* How large things are, and how many of their sizes away from the origin of the world. */
+/* The size of things, and their distance from the world's origin in sizes. */
 typedef struct HdPlace {
     double scale, offset;
 } HdPlace;
 
-/* Scales at the origin, then offsets of scale 1, then, of the paths alone, all others. */
+/* Scales at the origin, then offsets of scale 1, then, for the paths alone, all others. */
 extern const HdPlace hd_places[];
 extern const int hd_place_count, hd_all_place_count;
 
-/* The direction that offsets lead in; unit, and nothing about it is round. */
+/* The direction of offsets; unit, with no round numbers. */
 #define HD_OFFSET_X 0.6297
 #define HD_OFFSET_Y -0.5421
 #define HD_OFFSET_Z 0.5562
 
-/* `count` of rays, paths or segments for each place. */
+/* Runs `count` rays, paths or segments for each place. */
 bool hd_study_crossings(int count);
 bool hd_study_paths(int count);
 bool hd_study_shadows(int count);
 
-/* Whether this processor runs the tests that are compiled with contraction. */
+/* Returns whether this processor runs the tests that are compiled with contraction. */
 bool hd_can_contract(void);
 
 static inline HdFloat3 hd_to_float(HdVec3 v) {
     return (HdFloat3){(float)v.x, (float)v.y, (float)v.z};
 }
 
-/* Rounded to float, and back. */
+/* Rounds to float, and back. */
 static inline HdVec3 hd_round(HdVec3 v) {
     return hd_vec3((double)(float)v.x, (double)(float)v.y, (double)(float)v.z);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* HD_TESTS names the table; with HD_CONTRACTED it has those that contraction matters to. */
+/* HD_TESTS names the table; with HD_CONTRACTED it has those that contraction changes. */
 #include "triangle_tests.h"
 
 #include <math.h>
@@ -20,7 +20,7 @@ static float component(HdFloat3 a, int axis) {
     return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
 }
 
-/* ---- what is computed once ---- */
+/* ---- precomputation ---- */
 
 static void prepare_ray(HdFloatRay *ray) {
     HdFloat3 d = ray->direction;
@@ -72,7 +72,7 @@ static Corner project(const HdFloatRay *ray, HdFloat3 p) {
                     component(from, ray->axis[1]) - ray->shear[1] * z, ray->shear[2] * z};
 }
 
-/* On which side of a - b the ray passes, again in double where float says neither. */
+/* Returns the side of a - b on which the ray passes; again in double if float cannot decide. */
 static float edge(Corner a, Corner b) {
     float area = a.x * b.y - a.y * b.x;
     if (area == 0.0f)
@@ -80,7 +80,7 @@ static float edge(Corner a, Corner b) {
     return area;
 }
 
-/* The same where a ray through an edge belongs to one of its two triangles. */
+/* Applies the tie rule: a ray through an edge belongs to one of its two triangles. */
 static float untied(float area, Corner a, Corner b) {
     if (area != 0.0f)
         return area;
@@ -181,7 +181,8 @@ static bool baldwin_weber(const HdFloatRay *ray, const HdFloatTriangle *triangle
     return true;
 }
 
-/* Permuted inner product of the Pluecker coordinates of the ray and of the line from a to b. */
+/* Returns the permuted inner product of the Pluecker coordinates of the ray and of the line from a
+   to b. */
 static float pluecker_side(const HdFloatRay *ray, HdFloat3 a, HdFloat3 b) {
     return dot(ray->direction, cross(a, b)) + dot(ray->moment, sub(b, a));
 }

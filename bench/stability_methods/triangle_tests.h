@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Tests of a ray against a triangle as others do them, in float and in world coordinates. None is
-   part of the product. They are compiled twice: to the letter, and with contraction. */
+/* Published tests of a ray against a triangle, in float and in world coordinates. None is part of
+   the product. They are compiled twice: to the letter, and with contraction. */
 #ifndef HD_BENCH_TRIANGLE_TESTS_H
 #define HD_BENCH_TRIANGLE_TESTS_H
 
@@ -10,19 +10,19 @@ typedef struct HdFloat3 {
     float x, y, z;
 } HdFloat3;
 
-/* A ray with what tests compute of it once. */
+/* A ray with the values that tests compute once. */
 typedef struct HdFloatRay {
     HdFloat3 origin, direction;
     HdFloat3 moment; /* origin x direction */
-    int axis[3];     /* the one nearest to the ray comes last; the first two keep the turn */
+    int axis[3];     /* the dominant axis comes last; the first two keep the orientation */
     float shear[3];
 } HdFloatRay;
 
-/* A triangle, counterclockwise from outside, with what tests compute of it once. */
+/* A triangle, counterclockwise from outside, with the values that tests compute once. */
 typedef struct HdFloatTriangle {
     HdFloat3 a, b, c;
     float to_unit[3][4]; /* Baldwin and Weber's transformation, and */
-    float normal_sign;   /* which way its third row looks */
+    float normal_sign;   /* the direction of its third row */
 } HdFloatTriangle;
 
 typedef struct HdMeeting {
@@ -33,19 +33,19 @@ typedef struct HdMeeting {
 
 typedef struct HdTriangleTest {
     const char *name;
-    /* Whether the ray's line crosses the triangle anywhere. */
+    /* Returns whether the ray's line crosses the triangle. */
     bool (*cross)(const HdFloatRay *ray, const HdFloatTriangle *triangle, HdMeeting *meeting);
 } HdTriangleTest;
 
 typedef struct HdTriangleTests {
-    void (*prepare_ray)(HdFloatRay *ray);                /* from origin and direction */
-    void (*prepare_triangle)(HdFloatTriangle *triangle); /* from the corners */
+    void (*prepare_ray)(HdFloatRay *ray);                /* computed from origin and direction */
+    void (*prepare_triangle)(HdFloatTriangle *triangle); /* computed from the corners */
     int count;
     const HdTriangleTest *tests;
 } HdTriangleTests;
 
-/* The last of the strict ones is watertight with the tie rule. The contracted ones need fused
-   multiplication from the processor. */
+/* The last of the strict ones is watertight with the tie rule. The contracted ones need a processor
+   with fused multiplication. */
 extern const HdTriangleTests hd_triangle_tests, hd_triangle_tests_contracted;
 
 #endif

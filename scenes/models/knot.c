@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A torus knot, a closed tube whose section is fluted and turns along the way. The grid's lines run
+/* A torus knot: a closed tube whose section is fluted and turns along the way. The grid's lines run
    along the flutes, so that few triangles show them too. */
 #include "model.h"
 
@@ -13,7 +13,7 @@ enum { TURNS = 2, WINDINGS = 3, FLUTES = 5, TWISTS = 4 };
 static const double ring = 0.62, winding_radius = 0.26; /* of the curve */
 static const double tube = 0.17, flute_depth = 0.22;    /* of the section */
 
-static const double length_to_girth = 7; /* roughly, so that cells are about square */
+static const double length_to_girth = 7; /* approximate, so that cells are about square */
 
 typedef struct Grid {
     int along, around;
@@ -37,7 +37,7 @@ static int count_triangles(int wanted) {
     return 2 * grid.along * grid.around;
 }
 
-/* A place on the curve, and two directions across it at right angles. */
+/* A point of the curve, and two directions across it at right angles. */
 typedef struct Frame {
     double centre[3], outward[3], sideways[3];
 } Frame;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Writes a model of as many triangles as wanted; "hedron_model --help" tells how. */
+/* Writes a model of the requested number of triangles; "hedron_model --help" explains it. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
 #include <stdbool.h>
@@ -58,7 +58,7 @@ static HdStatus read_triangles(const char *text, int *triangles, HdError *error)
                    HD_MODEL_LEAST, HD_MODEL_MOST);
 }
 
-/* Arguments after the program's name. */
+/* Parses the arguments after the program's name. */
 static HdStatus parse(char **arguments, Order *order, HdError *error) {
     const char *operands[2];
     int count = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Models that are made by formulas, of as many triangles as wanted. Their shape does not depend on
-   that number, and their bytes on no machine. All lie within 1.2 of the origin. */
+/* Models made by formulas, of any number of triangles. Their shape does not depend on that number,
+   nor their bytes on the machine. All lie within 1.2 of the origin. */
 #ifndef HD_MODEL_H
 #define HD_MODEL_H
 
@@ -12,8 +12,8 @@ typedef struct HdModel {
     const char *name;
     const char *summary;
 
-    /* How many triangles there will be where `wanted`, HD_MODEL_LEAST..HD_MODEL_MOST, are asked
-       for: as close as the model's grid allows. */
+    /* Returns the number of triangles for `wanted`, HD_MODEL_LEAST..HD_MODEL_MOST: as close as the
+       model's grid allows. */
     int (*triangles)(int wanted);
 
     /* Writes vertices and triangles. */

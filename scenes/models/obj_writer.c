@@ -22,7 +22,7 @@ static void hand_over(HdObjWriter *writer) {
     }
 }
 
-/* Room for one more line. */
+/* Makes space for one more line. */
 static void begin_line(HdObjWriter *writer) {
     if (sizeof writer->buffer - writer->used >= LONGEST_LINE)
         return;
@@ -34,7 +34,7 @@ static void put_char(HdObjWriter *writer, char byte) {
     writer->buffer[writer->used++] = byte;
 }
 
-/* `number` in decimal, with zeros before it up to `least` digits. */
+/* Appends `number` in decimal, with zeros before it up to `least` digits. */
 static void put_digits(HdObjWriter *writer, unsigned number, int least) {
     char digits[16];
     int count = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Writes a Wavefront OBJ of any size in little memory: the text depends on nothing but the calls.
- */
+/* Writes a Wavefront OBJ of any size in little memory: the text depends on nothing but the
+   calls. */
 #ifndef HD_OBJ_WRITER_H
 #define HD_OBJ_WRITER_H
 
@@ -10,29 +10,29 @@
 
 typedef struct HdObjWriter {
     FILE *stream;
-    bool failed; /* nothing is written any more */
-    int reason;  /* errno of the write that failed; 0 where a signal ended the work */
+    bool failed; /* whether writing has stopped */
+    int reason;  /* errno of the failed write; 0 if a signal ended the work */
     size_t used;
     char buffer[65536];
 } HdObjWriter;
 
-/* `stream` stays the caller's, and nobody else writes to it until hd_obj_end. */
+/* Begins a file. `stream` stays the caller's, and nobody else writes to it until hd_obj_end. */
 void hd_obj_begin(HdObjWriter *writer, FILE *stream);
 
-/* A line of comment, without line breaks, of at most 200 bytes. */
+/* Writes a comment, without line breaks, of at most 200 bytes. */
 void hd_obj_comment(HdObjWriter *writer, const char *text);
 
-/* `point` is x, y, z, each within -1000..1000; 6 decimals of them are kept. */
+/* Writes a vertex. `point` is x, y, z, each within -1000..1000; 6 decimals of them are kept. */
 void hd_obj_vertex(HdObjWriter *writer, const double point[3]);
 
-/* A triangle of the vertices with these numbers, which count from 0, counterclockwise as seen from
-   the outer side. */
+/* Writes a triangle of the vertices with these numbers, which count from 0, counterclockwise as
+   seen from the outer side. */
 void hd_obj_triangle(HdObjWriter *writer, int a, int b, int c);
 
-/* Two triangles, a b c and a c d. */
+/* Writes two triangles, a b c and a c d. */
 void hd_obj_quad(HdObjWriter *writer, int a, int b, int c, int d);
 
-/* Hands the rest to the system. Whether all arrived: see `failed`. */
+/* Writes the rest; `failed` tells whether all arrived. */
 void hd_obj_end(HdObjWriter *writer);
 
 #endif

@@ -13,7 +13,7 @@ static inline uint64_t random_bits(uint64_t *state) {
     return z ^ (z >> 31);
 }
 
-/* At least `least` and less than `most`. */
+/* Returns a number of at least `least` and less than `most`. */
 static inline double random_between(uint64_t *state, double least, double most) {
     return least + (most - least) * ((double)(random_bits(state) >> 11) * 0x1p-53);
 }

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* Equilateral triangles at random places and in random directions, for measurements: nothing that
-   neighbours have in common helps a hierarchy here. */
+/* Equilateral triangles at random places and in random directions, for measurements: a hierarchy
+   cannot profit from similar neighbours. */
 #include "model.h"
 
 #include <math.h>
 
 #include "random.h"
 
-/* Of the circle about each triangle, times the cube root of their number. */
+/* Size of the circle about each triangle, times the cube root of their number. */
 static const double size = 0.7;
 
 static const double root_of_3 = 1.7320508075688772;
 
-/* A point in the ball of radius 1, not too close to its centre. */
+/* Fills a point in the ball of radius 1, not too close to its centre. */
 static void random_point(uint64_t *state, double point[3]) {
     double square;
     do {
@@ -30,7 +30,7 @@ static void normalise(double vector[3]) {
         vector[axis] /= length;
 }
 
-/* Two directions at a right angle. */
+/* Fills two directions at a right angle. */
 static void random_plane(uint64_t *state, double u[3], double v[3]) {
     double other[3];
     random_point(state, u);
@@ -44,7 +44,7 @@ static void random_plane(uint64_t *state, double u[3], double v[3]) {
     normalise(v);
 }
 
-/* Newton's method: as good everywhere, unlike cbrt. */
+/* Newton's method: the same bytes everywhere, unlike cbrt. */
 static double cube_root(double value) {
     double root = value;
     for (int i = 0; i < 60; i++)

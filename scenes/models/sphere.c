@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* A sphere with bumps, for measurements: the six sides of a cube, cut into n x n cells each and
-   blown up, so that triangles have about the same size everywhere. */
+   projected, so that triangles have about the same size everywhere. */
 #include "model.h"
 
 #include <math.h>
@@ -20,7 +20,8 @@ static int count_triangles(int wanted) {
     return 12 * n * n;
 }
 
-/* On the cube -1..1. Equal angles, not equal lengths, make cells of about the same size. */
+/* Returns a coordinate on the cube -1..1. Equal angles, not equal lengths, make cells of about the
+   same size. */
 static double cube_coordinate(int index, int n) {
     double sine, cosine;
     if (index == 0 || index == n)
@@ -43,8 +44,8 @@ static void write_vertex(HdObjWriter *writer, double x, double y, double z) {
     hd_obj_vertex(writer, point);
 }
 
-/* Vertices come layer by layer, in each one row by row; between the lowest and the highest layer,
-   of each row but the first and the last, only both ends are on the surface. */
+/* Vertices are ordered by layer, then by row. Between the lowest and the highest layer, of each row
+   but the first and the last, only both ends are on the surface. */
 static void write_vertices(HdObjWriter *writer, int n) {
     for (int k = 0; k <= n; k++) {
         double z = cube_coordinate(k, n);
@@ -57,7 +58,7 @@ static void write_vertices(HdObjWriter *writer, int n) {
     }
 }
 
-/* The number of a vertex by its place on the cube. */
+/* Returns the number of a vertex by its place on the cube. */
 static int vertex_number(const int place[3], int n) {
     int i = place[0], j = place[1], k = place[2], side = n + 1;
     if (k == 0)
@@ -70,8 +71,8 @@ static int vertex_number(const int place[3], int n) {
     return before + side + 2 * (j - 1) + (i == n);
 }
 
-/* A side of the cube: the two axes of its cells, which turn counterclockwise as seen from outside.
- */
+/* Writes a side of the cube; the two axes of its cells turn counterclockwise as seen from
+   outside. */
 static void write_side(HdObjWriter *writer, int n, int across, int up, int fixed, int level) {
     for (int j = 0; j < n; j++) {
         for (int i = 0; i < n; i++) {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What the figures of bench/ follow from, on made-up numbers. Its arguments are the project's folder and hedron; it runs in
-an empty folder. Every function test_... is a test."""
+"""Tests the figures of bench/ on made-up numbers. Its arguments are the project's folder and hedron; it runs in an empty
+folder. Every function test_... is a test."""
 import math
 import re
 import struct
@@ -75,7 +75,8 @@ def test_pictures_of_one_promise_are_compared():
 
 
 def test_comparison_of_two_studies():
-    """A tenth more is beyond the noise of quiet ones; 2 % are no difference; two equal runs are no proof of quiet."""
+    """Compares two studies: a tenth more is beyond the noise of quiet ones; 2 % are no difference; two equal runs are no proof
+    of quiet."""
     def measured(*all_runs):
         entries = [job("c:0", "s", "0", part="lights", x=x) for x in range(len(all_runs))]
         for entry, times in zip(entries, all_runs):
@@ -121,14 +122,14 @@ def test_pictures_are_read_and_compared():
     program = Program(HEDRON)
     near = 1 - pfm.errors(program, "a.pfm", "b.pfm")["above_1"]
     same((pfm.share_within("a.pfm", "b.pfm", 1), near), (0.5, 0.5))
-    # The error that the reference's samples leave is what their unit test measures.
+    # The error that the reference's samples leave is that of their unit test.
     stated = (PROJECT / "tests/unit/render/test_samples.c").read_text(encoding="utf-8")
     assert f"#define REFERENCE_SAMPLE_ERROR {SAMPLE_ERROR}\n" in stated
 
 
 # ---- stability
 
-def test_what_ours_may_never_do_is_a_failure():
+def test_a_failure_of_hedrons_methods_is_a_failure():
     def counts(wrong, lost, blocked):
         return methods.parse(
             f"crossings edges pluecker 1 0 tried=9 missed=5 twice=5 wrong=8 misplaced=0\n"
@@ -163,7 +164,7 @@ def test_any_leak_is_a_failure():
 # ---- the harness
 
 def test_each_folder_takes_from_those_before_it_only():
-    """In the order of bench/README.md."""
+    """Checks the imports against the order of bench/README.md."""
     bench = PROJECT / "bench"
     table = (bench / "README.md").read_text(encoding="utf-8").partition("| folder | what |")[2].partition("\n\n")[0]
     places = re.findall(r"`(\w+)`", "\n".join(line.split("|")[1] for line in table.splitlines()[2:]))

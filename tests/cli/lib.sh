@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=bash
 #
-# What the tests of the command line share. A script sources this file with the path of the program as
-# its first argument. It then stands in an empty temporary folder with a home folder of its own, both
-# of which go away when it ends. A failed expectation is reported and counted, and the script goes on;
-# it ends with 1 when there was any. Its last line is `finish`.
+# Functions for the tests of the command line. A script sources this file with the path of the program as
+# its first argument. It then runs in an empty temporary folder with a home folder of its own; both are
+# removed when it ends. A failed expectation is reported and counted, and the script continues; it ends
+# with 1 if there was any. Its last line is `finish`.
 
 if [[ $# -lt 1 || ! -x $1 ]]; then
     echo "usage: $0 HEDRON [BUILD_FOLDER]" >&2
@@ -14,14 +14,14 @@ hedron=$(realpath "$1")
 cli_folder=$(realpath "$(dirname "${BASH_SOURCE[0]}")")
 project=$(realpath "$cli_folder/../..")
 
-# Compiled OpenCL kernels stay where this user has them, for compiling takes seconds.
+# Compiled OpenCL kernels stay in this user's cache, because compiling takes seconds.
 export POCL_CACHE_DIR=${POCL_CACHE_DIR:-${XDG_CACHE_HOME:-${HOME:-/tmp}/.cache}/pocl/kcache}
 export LC_ALL=C
 export HEDRON_STOP_PATIENCE=600 # a slow machine ends in order as well
-unset CDPATH XDG_CACHE_HOME # hedron's own cache is where HEDRON_CACHE says, else in the home folder below
+unset CDPATH XDG_CACHE_HOME # hedron's own cache is the folder in HEDRON_CACHE, else in the home folder below
 
 work=$(mktemp -d "${TMPDIR:-/tmp}/hedron-cli-XXXXXX")
-logs=$work/logs # what the last command wrote: logs/stdout, logs/stderr
+logs=$work/logs # output of the last command: logs/stdout, logs/stderr
 export HOME=$work/home
 mkdir "$logs" "$HOME" "$work/here" "$work/no_vendors"
 : | tee "$logs/stdout" >"$logs/stderr"
@@ -50,7 +50,7 @@ finish() {
     exit 1
 }
 
-# lanes_there PRECISION: the numbers of lanes that plain C takes on this processor.
+# lanes_there PRECISION: the lane counts that plain C supports on this processor.
 lanes_there() {
     local lanes
     for lanes in 1 4 8 16; do
@@ -86,7 +86,7 @@ script_line() {
     done
 }
 
-# With the last command, and what it said.
+# With the last command, and its messages.
 fail() {
     failures=$((failures + 1))
     echo "FAILED $(script_line): $*"
@@ -95,7 +95,7 @@ fail() {
     head -c 600 "$logs/stderr" | sed 's/^/  stderr: /'
 } >&2
 
-# Runs a command; what it wrote and its exit code are kept. Standard input is passed on.
+# Runs a command and keeps its output and exit code. Standard input is passed on.
 run() {
     last_command="$*"
     code=0
@@ -108,7 +108,7 @@ expect_exit() {
     (($1 == code)) || fail "exit code $code, expected $1"
 }
 
-# expect_stdout_lines COUNT [REGEX]: so many lines, each of which matches as a whole.
+# expect_stdout_lines COUNT [REGEX]: so many lines, each matching as a whole.
 expect_stdout_lines() {
     if (($(wc -l <"$logs/stdout") != $1)) || [[ -s $logs/stdout && -n $(tail -c 1 "$logs/stdout") ]]; then
         fail "standard output has $(wc -l <"$logs/stdout") whole lines, expected $1 and nothing else"
@@ -128,7 +128,7 @@ expect_silent_stderr() {
     [[ ! -s $logs/stderr ]] || fail "standard error is not empty"
 }
 
-# Exactly one line, which begins with the program's name and says something.
+# Exactly one line: the program's name and a message.
 expect_sentence() {
     if (($(wc -l <"$logs/stderr") != 1)) || ! grep -q -E '^hedron: .{10,}$' "$logs/stderr" ||
         [[ -n $(tail -c 1 "$logs/stderr") ]]; then
@@ -136,9 +136,9 @@ expect_sentence() {
     fi
 }
 
-# expect_refusal CODE COMMAND...: that exit code at once, one sentence, and nothing on standard output.
+# expect_refusal CODE COMMAND...: that exit code at once, one sentence, and no standard output.
 expect_refusal() {
-    expect_exit "$1" timeout "$patience" "${@:2}"
+    expect_exit "$1" timeout "$time_limit" "${@:2}"
     if ((code == $1)); then
         expect_sentence
         expect_stdout_lines 0
@@ -200,31 +200,31 @@ make_texture() {
     printf '%b' '\4\0\0\0\4\0\0\0' "$row$other$row$other" >"$1"
 }
 
-# The task's own example, with the texture that it names in the home folder.
+# The task's own example, with its texture in the home folder.
 use_official_input() {
     cp "$cli_folder/official.in" "$work/official.in"
     make_texture "$HOME/floor.data"
 }
 
-# One frame of the built-in scene in no time.
+# One frame of the built-in scene, quickly.
 small=(--size 32x24 --samples 1 --depth 2)
-# No graphics card of NVIDIA for this command, neither through CUDA nor through OpenCL.
+# Hides NVIDIA's graphics cards from this command, in CUDA and in OpenCL.
 no_nvidia=(env CUDA_VISIBLE_DEVICES=)
-# Nor any OpenCL.
+# Hides all of OpenCL as well.
 nothing=(env CUDA_VISIBLE_DEVICES= OCL_ICD_VENDORS="$work/no_vendors")
 export small no_nvidia nothing project
 
-# True where some backend has a GPU that the command above does not hide.
+# True if some backend has a GPU that the command above does not hide.
 has_other_gpu() {
     "${no_nvidia[@]}" "$hedron" devices | grep -q '^ *GPU,'
 }
 
-# True where films can be made.
+# True if films can be made.
 has_ffmpeg() {
     command -v ffmpeg && command -v ffprobe
 } >/dev/null
 
-# fake NAME BODY: a program of that name in a folder that with_tools has the system search first.
+# fake NAME BODY: a program of that name in a folder that with_tools puts first in PATH.
 with_tools=(env PATH="$work/tools:$PATH")
 export with_tools
 fake() {
@@ -241,7 +241,7 @@ has_opencl() {
     "${no_nvidia[@]}" "$hedron" devices | sed -n '/^opencl$/,/^c$/p' | grep -q -E 'strict arithmetic: (yes|not measured)'
 }
 
-# wait_until SECONDS COMMAND...: true as soon as the command succeeds, false when time is up.
+# wait_until SECONDS COMMAND...: true as soon as the command succeeds, false after the timeout.
 wait_until() {
     local end=$((SECONDS + $1))
     until "${@:2}"; do
@@ -250,12 +250,12 @@ wait_until() {
     done
 }
 
-# wait_for WHAT COMMAND...: until it succeeds, and no longer than the patience lasts.
+# wait_for WHAT COMMAND...: until it succeeds, at most for the timeout.
 wait_for() {
-    wait_until "$patience" "${@:2}" || fail "waited in vain for $1"
+    wait_until "$time_limit" "${@:2}" || fail "timed out waiting for $1"
 }
 
-# In a group of its own, so that the shell does not have it ignore SIGINT. Sets `pid`.
+# In a group of its own, so that the shell does not make it ignore SIGINT. Sets `pid`.
 start() {
     last_command="$*"
     set -m
@@ -268,18 +268,18 @@ is_gone() {
     ! kill -0 "$1" 2>/dev/null
 }
 
-# send SIGNAL TARGET: where the target is gone already, the test would show nothing.
+# send SIGNAL TARGET: if the target is already gone, the test would show nothing.
 send() {
     kill "-$1" -- "$2" 2>/dev/null || fail 'it was over before the signal'
 }
 
-# Seconds after which a program is taken to hang: more than any of them takes on a slow and busy machine.
-patience=300
+# Seconds after which a program counts as hanging: more than any needs on a slow and busy machine.
+time_limit=300
 
-# expect_end CODE: the program that was started ends by itself, with this code.
+# expect_end CODE: the started program ends by itself, with this code.
 expect_end() {
-    if ! wait_until "$patience" is_gone "$pid"; then
-        fail "still running after $patience s"
+    if ! wait_until "$time_limit" is_gone "$pid"; then
+        fail "still running after $time_limit s"
         kill -KILL -- "-$pid" 2>/dev/null || true
     fi
     code=0
@@ -294,7 +294,7 @@ j = json.load(open(sys.argv[1]))
 sys.exit(not ($1))" "$logs/stdout" || fail "JSON: not $1"
 }
 
-# use_fake_cuda BUILD: for the commands from here on CUDA's driver and compiler are those of the tests, and there is no OpenCL.
+# use_fake_cuda BUILD: replaces CUDA's driver and compiler by those of the tests, and hides OpenCL, for all later commands.
 use_fake_cuda() {
     nvrtc=$1/tests/fake_cuda/libnvrtc.so.12
     [[ -e $nvrtc ]] || skip "no compiler of C++ is here that could build the kernels"
@@ -303,7 +303,7 @@ use_fake_cuda() {
     export HEDRON_CACHE=$work/cache HEDRON_NVRTC=$nvrtc
 }
 
-# take BUILD TEXT FOR: ${driver[@]} runs a command with an OpenCL whose compiler takes one text of the kernels for another.
+# take BUILD TEXT FOR: ${driver[@]} runs a command with an OpenCL whose compiler mistakes one text of the kernels for another.
 take() {
     # shellcheck disable=SC2034 # for the scripts
     driver=("${no_nvidia[@]}" LD_PRELOAD="$1/tests/failing/libfailing_opencl.so" FAILING_OPENCL_TEXT="$2"

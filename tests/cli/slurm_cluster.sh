@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=bash
 #
-# A Slurm cluster of two nodes on this machine, for tests: all that it has lies in one folder, its ports
+# A Slurm cluster of two nodes on this machine, for tests: all of its files lie in one folder, its ports
 # are on loopback, and it ends with the test. Sourced after lib.sh, which sets work and logs.
 # shellcheck disable=SC2154
 
@@ -16,7 +16,7 @@ need_slurm() {
     done
 }
 
-# A port that nobody listens on, below those that the system hands out itself.
+# A free port, below those that the system assigns itself.
 free_port() {
     local port
     for _ in {1..100}; do
@@ -29,7 +29,7 @@ free_port() {
     return 1
 }
 
-# A task that is queued again waits until its credential has expired, here 30 s instead of 120.
+# A requeued task waits until its credential has expired, here 30 s instead of 120.
 write_slurm_configuration() {
     local host ports
     host=$(hostname -s)
@@ -112,15 +112,15 @@ try_to_start_cluster() {
     wait_until 180 cluster_is_decided && daemons_run
 }
 
-# Skips the test where the daemons do not start, such as for lack of a permission.
+# Skips the test if the daemons do not start, such as for lack of a permission.
 start_cluster() {
     export SLURM_CONF=$cluster/slurm.conf
     try_to_start_cluster ||
         skip "Slurm does not start here: $(grep -r -h -i -m 2 -E 'fatal|error' "$cluster/log" | head -n 4 | tr '\n' ';')"
 }
 
-# What belongs to the cluster: its daemons, and what they have started. The search itself has nothing of
-# the cluster in its arguments and environment.
+# Processes of the cluster: its daemons, and what they have started. The search itself has nothing of the cluster in its
+# arguments and environment.
 cluster_processes() {
     printf '%s' "$cluster" | env -i grep -l -a -F -f - /proc/[0-9]*/cmdline /proc/[0-9]*/environ 2>/dev/null |
         cut -d / -f 3 | sort -u | grep -v -x -e "$$" || true
@@ -142,7 +142,7 @@ stop_daemons() {
     cluster_pids=()
 }
 
-# Jobs first, for the daemons leave them alone. True where nothing had to be killed.
+# Jobs first, because the daemons leave them running. True if nothing had to be killed.
 stop_cluster() {
     local process
     if ((${#cluster_pids[@]} > 0)) && daemons_run; then

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# What is promised of a picture's error, and what is kept: --max-error, --aa, --reference, --crop; solids that touch.
+# The error bound of a picture and its measured error: --max-error, --aa, --reference, --crop; solids that touch.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -12,7 +12,7 @@ render() {
     expect_exit 0 "$hedron" render --quiet --backend c --frames 0 --size 64x48 -o "$1.pfm" --stats "$1.jsonl" "${@:2}"
 }
 
-# expect_all FILE FILTER: what jq says of each line is true.
+# expect_all FILE FILTER: the jq filter is true of each line.
 expect_all() {
     jq -e -s "all(.[]; $2)" "$1" >"$logs/jq" 2>&1 || fail "$1: not $2: $(tr '\n' ' ' <"$1" | cut -c1-600)"
 }
@@ -21,7 +21,7 @@ compare() { # NAME NAME: into compared.json
     "$hedron" compare --json "$1.pfm" "$2.pfm" >compared.json || true
 }
 
-# ---- what is left out: within the bound, which is within the limit
+# ---- truncation: within the bound, which is within the limit
 for scene in default glass lantern; do
     scene=("$project/scenes/$scene.json" --samples 1 --size 24x18)
     render one "${scene[@]}" --max-error 1
@@ -29,11 +29,11 @@ for scene in default glass lantern; do
     render truth "${scene[@]}" --max-error 0.03 --precision double
     expect_all truth.jsonl '.missing.largest <= 0.03'
     compare one truth
-    # Rays that meet another thing in float than in double are another error: few, and not left out.
+    # Rays that hit another thing in float than in double are another error: few, and not truncation.
     expect_all compared.json '.first.not_finite == 0 and .second.not_finite == 0 and .display.above_1 <= 0.005'
 done
 
-# ---- a looser limit takes fewer rays; what was left out is told also where the depth does it
+# ---- a looser limit takes fewer rays; truncation is reported even if the depth causes it
 render loose --max-error 8
 render tight --max-error 0.5
 rays='.rays.mirrored + .rays.transmitted'
@@ -51,11 +51,11 @@ compare adaptive grid
 expect_all compared.json '.display.rmse > 0 and .display.p999 <= 2'
 (($(jq .rays.primary adaptive.jsonl) * 10 <= $(jq .rays.primary grid.jsonl) * 7)) ||
     fail "adaptive sampling takes $(jq .rays.primary adaptive.jsonl) samples"
-# One sample a pixel leaves nothing to choose.
+# One sample a pixel leaves no choice.
 render a --samples 1
 render b --samples 1 --aa adaptive
 expect_same a.pfm b.pfm
-# A scene says it, too.
+# A scene can request it, too.
 render a --samples 3 --aa adaptive --max-error 2
 render b --samples 3 --set image.aa=adaptive --set image.max_error=2 --threads 1 --lanes 1
 expect_same a.pfm b.pfm
@@ -64,10 +64,10 @@ expect_same a.pfm b.pfm
 render whole --samples 3
 render part --samples 3 --crop 20x11+9+30
 for ((row = 48 - 30 - 11; row < 48 - 30; row++)); do
-    tail -c +$((15 + (row * 64 + 9) * 12)) whole.pfm | head -c $((20 * 12)) || true # behind a head of 14 bytes
+    tail -c +$((15 + (row * 64 + 9) * 12)) whole.pfm | head -c $((20 * 12)) || true # after a head of 14 bytes
 done | cmp - <(tail -c +15 part.pfm) || fail 'a crop is another picture than its part of the whole'
 
-# ---- the reference: double, many samples, and nearer to itself than any other
+# ---- the reference: double, many samples, and closer to itself than any other
 render reference --crop 8x6+28+20 --reference
 expect_all reference.jsonl '.samples == 32 and .missing.largest <= 0.016 and .rays.primary >= 8 * 6 * 1024'
 render coarse --crop 8x6+28+20 --samples 2
@@ -77,7 +77,7 @@ coarse=$(jq .display.rmse compared.json)
 compare fine reference
 expect_all compared.json ".display.rmse < $coarse / 3"
 
-# ---- promises that cannot be kept are not: the bound is told, and the run ends
+# ---- an unreachable error bound is reported, and the run ends
 jq -n '{hedron: 1, camera: {field_of_view: 30, eye: [0.6, -6, 2.3]}, background: [0.8, 0.8, 0.8], output: {curve: "linear"},
     materials: {glass: {reflection: 0.5, transmission: 0.5}},
     solids: [range(20) | {kind: "cube", circumradius: (3 - 0.1 * .), material: "glass"}]}' >nested.json
@@ -94,7 +94,7 @@ wrong "max_error is 1e-300, expected 0, or a number from 0.001 to 255" --set ima
 wrong "--crop is '8x8+1+1x', expected WIDTHxHEIGHT+X+Y such as 64x64+320+200" --crop 8x8+1+1x
 wrong 'the picture has 64 x 48 pixels' --size 64x48 --crop 8x8+57+0 --frames 0
 
-# ---- solids that touch: the picture is that of a gap too small to be seen
+# ---- solids that touch: the picture is that of an invisibly small gap
 # expect_gap SOLIDS LIGHT: of a scene whose cubes lie $gap apart, or are smaller by it.
 expect_gap() {
     local gap precision

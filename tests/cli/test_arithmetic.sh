@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# OpenCL that computes wrongly, as Mesa's rusticl does, or since its compiler takes some text for other text: the probe
-# refuses it, what it found is remembered, and division that is wrong is made of fma with equal bytes.
+# OpenCL that computes wrongly, as Mesa's rusticl does, or because its compiler mistakes some text. The probe refuses it and
+# its finding is remembered; wrong division is replaced by fma with equal bytes.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -31,7 +31,7 @@ fi
 render=("$hedron" render "${small[@]}" --frames 0 --backend opencl --lanes 1 -o picture.data)
 "$hedron" render "${small[@]}" --frames 0 --backend c --quiet -o expected.data >"$logs/stdout"
 
-# expect_healed TEXT FOR: with this fault the picture is right, by fma.
+# expect_healed TEXT FOR: with this fault the picture is correct, by fma.
 expect_healed() {
     take "$build" "$1" "$2"
     expect_exit 0 "${driver[@]}" "${render[@]}" --verbose
@@ -39,7 +39,7 @@ expect_healed() {
     expect_same picture.data expected.data
 }
 
-# ---- division or roots that are one unit off in the last place are made of fma, and that is remembered
+# ---- division or roots that are one unit off in the last place are replaced by fma, and that is remembered
 for _ in cold warm; do
     expect_healed 'return a / b;' 'return nextafter(a / b, INFINITY);'
 done
@@ -49,7 +49,7 @@ expect_exit 0 "${no_nvidia[@]}" "${render[@]}" --verbose
 ! grep -q 'division by fma' "$logs/stderr" || fail 'a device that divides rightly divides by fma'
 rm -r "$work/cache" picture.data
 
-# ---- what nothing mends is refused, before kernels are compiled; then it is remembered
+# ---- faults without a remedy are refused before kernels are compiled; then that is remembered
 # expect_refused TEXT FOR WORDS
 expect_refused() {
     take "$build" "$1" "$2"

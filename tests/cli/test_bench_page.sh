@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The page of bench/study as a browser shows it, of the results of machines that lie in bench/results: its first screen,
-# and that nothing of it is cut off, or tiny at 400, 1280 and 1920 pixels, light and dark.
+# The page of bench/study as a browser shows it, of the results in bench/results: its first screen. Nothing may be cut off, or
+# tiny, at 400, 1280 and 1920 pixels, light and dark.
 set -euo pipefail
 # shellcheck source=bench_lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/bench_lib.sh"
@@ -57,7 +57,7 @@ if ((failures == 0)) && [[ $browser == none ]]; then
     skip "there is no Chromium (Debian's package chromium)"
 fi
 
-# ---- as it is shown: one start of the browser, in which frames are its screens
+# ---- the display: one start of the browser, in which frames are its screens
 cat >look.js <<'JAVASCRIPT'
 const wrong = [], heights = {400: 860, 1280: 720, 1920: 1080}
 let left = 6

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# A tiny run of every program that bench/study names, and what each refuses; their arithmetic on made-up numbers.
+# A tiny run of every program that bench/study names, and its refusals; their arithmetic on made-up numbers.
 set -euo pipefail
 # shellcheck source=bench_lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/bench_lib.sh"
@@ -8,7 +8,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/bench_lib.sh"
 mkdir arithmetic
 (cd arithmetic && python3 -B "$cli_folder/bench_arithmetic.py" "$project" "$hedron") || fail "figures do not follow from made-up numbers"
 
-# expect_run NAME OPTION...: of plain C, quickly; the result is NAME/NAME.json, beside which are tables for documents.
+# expect_run NAME OPTION...: on plain C, quickly; the result is NAME/NAME.json, beside tables for documents.
 expect_run() {
     local name=$1
     shift
@@ -26,14 +26,14 @@ if has_ffmpeg; then
     expect_value speed/speed.json '[r["film"]["preset"], sorted({len(run["frames"]) for job in r["measurements"] for run in job["runs"] if job["output"] == "film.mp4"})]' \
         '["superfast", [4, 16]]'
 fi
-# The scene of the classic example is the classic input, but for the texture and where frames go.
+# The scene of the classic example equals the classic input, except for the texture and the frames' folder.
 use_official_input
 expect_exit 0 "$hedron" convert "$work/official.in" -o official.json
 expect_same <(jq -S 'del(.floor.texture, .output, ."$schema", ."$comment")' official.json) \
     <(jq -S 'del(.floor.texture, .output, ."$schema", ."$comment")' "$project/scenes/official.json")
 expect_bench_refusal 3 'no GPU whose lanes are known' predict speed/speed.json
 
-# ---- accuracy: more samples are nearer to the reference, less depth is farther off; an equal picture is equally far
+# ---- accuracy: more samples are closer to the reference, less depth is farther off; an equal picture is equally far
 expect_run accuracy --device c --quick --size 16x12 --parts settings,arithmetic,choices
 expect_stdout_contains 'The same bytes from every device and pipeline'
 expect_value accuracy/accuracy.json '[rows["not_finite nowhere"]["verdict"], rows["arithmetic c:0"]["figure"] > 99]' '["aim", true]'
@@ -76,7 +76,7 @@ if has_opencl; then
     expect_stderr_contains 'frame 0 of 2 devices is another picture than before'
 fi
 
-# ---- what --max-error promises, of scenes with something bright in few of a pixel's samples; a program that states a third of it
+# ---- the bound of --max-error, on scenes with few bright samples in a pixel; a program that states a third of it
 expect_run promise --first 215 --scenes 12
 expect_value promise/promise.json '[sum(e["stated"] is not None for e in r["scenes"]), any(e["missed"] > 5 for e in r["scenes"])]' '[12, true]'
 cat >liar <<END

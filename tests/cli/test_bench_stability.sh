@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# bench/study stability: what ours may never do, which it does not, and what plain methods do, which shows that the bench can
-# see it; pictures and odd scenes.
+# bench/study stability: hedron never fails as it must not, and plain methods fail, which shows that the bench can detect it;
+# pictures and odd scenes.
 set -euo pipefail
 # shellcheck source=bench_lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/bench_lib.sh"
@@ -9,8 +9,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/bench_lib.sh"
 tool=$(dirname "$hedron")/bench/hedron_stability_methods
 [[ -x $tool ]] || skip "there is no $tool"
 
-# expect_counts EXPECTED STATEMENT...: `wrong(study, case, method, key, place)` is the share of what was tried that counts so,
-# over all places or those of which `place` is true.
+# expect_counts EXPECTED STATEMENT...: `wrong(study, case, method, key, place)` is the share of failures, over all places or
+# those for which `place` is true.
 expect_counts() {
     local expected=$1
     shift
@@ -27,13 +27,13 @@ expect_exit 0 "$bench" stability --hedron "$hedron" --out out --parts crossings,
 expect_stdout_contains 'tested by'
 expect_counts '["stability", true, [], true]' \
     'print(json.dumps([r["bench"], r["complete"], r["failures"], len(r["table"]) > 20]))'
-# Ours is never wrong but at the cracks of a mesh, which are there for every method; and of paths in places that are no target.
+# Hedron is never wrong except at the cracks of a mesh, which exist for every method; and for paths in places without a target.
 expect_counts 0.0 'print(sum(wrong("crossings", None, method, key, lambda e: e["case"] not in m.CRACKS) for method in ("ours_solids", "ours_triangles") for key in ("missed", "twice", "wrong", "misplaced"))
     + sum(wrong("paths", None, method, "lost") for method in ("ours_solids", "ours_triangles")) + wrong("paths", None, "ours_double", "strayed")
     + sum(wrong("shadows", None, "ours", key) for key in ("blocked", "opened", "nan")))'
 expect_counts True 'print(all(wrong("paths", None, method, "strayed", m.is_in_target) <= 0.01 for method in ("ours_solids", "ours_triangles")))'
-# What others lose: small triangles by a determinant below 1e-6, edges and corners, what is far away by world coordinates, paths
-# and shadows by an epsilon, lights on edges; and where they lose nothing.
+# Failures of others: small triangles by a determinant below 1e-6, edges and corners, distant things by world coordinates.
+# Paths and shadows fail by an epsilon, lights on edges; and there are cases without failures.
 expect_counts '[]' 'some = [("crossings", "t_junctions", "ours_triangles", "missed", None, 0.001),
     ("crossings", "interior", "moeller_trumbore_1e-6", "missed", lambda e: e["scale"] < 1e-3, 0.95),
     ("crossings", "corners", "watertight", "twice", m.is_at_origin, 0.02),
@@ -45,13 +45,13 @@ expect_counts '[]' 'some = [("crossings", "t_junctions", "ours_triangles", "miss
     'none = [("crossings", "interior", "moeller_trumbore_0", "missed", m.is_at_origin), ("crossings", "corners", "watertight_tie", "wrong", m.is_at_origin)]' \
     'print([(*each[:4], wrong(*each[:5])) for each in some if wrong(*each[:5]) <= each[5]] + [each[:4] for each in none if wrong(*each)])'
 expect_svg out/stability_paths.svg out/stability_crossings.svg
-# The table names tests that there are.
+# The table names existing tests.
 ctest --test-dir "$(dirname "$hedron")" -N >tests.txt
 expect_counts 'True []' 'from harness.stability import table as t' 'there = re.findall(r"Test +#\d+: (\S+)", open("tests.txt").read())' \
     'named = set(re.findall(r"\b(?:unit|cli|conformance|leak_hunt)_\w+", " ".join(each[-1] for each in (*t.PLACES.values(), *t.MORE.values()))))' \
     'print(len(named) > 5, sorted(named - set(there)))'
 
-# ---- pictures: wherever a scene is and however large, it looks the same; a pixel may be off in so small a picture
+# ---- pictures: a scene looks the same at any place and size; one pixel may be off in so small a picture
 mkdir scenes
 cp "$project/scenes/octahedron.json" scenes
 expect_exit 0 "$bench" stability --hedron "$hedron" --out out --parts precision,odd --quick --scenes scenes -- --size 16x12 --depth 3

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# bench/study and bench/frames on made-up statistics: their figures, what goes on after it was killed, the page, what they
-# refuses; bench/compare of two studies; and a tiny study of the program itself.
+# bench/study and bench/frames on made-up statistics: figures, continuation after a kill, the page, refusals; bench/compare of
+# two studies; and a tiny study of the program itself.
 set -euo pipefail
 # shellcheck source=bench_lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/bench_lib.sh"
 
 # A program with three devices of the CPU kind, of which one is unusable, and a GPU. A frame takes 10 ms of tracing on c, 20 on
-# opencl and 1 on cuda, and frames after the first one more than the one before; 100 lights add 5. It logs what it is asked
-# for, and in the run whose number the file `hold` has it waits after two frames until it is killed.
+# opencl and 1 on cuda; 100 lights add 5. Each frame after the first takes more than the one before. It logs its arguments. In
+# the run whose number the file `hold` has, it waits after two frames until it is killed.
 mkdir fake
 cat >fake/hedron <<'FAKE'
 #!/usr/bin/env bash
@@ -66,10 +66,10 @@ study=("$bench" --hedron fake/hedron --others 100 --results none --quick --machi
 
 # fake_study CODE MODE OPTIONS...
 fake_study() {
-    FAKE_MODE=$2 expect_exit "$1" timeout "$patience" "${study[@]}" "${@:3}"
+    FAKE_MODE=$2 expect_exit "$1" timeout "$time_limit" "${study[@]}" "${@:3}"
 }
 
-# hold_in RUN COMMAND...: it is at work, and its run with that number in the log waits. Sets `pid`, and `held`.
+# hold_in RUN COMMAND...: starts it and waits for its run with that number in the log. Sets `pid`, and `held`.
 hold_in() {
     rm -f "$FAKE_LOG" "$FAKE_HOLD.held"
     echo "$1" >"$FAKE_HOLD"
@@ -98,12 +98,12 @@ expect_value one/study.json '[ms("lights", "", 10, "c:0"), ms("lights", "", 100,
     '[184.0, 264.0, 344.0, 2.5, 5.0, 5.3]'
 expect_value one/study.json '[r["missing"]["samples"], {*"lights lanes official".split()}.isdisjoint(r["missing"]), r["pictures"]["same"], sorted({key[3] for key in m if key[0] == "lanes"}), read("one/study.csv").count("\n") - len(m)]' \
     '["it was not asked for", true, true, ["c:0", "opencl:0"], 1]'
-# Points take turns: a round of all, then the next.
+# Points are interleaved: a round of all, then the next.
 expect_same <(head -n $(($(wc -l <"$FAKE_LOG") / 2)) "$FAKE_LOG") <(tail -n $(($(wc -l <"$FAKE_LOG") / 2)) "$FAKE_LOG")
 expect_svg one/study_{official,lights,lanes}.svg
 expect_in one/report.html 'Made &amp; up' 'same bytes from every device' 'nothing was measured of' '<figure id="study_'{official,lights,lanes}'"'
 
-# ---- killed after some runs were saved, and continued: the run that was killed is done again, and no other
+# ---- killed after some runs were saved, and continued: the killed run is repeated, and no other
 mv "$FAKE_LOG" whole.log
 hold_at=$(($(wc -l <whole.log) / 2 + 6)) # in the second round
 hold_in $hold_at "${study[@]}" --out killed --parts $parts
@@ -118,12 +118,12 @@ fake_study 0 '' --out killed --parts $parts
 expect_same <(sed "${hold_at}p" whole.log) "$FAKE_LOG"
 expect_value killed/study.json '(lambda old: [old["date"] == r["date"], r["pictures"]["same"], all(one["runs"] == other["runs"][:len(one["runs"])] for one, other in zip(old["measurements"], r["measurements"]))])(json.loads(read("saved.json")))' \
     '[true, true, true]'
-# ---- what is there is not measured again
+# ---- saved results are not measured again
 rm "$FAKE_LOG"
 fake_study 0 '' --out one --parts lights
 [[ ! -e $FAKE_LOG ]] || fail "it measured again: $(<"$FAKE_LOG")"
 
-# ---- another program's figures are kept aside, not gone on from; --again measures anew
+# ---- another program's figures are kept aside, not continued; --again measures everything
 echo '# other bytes' >>fake/hedron
 cp killed/study.json before.json
 fake_study 0 '' --out killed --parts lights --device c
@@ -133,7 +133,7 @@ fake_study 0 '' --out killed --parts lights --device c --again
 expect_value killed/study.json '[r["parts"], [len(e["runs"]) for e in r["measurements"]], read(os.environ["FAKE_LOG"]).count("\n")]' \
     '[["lights"], [2, 2, 2, 2], 16]'
 
-# ---- Ctrl-C leaves what was measured, of bench/frames also a part of a run
+# ---- Ctrl-C keeps all measurements, of bench/frames also a part of a run
 frames=("$project/bench/frames" --hedron fake/hedron --out out)
 hold_in 3 "${frames[@]}" --repeats 2
 kill -INT "$pid"
@@ -166,7 +166,7 @@ expect_stdout_contains '0 slower, 0 faster, 23 within the noise.'
 expect_value one/study.json '[[run["frames"][1]["seconds"].update(trace=9) for e in r["measurements"] for run in e["runs"]], json.dump(r, open("slow.json", "w"))][1]' null
 expect_exit 1 "$project/bench/compare" one/study.json slow.json
 expect_stdout_contains ' slower, '
-# ---- results of other machines are on the page, with theirs; a copy of the own result is no other machine's
+# ---- the page includes results of other machines; a copy of the own result does not count as another's
 mkdir results
 sed 's/Made & up/Elsewhere/; s/"date": "[^"]*"/"date": "2020-02-02"/' one/study.json >results/elsewhere.json
 fake_study 0 '' --report --out one --results results
@@ -202,7 +202,7 @@ expect_python '5 True' 'table = open("table.md", encoding="utf-8").read()' \
 # ---- the program itself; a folder whose name would be a pattern
 mkdir '##%d'
 study[2]=$hedron
-TMPDIR="$PWD/##%d" expect_exit 0 "${no_nvidia[@]}" timeout "$patience" "${study[@]}" --out 'real/##%d' --device c --repeats 1 --parts threads
+TMPDIR="$PWD/##%d" expect_exit 0 "${no_nvidia[@]}" timeout "$time_limit" "${study[@]}" --out 'real/##%d' --device c --repeats 1 --parts threads
 expect_value 'real/##%d/study.json' '[r["failures"], all(e["summary"]["trace_ms"]["median"] > 0 for e in r["measurements"]), m["threads", "", 1, "c:0"]["renderer"].count(", 1 thread")]' \
     '[[], true, 1]'
 expect_python '[True, True, False, None]' 'import re' 'page = open("real/##%d/report.html", encoding="utf-8").read()' \

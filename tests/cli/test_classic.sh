@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The classic task's contract: input, keys, standard output, frame files; wrong input gives exit code 2, a sentence, no
-# file. Every kind of mistake is a matter of the unit tests (tests/unit/input/test_classic.c).
+# The classic task's contract: input, keys, standard output, frame files; wrong input gives exit code 2, a sentence, no file.
+# The unit tests cover every kind of mistake (tests/unit/input/test_classic.c).
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -55,7 +55,7 @@ expect_files last out out/img_2.data out/img_1023.data
 expect_same last/out/img_2.data cpu/out/img_2.data
 expect_same <(numbers | grep '^2') <(sed -n 3p cpu.numbers)
 
-# ---- no option at all: everything is in the input; frames that are there already are replaced
+# ---- no option at all: everything is in the input; existing frames are replaced
 classic bare "$work/bare.in"
 expect_stdout_lines 3 "$row"
 expect_data bare/out/img_2.data 32 24
@@ -108,11 +108,11 @@ output_case '~/frames/%d.png' "$HOME/frames/1.png"
 mkdir empty
 cd empty
 mapfile -t tokens < <(xargs -n 1 <"$work/bare.in")
-refuse() { # WHAT: standard input is refused with a sentence that has this
+refuse() { # WHAT: standard input is refused with a sentence that contains this
     expect_refusal 2 "$hedron" --cpu
     expect_stderr_contains "$1"
 }
-# wrong NUMBER TEXT... WHAT: so is the input with the token of that number (from 1), and those after it, replaced.
+# wrong NUMBER TEXT... WHAT: the input is refused after replacing the tokens from that number (from 1) on.
 wrong() {
     local changed=("${tokens[@]}") i=$(($1 - 1)) text
     for text in "${@:2:$#-2}"; do
@@ -126,7 +126,7 @@ refuse 'zero byte' < <(head -c 3000 /dev/zero)
 refuse 'standard input is longer than 1048576 bytes' < <(head -c 2000000 /dev/zero | tr '\0' '1')
 wrong 33 0.8 0.3 'reflection'
 wrong 59 5.0 5.0 -1.0 -5.0 5.0 -1.0 'floor' # its sides cross
-# Output paths: one number, and nothing that a format string could do; neither films nor folders.
+# Output paths: one number, and no other format directive; neither films nor folders.
 for pattern in out/img.data 'out/%n%d.data' 'out/%1000000d.data' 'out/%%d.data' 'out/%d.mp4'; do
     wrong 2 "$pattern" "$pattern"
 done

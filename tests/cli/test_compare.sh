@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# 'hedron compare': figures, exit codes, JSON, the heat map, and what cannot be compared.
+# 'hedron compare': figures, exit codes, JSON, the heat map, and pictures that cannot be compared.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 need_python
 
-# Writes pictures: png(NAME, ROWS...) and pfm(NAME, ROWS...), a row being a list of (r, g, b).
+# Writes pictures: png(NAME, ROWS...) and pfm(NAME, ROWS...); a row is a list of (r, g, b).
 cat >"$work/pictures.py" <<'PYTHON'
 import struct
 import zlib
@@ -36,7 +36,7 @@ pictures() {
 $1"
 }
 
-# ---- figures that are known, errors 0, 1, 3 and 9 in a channel each
+# ---- known figures, errors 0, 1, 3 and 9 in a channel each
 pictures '
 png("a.png", [(10, 20, 30), (0, 0, 0)], [(200, 0, 0), (5, 6, 7)])
 png("b.png", [(10, 20, 30), (0, 1, 0)], [(203, 0, 0), (5, 6, 16)])'
@@ -52,7 +52,7 @@ for line in 'first   a.png: PNG, 8 bits, 2 x 2 pixels' '  at x, y               
     expect_stdout_contains "$line"
 done
 
-# ---- the limit is on the largest display error, and what it is may stand
+# ---- the limit is on the largest display error, and equality passes
 expect_exit 1 "$hedron" compare a.png b.png --fail-above 8.9999999
 expect_sentence
 expect_stderr_contains 'the largest error is 9 of 255, at x 1, y 1 in blue'
@@ -89,7 +89,7 @@ fi
 expect_refusal 2 "$hedron" "${frame[@]}" --set output.bits=32 -o deep.png
 expect_stderr_contains 'deep.png cannot have 32 bits a channel: expected output.bits 8 or 16'
 
-# ---- curves: what the files say, or else --curve
+# ---- curves: as in the files, or else --curve
 expect_exit 0 "$hedron" compare --json bright.pfm plain.png --fail-above 0.51
 expect_output_json 'j["curve"] == "linear" and abs(j["display"]["largest"] - 0.5) < 1e-9'
 expect_refusal 2 "$hedron" compare plain.png half.png
@@ -121,7 +121,7 @@ expect_silent_stderr
 expect_exit 0 "$hedron" compare maps/heat.png expected.png --fail-above 0
 expect_files maps heat.png
 
-# No input is replaced, by whatever name, and nothing is left of a map that fails.
+# No input is replaced, under any name, and a map that fails leaves nothing.
 ln a.png link.png
 for name in link.png "$PWD/b.png"; do
     cp a.png "$work/a.png"
@@ -138,7 +138,7 @@ expect_refusal 2 "$hedron" compare one.png damaged.png --diff full/heat.png
 expect_stderr_contains 'damaged.png'
 [ ! -e full ] || fail "a folder was made for a map that failed"
 
-# ---- what cannot be compared
+# ---- pictures that cannot be compared
 expect_refusal 2 "$hedron" compare a.png half.png
 expect_stderr_contains 'a.png has 2 x 2 pixels, but half.png has 2 x 1; expected the same size'
 expect_refusal 2 "$hedron" compare a.png missing.png
@@ -154,7 +154,7 @@ for value in -1 256 nan; do
 done
 expect_refusal 2 "$hedron" compare a.png b.png --curve gamma
 
-# ---- figures that nobody gets
+# ---- figures that nobody reads
 for form in '' --json; do
     expect_exit 1 bash -c "'$hedron' compare a.png a.png $form >/dev/full"
     expect_sentence

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Completion in bash, called as bash calls it, and in zsh and fish where they are there.
+# Completion in bash, called as bash calls it, and in zsh and fish if they are installed.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -12,8 +12,8 @@ cp "$logs/stdout" "$work/completion"
 source "$work/completion"
 [[ $(complete -p hedron) == 'complete -F _hedron hedron' ]] || fail "bash completes hedron with '$(complete -p hedron)'"
 
-# expect_completions EXPECTED WORD...: what may follow; the last word is the one that is being typed.
-# Bash makes words of its own of equals signs.
+# expect_completions EXPECTED WORD...: completions of the last word, which is being typed. Bash makes words of its own of
+# equals signs.
 expect_completions() {
     local expected found
     COMP_WORDS=("$hedron" "${@:2}") COMP_CWORD=$(($# - 1))
@@ -59,10 +59,10 @@ COMP_WORDS=("$hedron" render w) COMP_CWORD=2
 _hedron
 [[ ${#COMPREPLY[@]} == 1 && ${COMPREPLY[0]} == 'with space.json' ]] || fail "a name with a space gives ${COMPREPLY[*]}"
 
-# ---- zsh, whose own functions tell what they are asked for, and fish
+# ---- zsh, whose own functions print their arguments, and fish
 "$hedron" help completion-zsh >"$work/completion.zsh"
 "$hedron" help completion-fish >"$work/completion.fish"
-expect_words() { # SHELL EXPECTED: what its completion offered, in $logs/offered
+expect_words() { # SHELL EXPECTED: its completions, in $logs/offered
     [[ $(sort "$logs/offered") == "$2" ]] || fail "$1 offers '$(<"$logs/offered")', expected '$2'"
 }
 if command -v zsh >"$logs/which"; then

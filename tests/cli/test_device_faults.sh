@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Devices, drivers and their compilers that fail or hang in the midst of a run (docs/reference/faults.md): what is
-# said, the exit code, and that nothing half-done stays. The drivers are an OpenCL library with a layer
-# that makes its calls fail or tells no times, and the CUDA driver of the tests.
+# Devices, drivers and their compilers that fail or hang during a run (docs/reference/faults.md): the message, the exit code,
+# and no incomplete file. The drivers are an OpenCL library with a layer that makes its calls fail or reports no times, and the
+# CUDA driver of the tests.
 # shellcheck disable=SC2317 # wait_for calls functions by their names
 set -euo pipefail
 # shellcheck source=lib.sh
@@ -13,10 +13,10 @@ lost='the device is lost to this program'
 film=()
 ! has_ffmpeg || film=(-o film.mkv)
 
-# expect_orderly_failure CODE WORDS COMMAND...: one sentence, and no file but whole frames, which are removed.
+# expect_orderly_failure CODE WORDS COMMAND...: one sentence, and no file except whole frames, which are removed.
 expect_orderly_failure() {
     local file
-    expect_exit "$1" timeout "$patience" "${@:3}"
+    expect_exit "$1" timeout "$time_limit" "${@:3}"
     expect_sentence
     expect_stderr_contains "$2"
     expect_stdout_lines 0
@@ -30,7 +30,7 @@ expect_orderly_failure() {
     rm -rf ./*
 }
 
-# expect_end_by SIGNAL COMMAND...: that hangs once there is `reached`, whatever it has under way.
+# expect_end_by SIGNAL COMMAND...: that hangs once `reached` exists, whatever is in flight.
 expect_end_by() {
     rm -f "$work/reached"
     start env HEDRON_STOP_PATIENCE=0.2 "${@:2}"
@@ -51,15 +51,15 @@ elif ! has_opencl; then
 else
     opencl=("${no_nvidia[@]}" LD_PRELOAD="$build/tests/failing/libfailing_opencl.so")
     render=("$hedron" render --quiet --backend opencl "${small[@]}" --frames 0-4 -o '%d.data')
-    # failing FUNCTION AT CODE [VARIABLE=VALUE...]: sets `fault`, an environment in which calls of it fail from that one on.
+    # failing FUNCTION AT CODE [VARIABLE=VALUE...]: sets `fault`, an environment in which its calls fail from that one on.
     failing() {
         fault=("${opencl[@]}" FAILING_OPENCL="$1" FAILING_OPENCL_AT="$2" FAILING_OPENCL_CODE="$3" "${@:4}")
     }
-    # Once without a fault: the kernels are kept, and the layer disturbs nothing.
+    # Once without a fault: the kernels are cached, and the layer disturbs nothing.
     expect_exit 0 "${opencl[@]}" "${render[@]}"
     rm ./*
 
-    # A driver whose words would command the terminal, and one that claims what it has not.
+    # A driver whose text contains terminal commands, and one that claims devices that it does not have.
     expect_exit 0 "${opencl[@]}" FAILING_OPENCL_NAME=$'A\e[2J\a card\x9b' "$hedron" devices
     expect_silent_stderr
     expect_stdout_contains 'A\u001b[2J\u0007 card\x9b'
@@ -76,7 +76,7 @@ else
         expect_orderly_failure 1 'has too little free of its' "${fault[@]}" "${render[@]}"
     done
 
-    # A device that is lost: at the first launches or in the midst of a run. After the upload clFinish only cleans up.
+    # A lost device: at the first launches or during a run. After the upload clFinish only cleans up.
     for function in clEnqueueNDRangeKernel clFlush clWaitForEvents clEnqueueReadBuffer clEnqueueWriteBuffer clFinish; do
         failing "$function" 1 -36
         expect_orderly_failure 3 "$lost" "${fault[@]}" "${render[@]}"
@@ -86,7 +86,7 @@ else
             expect_orderly_failure 3 "$lost" "${fault[@]}" "${render[@]}" "${film[@]}"
         fi
     done
-    failing clWaitForEvents 1 -5 # to wait needs no memory
+    failing clWaitForEvents 1 -5 # waiting needs no memory
     expect_orderly_failure 3 "$lost" "${fault[@]}" "${render[@]}"
     for function in clCreateContext clCreateCommandQueue; do
         failing $function 1 -2
@@ -101,14 +101,14 @@ else
         expect_orderly_failure 1 "$function failed with CL_INVALID_VALUE (-30)" "${fault[@]}" "${render[@]}"
     done
 
-    # A compiler that fails, and one that is not there.
+    # A compiler that fails, and one that is missing.
     for error in -11 -3 -6; do
         failing clBuildProgram 1 $error HEDRON_CACHE=off
         expect_exit 1 "${fault[@]}" "${render[@]}"
         expect_stderr_contains 'refused the kernels (clBuildProgram: CL_'
         expect_files .
     done
-    # Kernels that are kept, but that the compiler no longer turns into a program, are compiled anew.
+    # Cached kernels that the compiler no longer accepts are compiled again.
     failing clBuildProgram 1 -11 FAILING_OPENCL_TIMES=1
     expect_exit 0 "${fault[@]}" "$hedron" render --verbose --backend opencl "${small[@]}" --frames 0-4 -o '%d.data'
     expect_stderr_contains 'the driver refused the cached kernels'
@@ -118,15 +118,16 @@ else
     failing clGetPlatformIDs 1 -1001
     expect_orderly_failure 3 opencl "${fault[@]}" "${render[@]}"
 
-    # Where any device will do, the next one does it, and a sentence tells why.
+    # If any device will do, the next one renders, and a sentence says why.
     if ! has_other_gpu; then
         failing clFinish 1 -36
         expect_exit 0 "${fault[@]}" "$hedron" --gpu "${small[@]}" --frames 0 <<<"$("$hedron" --default)"
         expect_stderr_contains 'tracing with c on'
     fi
 
-    # A GPU that tells no times: launches grow and shrink by the host's clock. expect_launches NS LEAST MOST MOST_TOO_LONG
-    # [OPTION...]: so many launches, of work items that take so long, and so many of them above 50 ms.
+    # A GPU that reports no times: launches grow and shrink by the host's clock.
+    # expect_launches NS MIN MAX MAX_TOO_LONG [OPTION...]: so many launches, of work items that take so long, and so many of
+    # them above 50 ms.
     expect_launches() {
         local launches too_long
         rm -f "$work/report"
@@ -143,10 +144,10 @@ else
     expect_exit 0 "${render[@]}" --size 128x128 --samples 8 --backend c
     mkdir "$work/untimed"
     mv ./* "$work/untimed"
-    expect_launches 1 1 9999 0 # it has the kernels compiled and tested, with launches of its own
+    expect_launches 1 1 9999 0 # its kernels are compiled and tested, with launches of its own
     # A frame has 2^20 samples, a first launch 2^14 of them, and each frame two small launches more.
     expect_launches 1 12 40 0
-    # Above 50 ms: the first one, another that learns from it, and what makes the 8 bits of each frame.
+    # Above 50 ms: the first one, another that learns from it, and the one that makes the 8 bits of each frame.
     expect_launches 12500 1000 4500 7
     expect_launches 2500 12 80 999 --max-launch 4000
 
@@ -173,7 +174,7 @@ for fault in 'cuMemcpyHtoDAsync 46' 'cuLaunchKernel 214' 'cuEventSynchronize 702
         "${film[@]}"
     grep -q -F "${fault% *}" "$logs/stderr" || fail "the message does not name ${fault% *}"
 done
-# Memory: what was asked for, and what there is.
+# Memory: the requested and the available amount.
 expect_orderly_failure 1 'free of its 50.0 MB (cuMemAlloc: ' "${cuda[@]}" FAKE_CUDA_FAILS=cuMemAlloc FAKE_CUDA_MEMORY=50000000 \
     "${frames[@]}"
 # A driver that never returns.

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Several devices that render together: --device all, or a list. Which devices a list names, and who traces what is a
-# matter of the unit tests (choice, render).
+# Several devices that render together: --device all, or a list. The unit tests cover the meaning of a list and the division of
+# frames (choice, render).
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -12,7 +12,7 @@ films=()
 ! has_ffmpeg || films=(-o alone.mkv)
 expect_exit 0 "${frames[@]}" --device c:0 -o alone/%d.data "${films[@]}"
 
-expect_frames() { # those in the folder `together`, which goes, are the same as of one device
+expect_frames() { # the frames in the folder `together`, which is removed, equal those of one device
     expect_files together {0..11}.data
     for i in {0..11}; do
         expect_same "together/$i.data" "alone/$i.data"
@@ -20,7 +20,7 @@ expect_frames() { # those in the folder `together`, which goes, are the same as 
     rm -r together
 }
 
-# ---- what cannot be asked for
+# ---- invalid requests
 expect_refusal 2 "${frames[@]}" --device c:0,c:0 -o together/%d.data
 expect_stderr_contains "--device is 'c:0,c:0', "
 expect_refusal 2 "$hedron" tune "${small[@]}" --device all
@@ -46,7 +46,7 @@ if has_opencl; then
 fi
 rm -f alone.mkv
 
-# ---- all: whatever there is
+# ---- all: every device
 expect_exit 0 "${frames[@]}" --device all -o together/%d.data --verbose
 grep -q -E '^device +c 0, .*: one of all, by --device' "$logs/stderr" || fail 'plain C is not one of all'
 ! grep -q -E '^device +opencl .* CPU' "$logs/stderr" || fail 'the CPU is there twice'
@@ -63,13 +63,14 @@ expect_frames
 expect_refusal 3 "${no_compiler[@]}" "${frames[@]}" --device cuda:0,c:0 -o together/%d.data
 
 dropped='hedron: cuda:0 (Fake device 0) failed, so other devices trace its frames from here on: cuda: '
-# Kernels that compute wrongly, as the self-test finds; with a cache it would be remembered and left out from the start.
+# Kernels that compute wrongly, as the self-test finds; with a cache this would be remembered and the device left out from the
+# start.
 expect_exit 0 env HEDRON_CACHE=off FAKE_NVRTC_WRONG=1 "${frames[@]}" --device cuda:0,c:0 -o together/%d.data --quiet --stats stats.jsonl
 expect_sentence
 expect_stderr_contains "${dropped}Fake device 0 (sm_61, driver for CUDA 12.8) computes wrongly"
 expect_frames
 (($(grep -c '"backend":"c"' stats.jsonl) == 12)) || fail "not all frames are of plain C"
-# The device fails as it gets the scene.
+# The device fails while it gets the scene.
 expect_exit 0 env FAKE_CUDA_FAILS=cuMemcpyHtoDAsync "${frames[@]}" --math fast --device all -o together/%d.data --quiet
 expect_sentence
 expect_stderr_contains "${dropped}cuMemcpyHtoDAsync failed"

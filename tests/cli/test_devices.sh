@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The list of devices, the choice among them, and what is said where one is missing. Which device a name means is a
-# matter of the unit tests (choice/test_devices).
+# The list of devices, the choice among them, and the message if one is missing. The unit tests cover device names
+# (choice/test_devices).
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 use_official_input
 
-section() { # NAME: what the list says below this backend
+section() { # NAME: the list below this backend
     awk -v name="$1" '/^[^ ]/ {inside = ($0 == name)} inside && /^ /' "$logs/stdout"
 }
 
@@ -20,12 +20,12 @@ for command in "$hedron" "${nothing[*]} $hedron"; do
     if [[ $(grep '^[^ ]' "$logs/stdout" | tr '\n' ' ') != 'cuda opencl c ' || -z $(section cuda) || -z $(section opencl) ||
         $(section c) != *'  0  '* || $(section c) != *'strict arithmetic: yes'* ]] ||
         grep -q -x -E ' *not available:? *' "$logs/stdout"; then
-        fail "the list has not the three backends, plain C with strict arithmetic, and a reason where one is missing"
+        fail "the list lacks a backend, plain C's strict arithmetic, or the reason for a missing one"
     fi
     listed=$(grep -c '^  [0-9]' "$logs/stdout")
     missing=$(grep -c '^  not available: .' "$logs/stdout" || true)
     if ! command -v jq >"$logs/which"; then
-        echo "not tested: the list as JSON, for there is no jq"
+        echo "not tested: the list as JSON, because jq is missing"
         continue
     fi
     # shellcheck disable=SC2086
@@ -42,7 +42,7 @@ done
 # ---- a backend or a device that is missing
 render=("$hedron" render "${small[@]}" --frames 0 -o picture.data)
 classic=("$hedron" "${small[@]}" --frames 0)
-once() { # WORDS: the sentence says it, but not over and over
+once() { # WORDS: the sentence has them, but not repeatedly
     expect_stderr_contains "$1"
     (($(grep -o -F -e "$1" "$logs/stderr" | wc -l) <= 1)) || fail "the sentence says '$1' more than once"
 }
@@ -51,7 +51,7 @@ once 'no OpenCL platform'
 once 'opencl: '
 expect_refusal 3 "${nothing[@]}" "${classic[@]}" --backend cuda <"$work/official.in"
 once 'cuda: '
-expect_refusal 3 "${nothing[@]}" "${classic[@]}" --backend cuda --cpu <"$work/official.in" # it means it
+expect_refusal 3 "${nothing[@]}" "${classic[@]}" --backend cuda --cpu <"$work/official.in" # --cpu is binding
 expect_refusal 3 "${nothing[@]}" "${render[@]}" --device nonsense
 once 'no OpenCL platform'
 expect_files .
@@ -63,7 +63,7 @@ if section opencl | grep -q 'Portable Computing Language'; then
         --depth 0 --size 8192x4096 -o large.pfm
     once 'the pixels need 403 MB in one buffer; '
 else
-    echo "not tested: too little device memory, for there is no PoCL"
+    echo "not tested: too little device memory, because PoCL is missing"
 fi
 
 # ---- a device by the name in the list, in any case

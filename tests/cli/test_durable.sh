@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# What was told as stored outlives a power cut: files are synced, with all their bytes, before they get their names,
-# folders afterwards, watched call by call. That only then a frame is told is a matter of output/test_store_order.
+# Stored frames survive a power cut: files are synced, with all their bytes, before they get their names, folders afterwards,
+# checked call by call. output/test_store_order checks that a frame is reported only then.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -11,8 +11,8 @@ build=$(realpath "${2:?the build folder is the second argument}")
 watched=(env SYNC_LOG="$work/log" LD_PRELOAD="$build/tests/failing/libfailing_system.so")
 frames=(render --quiet --backend c "${small[@]}")
 
-# unsynced: what the log lacks, one complaint a line: a name given to a file that was not synced with as many bytes, or
-# whose folder was not synced afterwards. Names are as on the command line, all below this folder.
+# unsynced: errors of the log, one a line: a name given to a file that was not synced with as many bytes, or whose folder was
+# not synced afterwards. Names are as on the command line, all below this folder.
 unsynced() {
     awk -v here="$(pwd -P)/" '
         $1 == "sync" { synced[$2] = $3 }
@@ -29,7 +29,7 @@ expect_synced() { # KIND PATH
     grep -q "^$1 $(realpath "$2") [0-9]*$" "$work/log" || fail "$2 was not synced"
 }
 
-# expect_durable COMMAND...: it ends well, gave names, and all of them as they should be.
+# expect_durable COMMAND...: it succeeds, gives names, and each of them correctly.
 expect_durable() {
     local faults
     rm -f "$work/log"
@@ -48,7 +48,7 @@ expect_synced sync told/stats.jsonl
 if has_ffmpeg; then
     expect_durable "$hedron" "${frames[@]}" --frames 0-3 -o film.mkv
 fi
-# Frames that were finished before: their names may be younger than the last sync.
+# Frames of an earlier run: their names may be younger than the last sync.
 rm "$work/log"
 expect_exit 0 "${watched[@]}" "$hedron" "${frames[@]}" --frames 0-19 -o new/deep/%d.png
 expect_synced folder new/deep
@@ -61,7 +61,7 @@ rm "$work/log"
 expect_exit 0 "${watched[@]}" "$hedron" "${frames[@]}" --frames 0-3 -o fleeting/%d.png --stats fleeting.jsonl --no-sync
 ! grep -v '^rename ' "$work/log" || fail "--no-sync syncs"
 
-# ---- a disk that fails: the frames before stay, later ones are gone, nothing is half-done
+# ---- a disk that fails: earlier frames stay, later ones are gone, nothing is incomplete
 for when in 1 7 30; do
     rm -rf failing
     expect_exit 1 env SYNC_FAIL=$when LD_PRELOAD="$build/tests/failing/libfailing_system.so" \
@@ -69,7 +69,7 @@ for when in 1 7 30; do
     expect_sentence
     expect_stderr_contains 'to the disk: Input/output error'
     ! find failing -name '*.tmp-*' | grep . || fail 'temporary files are left'
-    (($(find failing -name '*.png' | wc -l) >= $(wc -l <failing.jsonl))) || fail 'more frames were told than there are'
+    (($(find failing -name '*.png' | wc -l) >= $(wc -l <failing.jsonl))) || fail 'more frames were reported than stored'
 done
 
 finish

@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The CUDA backend's dealings with its driver, which runs kernels without a device: that wrong ones are an error,
-# which are kept, how launches are cut, what happens where a call fails, and that pictures and films are those of
-# plain C. That frames under way together are right is a matter of the conformance suite.
+# The CUDA backend against its driver, which runs kernels without a device: errors of wrong ones, caching, cutting of launches,
+# failing calls. Pictures and films equal those of plain C. The conformance suite checks frames in flight together.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -11,7 +10,7 @@ use_fake_cuda "${2:?the build folder is the second argument}"
 command -v jq >"$logs/which" || skip "there is no jq"
 render=("$hedron" render "${small[@]}" --frames 0 -o picture.data --backend cuda)
 
-expect_build() { # REGEX: what is said of the kernels
+expect_build() { # REGEX: the report about the kernels
     (($(grep -c -x -E -e "build +$1" "$logs/stderr") == 1)) || fail "standard error has no line that is $1"
 }
 
@@ -26,22 +25,22 @@ expect_files .
 ! compgen -G "$work/cache/cuda-*" >"$logs/which" || fail "wrong kernels are kept"
 rm -r "$work/cache"
 
-# ---- kernels that need no test are kept; then NVRTC is not loaded
+# ---- kernels that need no test are cached; then NVRTC is not loaded
 fast=("${render[@]}" --math fast --verbose)
 expect_exit 0 "${fast[@]}"
 expect_build 'compiled in [0-9]+ ms by NVRTC 12\.[0-9]+; not tested, since the arithmetic is fast; cached'
 expect_exit 0 env LD_DEBUG=files LD_DEBUG_OUTPUT="$work/loaded" "${fast[@]}"
 expect_build "taken from $work/cache, made by NVRTC 12\.[0-9]+"
-grep -q 'libcuda' "$work"/loaded.* || fail 'nothing tells which libraries were loaded'
+grep -q 'libcuda' "$work"/loaded.* || fail 'no log names the loaded libraries'
 ! grep -q 'libnvrtc' "$work"/loaded.* || fail 'NVRTC was loaded for kernels that are kept'
-# Another NVRTC by name, and a driver that refuses what is kept.
+# Another NVRTC by name, and a driver that refuses the cached kernels.
 cp "$nvrtc" "$work/libnvrtc.so.12"
 expect_exit 0 env HEDRON_NVRTC="$work/libnvrtc.so.12" "${fast[@]}"
 expect_build 'compiled in .*; cached'
 expect_exit 0 env FAKE_CUDA_REFUSES=1 "${fast[@]}"
 expect_build 'the driver refused the cached kernels; .*; compiled in .*; cached'
 
-# ---- the classic keys mean it: --gpu takes the card, --cpu refuses it
+# ---- the classic keys are binding: --gpu takes the card, --cpu refuses it
 "$hedron" --default >"$work/default.in"
 expect_exit 0 "$hedron" --gpu "${small[@]}" --frames 0 --math fast --verbose <"$work/default.in"
 expect_stderr_contains 'device    cuda 0, '
@@ -49,13 +48,13 @@ expect_refusal 3 "$hedron" --cpu --backend cuda "${small[@]}" --frames 0 <"$work
 expect_stderr_contains 'it is not a CPU'
 rm -r out
 
-# ---- launches: as long as the frame where that is short; cut where it is long; the bytes are the same
-# A scene with little to trace: what counts is how many threads there are.
+# ---- launches: as long as the frame if that is short; cut if it is long; the bytes are the same
+# A scene with little to trace: the number of threads decides.
 echo '{"hedron": 1, "camera": {"frames": 40, "eye": {"r0": 9, "z0": 2, "phi_frequency": 1}},
        "materials": {"red": {"colour": [1, 0, 0], "diffuse": 1}},
        "solids": [{"kind": "cube", "circumradius": 1, "material": "red"}], "lights": [{"position": [3, -4, 8]}]}' >"$work/cube.json"
 large=("$hedron" render "$work/cube.json" --size 128x128 --samples 4 --depth 2 --frames 0-3 --backend cuda --math fast --quiet)
-# expect_launches FILTER COMMAND...: what holds of the last two frames, before which something is known.
+# expect_launches FILTER COMMAND...: true of the last two frames, when speeds are known.
 expect_launches() {
     expect_exit 0 "${@:2}" --again -o launches/%d.data --stats stats.jsonl
     jq -e -s ".[-2:] | all(.[]; $1)" stats.jsonl >"$logs/jq" ||
@@ -70,7 +69,7 @@ expect_launches '.longest_launch_ms > 20 and .longest_launch_ms < 50 and .second
 for i in 0 1 2 3; do
     expect_same "launches/$i.data" "whole/$i.data"
 done
-# As long as is asked for; by default short where a display may be there, though the driver ends nothing.
+# As long as requested; short by default if a display may be attached, though the driver ends nothing.
 expect_launches '.longest_launch_ms > 8 and .longest_launch_ms < 20' "${threads[@]}" "${large[@]}" --max-launch 20
 threads+=(FAKE_CUDA_TIMEOUT=0)
 expect_launches '.longest_launch_ms > 20 and .longest_launch_ms < 50' "${threads[@]}" DISPLAY=:0 "${large[@]}"
@@ -82,14 +81,14 @@ expect_exit 0 env FAKE_CUDA_FAILS=cuMemHostAlloc FAKE_CUDA_FAILS_AT=9 "${passes[
 expect_exit 0 env FAKE_CUDA_FAILS=cuMemAlloc FAKE_CUDA_FAILS_AT=50 "${passes[@]}"
 rm -r passes
 
-# ---- a device that refuses memory: the wavefront gets along with less, and says so; what is told needs no kernel to run
+# ---- a device that refuses memory: the wavefront works with less, and says so; the report needs no kernel to run
 waves=(env FAKE_CUDA_SKIPS=1 FAKE_CUDA_MEMORY=9000000000 FAKE_CUDA_LARGEST=30000000 "$hedron" render "$work/cube.json"
     --size 512x512 --samples 4 --frames 0 --backend cuda --math fast --pipeline wavefront -o wave.data)
 expect_exit 0 "${waves[@]}" --verbose
 expect_stderr_contains 'the queue cut to 33.6 MB, since more memory was refused'
 rm wave.data
 
-# ---- whatever fails, nothing is left behind
+# ---- no failure leaves anything behind
 for function in cuMemAlloc cuMemHostAlloc cuMemcpyHtoDAsync cuMemcpyDtoHAsync cuStreamWaitEvent cuEventSynchronize; do
     expect_refusal 1 env FAKE_CUDA_FAILS=$function "$hedron" render "${small[@]}" --frames 0-6 --backend cuda --math fast --quiet \
         -o failed/%d.data
@@ -109,7 +108,7 @@ expect_exit 0 env FAKE_CUDA_MEMORY=1100 "${mesh[@]}"
 expect_silent_stderr
 rm mesh.data
 
-# ---- the same pictures as by plain C, of 8 bits and a film, which the device encodes, and of radiance, which it does not
+# ---- the same pictures as plain C's, of 8 bits and a film, which the device encodes, and of radiance, which it does not
 film=()
 ! has_ffmpeg || film=(-o film.mkv)
 expect_as_c() { # OPTION...
@@ -133,20 +132,20 @@ expect_as_c() { # OPTION...
 }
 expect_as_c --size 32x24 --samples 2
 expect_as_c --size 32x24 --aa adaptive --set output.curve=linear
-# More objects than the device's constant memory has room for.
+# More objects than fit into the device's constant memory.
 jq '.solids = [range(17) | {kind: "tetrahedron", centre: [. % 6 - 2.5, . / 6 - 1, 0], circumradius: 0.6, material: "glass"}]' \
     "$project/bench/scenes/few.json" >"$work/many.json"
 expect_as_c "$work/many.json" --size 32x24 --samples 1 --frames 0
 
-# ---- among several devices the fastest on the scene; that is remembered, for scenes of its kind
-export FAKE_CUDA_SKIPS=1 # it could not be the fastest that renders here
+# ---- the fastest of several devices on the scene; that is remembered, for similar scenes
+export FAKE_CUDA_SKIPS=1 # the device that renders here could not be the fastest
 for when in '' ', measured earlier'; do
     expect_exit 0 "$hedron" render --size 1920x1080 --samples 9 --threads 1 --frames 0 --math fast --verbose -o picture.data
     grep -q -x -E "device +cuda 0, .*: the fastest of 2 on this kind of scene$when, [0-9.e-]+ ms against [0-9.e+-]+ ms \(c 0\); not used: opencl: .*" \
-        "$logs/stderr" || fail "it is not told that the fastest was taken$when"
+        "$logs/stderr" || fail "standard error does not say that the fastest was chosen$when"
 done
 
-# ---- 'hedron tune': every limit of registers is compiled, and the best is used from then on
+# ---- 'hedron tune': compiles every register limit, and uses the best from then on
 tune=("$hedron" tune --backend cuda "${small[@]}" --pipeline mega)
 expect_exit 0 "${tune[@]}" --math fast
 (($(grep -c -x -E 'mega(, (at most [0-9]+ (registers|groups)|groups of [0-9]+))? +1\.000 +1\.000' "$logs/stdout") == 10)) ||

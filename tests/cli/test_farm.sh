@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The scripts of the farm without a cluster: what hedron-submit refuses and submits, what a task does
-# after each exit code, what hedron-report makes of it. Slurm's commands note how they were called.
+# The farm's scripts without a cluster: what hedron-submit refuses and submits, a task's actions after each exit code, and
+# hedron-report. Slurm's commands log their arguments.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -95,7 +95,7 @@ expect_refused 'expected a larger chunk' "${options[@]}" -o "$pattern" --frames 
 echo 'MaxArraySize            = 1001' >"$calls.config"
 expect_exit 3 env HEDRON="$work/nothing" "$submit" "${options[@]}" -o "$pattern" --frames 0-3
 
-# ---- what is submitted; no name is read by a shell, nor by Slurm
+# ---- submissions; no name is read by a shell, nor by Slurm
 export HEDRON=$work/renderer
 odd="\$(touch bad) '\"; %x \\n"
 mkdir "$odd"
@@ -110,7 +110,7 @@ expect_call "sbatch${common}[--array=0-2][$task][$folder]"
 expect_call "sbatch${common}[--dependency=afterok:1][--kill-on-invalid-dep=yes][$task][$folder][film]"
 expect_same "$folder/jobs" <(printf '1\n2\n')
 
-# expect_task NUMBER CODE [NODE]: the task on a node whose renderer ends with the code, with which it ends too.
+# expect_task NUMBER CODE [NODE]: the task on a node whose renderer ends with the code ends with the same code.
 expect_task() {
     : >"$calls"
     echo "$2" >"$calls.code"
@@ -154,7 +154,7 @@ expect_no_call requeue
 grep -q 'the device is missing on every node of the partition gpu' "$folder/task-1.log" || fail "the log is $(<"$folder/task-1.log")"
 rm "$calls.queue"
 
-# ---- the report: frames, states, and none of a finished task's
+# ---- the report: frames, states, and no state of a finished task
 expect_exit 1 "$report" "$odd"
 expect_stdout_contains 'frames   0 of 14 there, missing 7-20'
 expect_stdout_contains 'task 1   frames 12-16: 0 of 5, failed on node2 after'
@@ -191,7 +191,7 @@ rm "$calls.refuses"
 expect_exit 2 "$report" nothing
 [[ ! -e bad ]] || fail "a name was run by a shell"
 
-# ---- told to stop: a cancelled task is left, one near its time limit goes on where it has stored frames
+# ---- interrupted: a cancelled task stays, one near its time limit continues if it has stored frames
 expect_exit 0 "$submit" "a scene.json" -o "$pattern" --frames 0-3 --retries 0
 folder=$PWD/out/hedron-farm/1
 cat >"$work/renderer" <<'SCRIPT'
@@ -203,7 +203,7 @@ echo $$ >"$FAKE_CALLS.pid"
 while :; do wait; done
 SCRIPT
 
-# stop_task SIGNAL [FRAME]: a task that gets the signal once its renderer is at work, after storing a frame.
+# stop_task SIGNAL [FRAME]: a task that gets the signal while its renderer works, after storing a frame.
 stop_task() {
     : >"$calls"
     rm -f "$calls.pid" "$folder"/task-0.*
@@ -216,7 +216,7 @@ stop_task() {
     expect_end 143
 }
 
-# expect_record STATE: of the task that was told to stop.
+# expect_record STATE: of the interrupted task.
 expect_record() {
     grep -q "^end node1 [0-9]* $1 143\$" "$folder/task-0.txt" || fail "the record is $(<"$folder/task-0.txt")"
 }

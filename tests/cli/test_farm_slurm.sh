@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# A sequence on a real Slurm of two nodes. Renderers are held after their first frame, so that what kills
-# them always meets them at work.
+# A sequence on a real Slurm of two nodes. Renderers are held after their first frame, so that kills always hit them at work.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -10,17 +9,17 @@ source "$cli_folder/slurm_cluster.sh"
 
 need_slurm
 command -v ffmpeg >"$logs/which" || skip "there is no ffmpeg"
-patience=600 # seconds, for a busy machine
+time_limit=600 # seconds, for a busy machine
 submit=$project/farm/slurm/hedron-submit
 report=$project/farm/slurm/hedron-report
 
-# ---- a renderer that does what the files in a folder say
+# ---- a renderer controlled by files in a folder
 gate=$work/gate
 mkdir "$gate"
 cat >"$work/the renderer" <<SCRIPT
 #!/usr/bin/env bash
-# hold-A-B: the frames A-B are held once, when the first of them is there, by a pipe for statistics that has no reader.
-# move-A-B: has no device on the node that comes first.
+# hold-A-B: the frames A-B are held once, after the first of them, by a pipe for statistics without a reader. move-A-B: has no
+# device on the node that comes first.
 set -euo pipefail
 gate=$gate
 frames=\$(printf '%s\n' "\$@" | sed -n '/^--frames\$/{n;p;q}')
@@ -46,7 +45,7 @@ frame_path() {
 
 # wait_for_held A B: hedron has stored frame A, and is held before frame B or earlier. Sets `held`.
 wait_for_held() {
-    if ! wait_until "$patience" test -s "$(frame_path "$1")" -a -s "$gate/pid-$1-$2"; then
+    if ! wait_until "$time_limit" test -s "$(frame_path "$1")" -a -s "$gate/pid-$1-$2"; then
         fail "the frames $1-$2 are not held"
         tail -n 30 "the out"/hedron-farm/*/*.log "$cluster/log/slurmctld" >&2 || true
         exit 1
@@ -59,7 +58,7 @@ parent_of() {
 }
 
 wait_for_empty_queue() {
-    if ! wait_until "$patience" queue_is_empty; then
+    if ! wait_until "$time_limit" queue_is_empty; then
         fail "Slurm still has jobs"
         squeue >&2 || true
         tail -n 30 "$cluster"/log/* >&2 || true
@@ -67,7 +66,7 @@ wait_for_empty_queue() {
     fi
 }
 
-# expect_report CODE LINE_PATTERN...: what the report of the pictures' folder says.
+# expect_report CODE LINE_PATTERN...: the report of the pictures' folder.
 expect_report() {
     local expected=$1 pattern
     shift
@@ -99,7 +98,7 @@ kill -KILL "$held"
 wait_for_held 6 8
 echo "killing task 2, process $(parent_of "$held")"
 kill -KILL "$(parent_of "$held")"
-wait_until "$patience" is_gone "$held" || fail "the renderer outlives its task"
+wait_until "$time_limit" is_gone "$held" || fail "the renderer outlives its task"
 wait_for_held 9 11
 echo "cancelling task 3"
 expect_exit 0 scancel "${job}_3"
@@ -114,7 +113,7 @@ expect_report 1 'frames   11 of 15 there, missing 7-8,10-11' \
 [[ ! -e "the film.mp4" ]] || fail "there is a film of a sequence that is not whole"
 expect_same <(sed -n 's/^start \([^ ]*\) .*/\1/p' "$run_folder/task-4.txt" | sort) <(printf 'node%s\n' 1 2)
 
-# ---- once more: what is missing, and nothing else while that is at work
+# ---- once more: the missing frames, and nothing else while that job is active
 rm "$gate"/*
 touch "$gate/hold-9-11"
 expect_exit 0 "${farm[@]}"

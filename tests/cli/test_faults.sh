@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# What goes wrong around a run (docs/reference/faults.md): folders that go away, an FFmpeg that hangs, memory and
-# threads that there are not, a signal while everything hangs. A clear sentence, the right exit code, and
-# nothing half-done; or less than was wanted, and a sentence that tells it.
+# Failures around a run (docs/reference/faults.md): folders that go away, an FFmpeg that hangs, missing memory and threads, a
+# signal while everything hangs. The result is a clear sentence, the right exit code, and no incomplete file; or a reduced run
+# and a sentence that says so.
 # shellcheck disable=SC2317 # wait_for calls functions by their names
 set -euo pipefail
 # shellcheck source=lib.sh
@@ -12,7 +12,7 @@ build=$(realpath "${2:?the build folder is the second argument}")
 failing=$build/tests/failing/libfailing_system.so # is preloaded
 render=("$hedron" render --quiet --backend c "${small[@]}")
 
-# An orphan may lie dead for long, until its new parent looks after it.
+# A dead orphan may stay for long, until its new parent reaps it.
 is_dead() {
     is_gone "$1" || [[ $(ps -o stat= -p "$1") == Z* ]]
 }
@@ -22,10 +22,10 @@ expect_nothing_temporary() {
     ! find . -name '*.tmp-*' | grep . >"$logs/which" || fail "$1 there stays $(<"$logs/which")"
 }
 
-# ---- an output folder that goes away in the midst of a run: its name, and what is elsewhere stays
-# The statistics are a pipe that nobody reads at first, so that the run cannot come to its end.
+# ---- an output folder that goes away during a run: its name is reported, and files elsewhere stay
+# The statistics are a pipe that nobody reads at first, so that the run cannot end.
 mkfifo "$work/pipe"
-# remove_folder FILE ARGUMENTS...: takes the folder `gone` away once there is a file of that pattern.
+# remove_folder FILE ARGUMENTS...: removes the folder `gone` once a file of that pattern exists.
 remove_folder() {
     local reader
     exec 9<>"$work/pipe"
@@ -53,18 +53,18 @@ if has_ffmpeg; then
     remove_folder 'gone/film.mkv.*tmp-*' -o gone/film.mkv
 fi
 expect_files .
-# A folder of each frame's own is made when its turn comes.
+# A frame's own folder is made just before the frame is written.
 expect_exit 0 "${render[@]}" --frames 0-40 -o 'frames/%d/picture.data'
 expect_data frames/40/picture.data 32 24
 rm -r frames
 
-# ---- an FFmpeg, or an ffprobe, that stands still
+# ---- an FFmpeg, or an ffprobe, that hangs
 note_leader="echo \$\$ >'$work/leader.new'; mv '$work/leader.new' '$work/leader'"
 # expect_stuck PROGRAM BODY: a fake of that name is ended; pictures and an older film stay.
 expect_stuck() {
     printf 'old' >film.mkv
     fake "$1" "$note_leader; $2"
-    expect_exit 1 timeout "$patience" "${with_tools[@]}" HEDRON_FFMPEG_PATIENCE=1 "${render[@]}" --frames 0-2 \
+    expect_exit 1 timeout "$time_limit" "${with_tools[@]}" HEDRON_FFMPEG_PATIENCE=1 "${render[@]}" --frames 0-2 \
         -o film.mkv -o '%d.data'
     rm "$work/tools/$1"
     expect_sentence
@@ -81,7 +81,7 @@ if has_ffmpeg; then
     expect_stderr_contains 'last words'
     expect_stuck ffprobe 'exec sleep 1000'
     expect_refusal 2 env HEDRON_FFMPEG_PATIENCE=1.5 "${render[@]}" --frames 0 -o film.mkv
-    # Nor does it outlive the program: what it wrote late would stay for ever.
+    # Nor does it outlive the program: a file that it wrote late would stay for ever.
     fake ffmpeg "$note_leader; exec sleep 1000"
     start "${with_tools[@]}" "${render[@]}" --frames 0-2 -o film.mkv
     wait_for 'FFmpeg to be started' test -e "$work/leader"
@@ -90,7 +90,7 @@ if has_ffmpeg; then
     wait "$pid" || true
     rm -f ./* "$work/leader"
 else
-    echo "not tested: films, for there is no FFmpeg"
+    echo "not tested: films, because FFmpeg is missing"
 fi
 expect_refusal 2 env HEDRON_STOP_PATIENCE=0 "${render[@]}" --frames 0 -o x.png
 
@@ -100,7 +100,7 @@ if is_sanitized; then
 fi
 
 # ---- a system that cannot end FFmpeg with the program: the next run waits until it is gone
-# It writes to its file once that is gone, as a true one may that was about to open it, or once it may go on.
+# It writes its file after that, as a real one about to open it may, or when allowed to.
 if has_ffmpeg; then
     fake ffmpeg "for last; do :; done; file=\${last#file:}; $note_leader
         while [[ -e \$file && ! -e '$work/may_go_on' ]]; do sleep 0.02; done; echo late >\"\$file\""
@@ -109,7 +109,7 @@ if has_ffmpeg; then
     kill -KILL "$pid"
     wait "$pid" || true
     ! is_dead "$(<"$work/leader")" || fail 'FFmpeg died with the program all the same'
-    ! flock -n film.mkv.tmp-* true || fail 'nobody has the file locked'
+    ! flock -n film.mkv.tmp-* true || fail "no process holds the file's lock"
     rm "$work/tools/ffmpeg"
     start "${render[@]}" --frames 0-2 -o film.mkv
     touch "$work/may_go_on"
@@ -119,8 +119,8 @@ if has_ffmpeg; then
     rm film.mkv
 fi
 
-# ---- a signal while a file server does not answer, which holds the main thread or another one
-# start_hanging PATIENCE FILE ARGUMENTS...: until it hangs because of that file.
+# ---- a signal while a file server does not answer, which blocks the main thread or another one
+# start_hanging TIMEOUT FILE ARGUMENTS...: until it hangs because of that file.
 start_hanging() {
     rm -f "$work/reached"
     start env HEDRON_STOP_PATIENCE="$1" STUCK_MARK="$work/reached" LD_PRELOAD="$failing" STUCK_OPEN="$2" \
@@ -128,17 +128,17 @@ start_hanging() {
     wait_for 'it to hang' test -e "$work/reached"
 }
 cp "$project/scenes/default.json" "$work/scene.json"
-# The first file of that name only asks whether it can be written.
+# The first file of that name only tests whether it can be written.
 for case in 'INT /scene.json' 'TERM 1.data.tmp-' 'HUP 1.data.tmp-'; do
     start_hanging 0.2 "${case#* }" "$work/scene.json" --frames 0-1 -o '%d.data'
     send "${case% *}" "$pid"
     expect_end $((128 + $(kill -l "${case% *}")))
     expect_sentence
     expect_stderr_contains 'interrupted; the running work did not end in time'
-    rm -f 0.data # a frame that was finished before
+    rm -f 0.data # a frame of an earlier run
     expect_files .
 done
-# Later signals end it at once, however much patience there is.
+# Later signals end it at once, whatever the timeout.
 ends_by_another() {
     kill -INT "$pid" 2>/dev/null || true
     sleep 0.6
@@ -153,7 +153,7 @@ expect_files .
 
 # ---- threads that the system refuses
 refused_from() {
-    run timeout "$patience" env FAILING_THREADS_AFTER="$1" LD_PRELOAD="$failing" "${@:2}"
+    run timeout "$time_limit" env FAILING_THREADS_AFTER="$1" LD_PRELOAD="$failing" "${@:2}"
 }
 few=("$hedron" render --backend c "${small[@]}" --frames 0-2 -o '%d.data' --threads 4)
 "${few[@]}" --quiet >"$logs/which"
@@ -178,7 +178,7 @@ refused_from 2 "${few[@]}"
 expect_stderr_contains '1 of 4 do it'
 expect_stderr_contains '--threads leaves more'
 rm -f ./*.data "$work/whole"/*
-# Finished frames beside a missing one, which nobody can store: it ends.
+# Finished frames and a missing one, which nobody can store: it ends.
 most_finished=("${render[@]}" --frames 0-19 -o 'finished/%d.png' --threads 1)
 "${most_finished[@]}" >"$logs/which"
 for after in {0..5}; do
@@ -188,7 +188,7 @@ for after in {0..5}; do
 done
 rm -r finished
 
-# ---- memory that is at its end, at any of the allocations of a run, once or from then on for good
+# ---- memory that runs out, at any of the allocations of a run, once or from then on
 lean=("${render[@]}" --threads 1 --frames 0-1 --no-sync --stats stats.jsonl -o '%d.png' -o '%d.pfm')
 memory=(env HEDRON_CACHE=off LD_PRELOAD="$failing")
 expect_exit 0 "${memory[@]}" FAILING_MEMORY_COUNT="$work/count" "${lean[@]}"
@@ -197,16 +197,16 @@ count=$(<"$work/count")
 rm stats.jsonl
 mv ./* "$work/whole"
 failed=0
-# fail_at NUMBER TIMES: so many allocations fail; pictures are whole, or a sentence tells what was missed.
+# fail_at NUMBER TIMES: so many allocations fail; pictures are whole, or a sentence names the failure.
 fail_at() {
     run "${memory[@]}" FAILING_MEMORY_AT="$1" FAILING_MEMORY_TIMES="$2" "${lean[@]}"
     if ((code == 0)); then
         rm stats.jsonl
-        diff -r . "$work/whole" >"$logs/which" || fail "where allocation $1 fails pictures differ: $(<"$logs/which")"
+        diff -r . "$work/whole" >"$logs/which" || fail "pictures differ after allocation $1 failed: $(<"$logs/which")"
     else
-        ((code == 1)) || fail "exit code $code where allocation $1 of $count fails, expected 0 or 1"
-        # A thread needs some, and the system does not say what it lacked.
-        grep -q -i -E 'memory|cannot start .*thread' "$logs/stderr" || fail "where allocation $1 fails, nothing says so"
+        ((code == 1)) || fail "exit code $code after allocation $1 of $count failed, expected 0 or 1"
+        # A thread needs memory, and the system does not say what it lacked.
+        grep -q -i -E 'memory|cannot start .*thread' "$logs/stderr" || fail "no message says that allocation $1 failed"
     fi
     expect_nothing_temporary "where allocation $1 of $count fails,"
     rm -f ./*
@@ -217,7 +217,7 @@ for ((at = 1; at <= count; at += step)); do
     ((code == 0)) || expect_sentence
     failed=$((failed + code))
     step=1
-    # Those that read the scene, and those for a line of statistics, are each like the other.
+    # Those that read the scene are alike, and so are those for a line of statistics.
     case $(<"$logs/stderr") in
     *'room for the scene') step=13 ;;
     *'line of statistics') step=4 ;;
@@ -226,11 +226,11 @@ done
 ((failed >= 60)) || fail "only $failed allocations were missed"
 for ((at = 60; at <= count; at += 97)); do
     fail_at "$at" 1000000
-    ((code == 1 || at > count - 97)) || fail "nothing is missed where all allocations from $at of $count on fail"
+    ((code == 1 || at > count - 97)) || fail "the run succeeds although all allocations from $at of $count on fail"
 done
 expect_files .
 
-# ---- few descriptors: fewer frames are under way; small stacks: threads have their own size
+# ---- few descriptors: fewer frames are in flight; small stacks: threads have their own size
 # with_limit LIMIT COMMAND...
 with_limit() {
     # shellcheck disable=SC2086 # an option of ulimit and its value
@@ -247,7 +247,7 @@ rm -f ./*.png
 for limit in '-s 1024' '-S -s 256'; do
     expect_exit 0 with_limit "$limit" "${render[@]}" --depth 1000 --frames 0 -o picture.data
 done
-# The first thread's is checked where it cannot be raised.
+# The first thread's stack is checked if it cannot be raised.
 if ((EUID != 0)) || ! (ulimit -H -s 256 && ulimit -H -s 512) 2>"$logs/which"; then
     expect_exit 1 with_limit '-s 256' "${render[@]}" --depth 1000 --frames 0 -o picture.data
     expect_stderr_contains 'the stack may have 256 KiB (ulimit -s), expected at least 1024 KiB'

@@ -5,7 +5,7 @@ set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
-# expect_help OPTIONS WORD...: the help that hedron gives for these words has these options and no others.
+# expect_help OPTIONS WORD...: hedron's help for these words has these options and no others.
 expect_help() {
     local expected found
     expect_exit 0 "$hedron" "${@:2}" </dev/null
@@ -92,18 +92,18 @@ expect_exit 0 "$hedron" render --version
 expect_stdout_lines 1 'hedron [0-9]+\.[0-9]+\.[0-9]+'
 expect_silent_stderr
 
-# Without arguments at a terminal it is the help, too.
+# Without arguments at a terminal it prints the help, too.
 if script -q -e -c true /dev/null </dev/null >"$logs/script" 2>&1; then
     expect_exit 0 script -q -e -c "$hedron" /dev/null
     expect_stdout_contains 'Usage'
 else
-    echo "not tested: a terminal, for there is no program 'script'"
+    echo "not tested: a terminal, because the program 'script' is missing"
 fi
 
 # ---- the man page
 expect_exit 0 "$hedron" help man
 cp "$logs/stdout" "$work/hedron.1"
-# formatted COMMAND...: the page as text; the formatter has nothing to complain about.
+# formatted COMMAND...: the page as text; the formatter has no complaint.
 formatted() {
     expect_exit 0 "$@" "$work/hedron.1"
     expect_silent_stderr

@@ -25,7 +25,7 @@ expect_same "$prefix/share/bash-completion/completions/hedron" <("$hedron" help 
 expect_same "$prefix/share/zsh/site-functions/_hedron" <("$hedron" help completion-zsh)
 expect_same "$prefix/share/fish/vendor_completions.d/hedron.fish" <("$hedron" help completion-fish)
 
-# ---- documents, whose links lead to what is there, and scenes, which need nothing else
+# ---- documents, whose links lead to existing files, and scenes, which need nothing else
 documents=$prefix/share/doc/hedron
 while IFS= read -r found; do
     document=${found%%:*} link=${found#*](}
@@ -38,7 +38,7 @@ expect_exit 0 "$installed" check "$documents"/scenes/*.json
 expect_stdout_contains 'five.json: fine'
 expect_exit 0 "${installed%/*}/hedron_model" sphere 12
 
-# ---- the Debian packages have the same files, and name what they need
+# ---- the Debian packages have the same files, and name their dependencies
 if command -v cpack >"$logs/which" && command -v dpkg-shlibdeps >"$logs/which"; then
     expect_exit 0 cpack --config "$build/CPackConfig.cmake" -B "$work/package"
     package=("$work"/package/hedron_*.deb)
@@ -58,10 +58,10 @@ if command -v cpack >"$logs/which" && command -v dpkg-shlibdeps >"$logs/which"; 
         grep -q "$needed" "$logs/fields" || fail "the package does not name $needed: $(cat "$logs/fields")"
     done
 else
-    echo "not tested: the package, for there is no cpack or no dpkg-shlibdeps"
+    echo "not tested: the package, because cpack or dpkg-shlibdeps is missing"
 fi
 
-# expect_picture OPTION...: of the installed program, in the root folder, with nothing in its environment but what `bare` has.
+# expect_picture OPTION...: of the installed program, in the root folder, with only the environment in `bare`.
 expect_picture() {
     cd /
     expect_exit 0 env -i "${bare[@]}" "$installed" render --quiet "${small[@]}" --frames 3 -o "$work/here/picture.data" "$@"

@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# SIGINT and SIGTERM: what is finished stays whole, nothing half-done stays, the exit code is 128 + signal.
+# SIGINT and SIGTERM: finished files stay whole, no incomplete ones stay, the exit code is 128 + signal.
 # shellcheck disable=SC2317 # wait_for calls functions by their names
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
-# Frames that take a minute together, so that a signal comes in their midst.
+# Frames that take a minute together, so that a signal comes in between.
 slow=(--quiet --size 240x180 --samples 2 --depth 4 --threads 1 --frames 0-239)
 use_official_input
 
-# Signals come when something shows that it is time for them, never after a fixed while.
-# Nothing before the program has taken the place of the shell that started it.
+# Signals come when something shows that it is time for them, never after a fixed delay. Nothing before: the program must have
+# replaced the shell that started it.
 sleeps_for_signals() {
     local mask
     [[ $(ps -o s=,comm= -p "$pid") == S*hedron ]] || return 1
@@ -20,8 +20,8 @@ sleeps_for_signals() {
     [[ -n $mask ]] && (((16#$mask >> ($(kill -l INT) - 1)) & 1))
 }
 
-# It has nothing but its input or a pipe to wait for then. On its way there it may sleep for a moment: it waits
-# where it still sleeps the same sleep at a second look.
+# It then waits only for its input or a pipe. Before, it may sleep for a moment: it waits if a second look finds the same
+# sleep.
 waits() {
     local switches before
     sleeps_for_signals || return 1
@@ -46,7 +46,7 @@ expect_first_frames() {
     ((frames >= 3 && frames < 240)) || fail "$frames frames were written, expected the first few of 240"
 }
 
-# ---- sequences: the classic mode has a line for each frame that is there
+# ---- sequences: the classic mode has a line for each stored frame
 sed '2s|.*|out/%d.data|' "$work/official.in" >"$work/sequence.in"
 start "$hedron" --cpu "${slow[@]}" <"$work/sequence.in"
 wait_for 'the third frame' test -e out/2.data
@@ -58,7 +58,7 @@ expect_stderr_contains "after $frames of 240"
 expect_stdout_lines "$frames" $'[0-9]+\t[0-9.]+\t[0-9]+'
 rm -r out
 
-# ---- nohup: what whoever started it ignores, it ignores too
+# ---- nohup: signals that its parent ignores, it ignores too
 start bash -c 'trap "" HUP; exec "$@"' - "$hedron" render --backend c "${slow[@]}" --frames 0-3 -o 'out/%d.data'
 wait_for 'the first frame' test -e out/0.data
 send HUP "$pid"
@@ -68,7 +68,7 @@ expect_files out {0..3}.data
 rm -r out
 
 # ---- films
-# start_film MARK ARGUMENTS...: with the fakes, until there is MARK.
+# start_film MARK ARGUMENTS...: with the fakes, until MARK exists.
 start_film() {
     rm -f "$work/reached"
     start "${with_tools[@]}" "$hedron" render --quiet --backend c "${@:2}"
@@ -84,7 +84,7 @@ expect_end_without_files() {
 }
 
 if has_ffmpeg; then
-    # As soon as there is a folder for the film, and when FFmpeg has several frames; twice at once, as 'timeout' does it.
+    # As soon as the film has a folder, and when FFmpeg has several frames; twice at once, as 'timeout' does it.
     fake ffmpeg "{ head -c 500000; : >'$work/reached'; exec cat; } | '$(command -v ffmpeg)' \"\$@\""
     for case in "INT $work/here/new" "TERM $work/reached"; do
         start_film "${case#* }" "${slow[@]}" -o new/film.mp4
@@ -108,7 +108,7 @@ if has_ffmpeg; then
         fail "the statistics have not one line for each of $frames frames"
     rm -r out
 
-    # An FFmpeg that neither speaks nor ends must not stop us from ending.
+    # An FFmpeg that neither writes nor ends must not keep hedron from ending.
     fake ffmpeg "echo \$\$ >'$work/leader'; cat >/dev/null; exec >&- 2>&-; : >'$work/reached'; exec sleep 3600"
     start_film "$work/reached" --size 400x300 --samples 1 --depth 0 --frames 0-3 -o film.mp4
     send TERM "$pid"
@@ -116,13 +116,13 @@ if has_ffmpeg; then
     wait_for 'FFmpeg to be gone' is_gone "$(<"$work/leader")"
     rm "$work/tools/ffmpeg"
 
-    # While ffprobe counts, it is an interrupt as well.
+    # While ffprobe counts, the interrupt works as well.
     fake ffprobe ": >'$work/reached'; exec sleep 3600"
     start_film "$work/reached" "${small[@]}" --frames 0 -o film.mkv
     send INT "$pid"
     expect_end_without_files INT
 else
-    echo "not tested: films, for there is no FFmpeg"
+    echo "not tested: films, because FFmpeg is missing"
 fi
 
 # ---- before the first frame: while it waits for its input, or for a reader of the statistics
@@ -139,7 +139,7 @@ send INT "$pid"
 expect_end 130
 expect_sentence
 
-# ---- while it waits for a reader of the statistics that does not read on
+# ---- while it waits for a reader of the statistics that stopped reading
 stands_still() {
     local files
     files=$(find out -type f | wc -l)
@@ -159,7 +159,7 @@ exec 9>&-
 [[ -z $(find out -name '*.tmp-*') ]] || fail 'temporary files were left'
 rm -r out
 
-# ---- in the midst of a frame of many minutes
+# ---- during a frame of many minutes
 start "$hedron" render --quiet --backend c --size 1600x1200 --samples 16 --depth 12 --frames 0 -o picture.data
 wait_for 'it to compute' has_computed 1
 send INT "$pid"

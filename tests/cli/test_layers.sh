@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Alpha and the layers of OpenEXR: which channels there are, what is in them, the same bytes from every backend.
+# Alpha and the layers of OpenEXR: the channels, their values, and the same bytes from every backend.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -81,7 +81,7 @@ if [[ ! -s plain.exr ]]; then
     skip "this build has no OpenEXR"
 fi
 
-# ---- which channels: colour and coverage as the bits say, all else in float
+# ---- channels: colour and coverage in the requested bits, all others in float
 expect_exr plain.exr '{n: t for n, (t, _) in c.items()} == {"A": "h", "B": "h", "G": "h", "R": "h"}'
 all=depth,normal,object,samples
 expect_exit 0 "${render[@]}" --backend c --layers "$all" -o all.exr
@@ -90,13 +90,13 @@ expect_exr all.exr '{n for n, (t, _) in c.items() if t == "f"} == {"Z", "normal.
 expect_exit 0 "${render[@]}" --backend c --layers object --set output.bits=32 -o some.exr
 expect_exr some.exr '{n: t for n, (t, _) in c.items()} == dict.fromkeys(("A", "B", "G", "R", "object"), "f")'
 
-# ---- what is in them
+# ---- values
 expect_exr all.exr 'set(what("object")) == {0, 1, 2, 3} and set(what("samples")) == {9}'
-# The floor lies 3.5 below the eye and looks up; its farthest corner is 2 * sqrt(18) + sqrt(2) away by the ground.
+# The floor lies 3.5 below the eye and faces up; its farthest corner is 2 * sqrt(18) + sqrt(2) away along the ground.
 expect_exr all.exr 'all((z == math.inf) == (o == 0) and z > 2 and abs(math.hypot(*n) - (o > 0)) < 1e-6
     and (o != 3 or 3.5 < z < math.hypot(3.5, math.hypot(6, 6)) and abs(n[2] - 1) < 1e-6)
     for z, o, *n in zip(*map(what, ("Z", "object", "normal.X", "normal.Y", "normal.Z"))))'
-# Coverage comes in ninths. Where it is none, the colour is the background's, and only there and in part in between.
+# Coverage comes in ninths. At 0 the colour is the background's, and only there and in part in between.
 expect_exr all.exr 'len(set(what("A"))) == 10 and all(abs(a * 9 - round(a * 9)) < 0.01 and
     (o == 0 and rgb == [0.125, 0.25, 0.5] if a == 0 else a < 1 or o > 0) for a, o, *rgb in zip(*map(what, ("A", "object", *"RGB"))))'
 # With triangles the same things have the same numbers.
@@ -108,7 +108,7 @@ expect_output_json '0 < {c["name"]: c["largest"] for c in j["channels"]}["Z"] < 
 expect_exit 0 "${render[@]}" --backend c --layers "$all" --crop 20x11+26+17 -o part.exr
 expect_exr part.exr 'all(c[name][1] == [row[26:46] for row in read("all.exr")[name][1][17:28]] for name in c)'
 
-# ---- adaptive sampling: what pixels took, and what was left out of them, are what the statistics say
+# ---- adaptive sampling: samples and truncation of pixels agree with the statistics
 adaptive=("${render[@]}" --aa adaptive --max-error 1.5 --samples 4 --layers "$all,bound")
 expect_exit 0 "${adaptive[@]}" --backend c -o adaptive.exr --stats lines.jsonl
 expect_exr adaptive.exr '(lambda line, bound: sum(what("samples")) == line["rays"]["primary"] and set(what("samples")) == {1, 16}
@@ -134,7 +134,7 @@ if [[ -e $build/tests/fake_cuda/libnvrtc.so.12 ]]; then
     done
     expect_exit 0 "${fake[@]}" "${adaptive[@]}" --backend cuda -o other.exr
     expect_same adaptive.exr other.exr
-    # Frames under way are kept apart.
+    # Frames in flight keep their own layers.
     still=("${render[@]}" --set camera.frames=3 --set 'camera.eye={"r0": 5, "z0": 2, "phi_frequency": 1}' --layers "$all")
     expect_exit 0 "${still[@]}" --backend c -o c/%d.exr
     expect_exit 0 "${fake[@]}" "${still[@]}" --backend cuda -o cuda/%d.exr
@@ -142,7 +142,7 @@ if [[ -e $build/tests/fake_cuda/libnvrtc.so.12 ]]; then
     rm -r c cuda
 fi
 
-# ---- compare tells the channel that differs most
+# ---- compare names the channel that differs most
 expect_exit 0 "${render[@]}" --backend c --layers "$all" --set 'solids[1].centre=[1.5, 1.5, 0.65]' -o moved.exr
 expect_exit 0 "$hedron" compare --json all.exr moved.exr
 expect_output_json 'j["most_different"] == "Z" and not j["identical"]'
@@ -153,7 +153,7 @@ python3 -c 'import sys; sys.stdout.buffer.write(open("all.exr", "rb").read().rep
 expect_exit 0 "$hedron" compare all.exr odd.exr
 expect_stdout_contains 'obje\u001bt'
 
-# ---- what cannot be
+# ---- refused combinations
 expect_refusal 2 "${render[@]}" --layers depth -o a.png
 expect_stderr_contains '--layers is for OpenEXR: expected an output that ends in .exr'
 expect_refusal 2 "${render[@]}" --layers depth,colour -o a.exr

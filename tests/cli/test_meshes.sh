@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Meshes of scene files: what is told of them, their files, materials and textures. What they look like is a matter of the
-# conformance suite and of tests/reference.
+# Meshes of scene files: the reports on them, their files, materials and textures. The conformance suite and tests/reference
+# check their pixels.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -39,14 +39,14 @@ render() { # FILE SCENE OPTION...
     expect_data "$1" 32 24
 }
 
-# ---- what is there
+# ---- the report on a mesh
 expect_exit 0 "$hedron" check cubes.json
 expect_silent_stderr
 expect_stdout_lines 1 'cubes\.json: fine, 0 solids, 2 meshes of 24 triangles in 3 places, 1 light, 1 frame'
 expect_exit 0 "$hedron" render --verbose --backend c cubes.json -o all.data
 expect_stderr_contains 'meshes    2 with 24 triangles, and 2 without an area left out; in 3 places, 1 texture'
 
-# ---- entries that share a mesh are as those with copies; files count from the folder of the scene, wherever one stands
+# ---- entries that share a mesh equal those with copies; files count from the scene's folder, not the current one
 cp models/cube.obj models/copy.obj
 render other.data cubes.json --set meshes[1].file=models/copy.obj
 expect_same other.data all.data
@@ -57,7 +57,7 @@ expect_same other.data all.data
 render other.data cubes.json --set meshes[2].crease=10
 expect_different other.data all.data
 
-# ---- without the texture the colour stays, and it is told
+# ---- without the texture the colour stays, with a message
 rm models/picture.png
 expect_exit 0 "$hedron" render --backend c cubes.json -o plain.data
 expect_stderr_contains 'hedron: cannot read the texture models/picture.png'
@@ -66,7 +66,7 @@ expect_exit 0 "$hedron" check cubes.json
 expect_stdout_lines 2
 expect_stdout_contains 'cubes.json: note: cannot read the texture models/picture.png'
 
-# ---- what is wrong
+# ---- errors
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n' >models/wrong.obj
 for words in 'no.obj: cannot read the mesh no.obj: No such file' 'models/wrong.obj: models/wrong.obj: line 4: '; do
     expect_refusal 2 "$hedron" render --backend c cubes.json -o wrong.data --set "meshes[1].file=${words%%:*}"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Models made by hedron_model, and the scene that ships with one of them.
+# Models made by hedron_model, and the supplied scene with one of them.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -8,7 +8,7 @@ model=$(realpath "$2")/hedron_model
 
 # One sentence of the program's own, nothing on standard output: expect_model_refusal CODE WHAT ARGUMENT...
 expect_model_refusal() {
-    expect_exit "$1" timeout "$patience" "$model" "${@:3}"
+    expect_exit "$1" timeout "$time_limit" "$model" "${@:3}"
     expect_stdout_lines 0
     expect_stderr_contains "$2"
     if (($(grep -c -E '^hedron_model: .{10,}$' "$logs/stderr") != 1 || $(wc -l <"$logs/stderr") != 1)); then
@@ -36,7 +36,7 @@ measure() {
         }'
 }
 
-# expect_model KIND WANTED VERTICES TRIANGLES: what is said and what is there, and hedron takes all of it.
+# expect_model KIND WANTED VERTICES TRIANGLES: the message and the file agree, and hedron reads all of it.
 expect_model() {
     local file=$1.obj found
     expect_exit 0 "$model" "$1" "$2" -o "$file"
@@ -88,7 +88,7 @@ expect_model_refusal 2 '"100" is too much' knot 100 100
 expect_model_refusal 2 'after -o' knot 100 -o a.obj -o b.obj
 expect_model_refusal 2 'is not a regular file' knot 100 -o .
 
-# ---- what cannot be written is told, and leaves what was there
+# ---- a failed write is reported, and leaves the old file
 if [[ -c /dev/full ]]; then
     expect_exit 1 bash -c "'$model' knot 12 >/dev/full"
     expect_stderr_contains 'hedron_model: cannot write to standard output: No space left'
@@ -98,20 +98,20 @@ expect_exit 1 bash -c "ulimit -f 100; '$model' knot 20000 -o old.obj"
 expect_stderr_contains 'hedron_model: cannot write old.obj: File too large'
 expect_same old.obj <(echo old)
 start "$model" soup 10000000 -o late.obj
-wait_until "$patience" compgen -G 'late.obj.tmp-*' >/dev/null || fail "there is no temporary file"
+wait_until "$time_limit" compgen -G 'late.obj.tmp-*' >/dev/null || fail "there is no temporary file"
 kill -INT "$pid"
 expect_end 130
 expect_stderr_contains 'hedron_model: interrupted'
 expect_files . any.data any.json old.obj
 
-# ---- the scene that ships has the model that the program makes, and is fine as it stands
+# ---- the supplied scene has the model that the program makes, and passes the check
 expect_exit 0 "$model" knot 8000 -o knot.obj
 expect_same knot.obj "$project/scenes/knot.obj"
 expect_exit 0 "$hedron" check "$project/scenes/knot.json"
 expect_silent_stderr
 expect_stdout_lines 1 '.*/knot\.json: fine, 1 solid, 1 mesh of 8000 triangles in 1 place, .*'
 
-# ---- of clear air, nothing of the model is seen; all its images together take a depth beyond 60
+# ---- a model of clear air is invisible; all its images together need a depth beyond 60
 render_far() {
     expect_exit 0 "$hedron" render --quiet --backend c "$project/scenes/knot.json" --frames 20 --size 160x90 \
         --samples 1 --depth 600 "$@"

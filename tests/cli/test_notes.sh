@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# What is told on standard error: progress, --verbose, --quiet.
+# Messages on standard error: progress, --verbose, --quiet.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -15,14 +15,14 @@ expect_note() { # REGEX: one line of standard error matches as a whole
     (($(grep -c -x -E -e "$1" "$logs/stderr") == 1)) || fail "standard error has no line, or more than one, that is $1"
 }
 
-# ---- progress: plain lines where there is no terminal; the last one tells the whole time
+# ---- progress: plain lines without a terminal; the last one has the total time
 expect_exit 0 "${render[@]}" --frames 0-2 -o '%d.data'
 expect_note "3/3 frames, $rate, $time $all"
 ! grep -v -q -x -E "[0-9]+/3 frames, $rate, $time (left|$all)" "$logs/stderr" ||
     fail "standard error has other lines than those of progress"
 rm ./*.data
 
-# ---- progress on a terminal: a bar, which goes away
+# ---- progress on a terminal: a bar that disappears
 if script -q -e -c true /dev/null </dev/null >"$logs/script" 2>&1; then
     expect_exit 0 script -q -e -c "$hedron render --backend c ${small[*]} --frames 0-2 -o %d.data" /dev/null
     tr '\r' '\n' <"$logs/stdout" | grep -q -E "^\[#{16}\.{8}\] 2/3 frames, $rate, $time left" ||
@@ -30,7 +30,7 @@ if script -q -e -c true /dev/null </dev/null >"$logs/script" 2>&1; then
     [[ $(<"$logs/stdout") == *$'\r\033[K%d.data\r' ]] || fail "the bar stays"
     rm ./*.data
 else
-    echo "not tested: a terminal, for there is no program 'script'"
+    echo "not tested: a terminal, because the program 'script' is missing"
 fi
 
 # ---- --quiet
@@ -43,11 +43,11 @@ expect_stdout_lines 1
 expect_silent_stderr
 rm -r out
 
-# ---- a film of 16 bits has 8, which is told; pictures alone have them
+# ---- a film of 16 bits has 8, with a message; pictures alone have them
 expect_exit 0 "${render[@]}" --frames 0 --set output.bits=16 -o film.mkv -o deep.png
 expect_note 'hedron: films have 8 bits a channel, though output.bits is 16'
 expect_exit 0 "${render[@]}" --frames 0 --set output.bits=16 -o deep.png
-! grep -q 'films have' "$logs/stderr" || fail "there is no film, and yet standard error tells of its bits"
+! grep -q 'films have' "$logs/stderr" || fail "there is no film, but standard error mentions its bits"
 rm film.mkv deep.png
 
 # ---- --frame-lines: a line for each frame, in their order, and no other progress
@@ -57,7 +57,7 @@ expect_exit 0 "${render[@]}" --frame-lines --frames 1-2,7 -o '%d.data'
 ! grep -q 'frames/s' "$logs/stderr" || fail "there is progress of two forms"
 rm ./*.data
 
-# ---- --verbose: scene, outputs, device and the reason, what renders, what it was built for
+# ---- --verbose: scene, outputs, device and the reason, renderer and build
 expect_exit 0 "${render[@]}" --verbose --frames 0-2 -o '%d.data' -o '%d.png'
 expect_stdout_lines 2
 expect_note 'scene +the built-in scene: [0-9]+ solids, a floor, [0-9]+ lights, [0-9]+ frames of 32 x 24 pixels, .*'
@@ -89,7 +89,7 @@ if has_opencl; then
     rm a.data
 fi
 
-# ---- on a terminal, where some frames are there, and all of them
+# ---- on a terminal, if some frames exist, and all of them
 on_terminal=(env TERM=xterm python3 -c
     'import os, pty, sys; sys.exit(os.waitstatus_to_exitcode(pty.spawn(sys.argv[1:])))')
 if python3 -c 'import sys; sys.exit(sys.version_info < (3, 10))' 2>"$logs/which"; then

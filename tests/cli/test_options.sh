@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# What the commands make of options: exit code 2, one sentence and no file where they are wrong, also where only
-# scene, device or other options tell so. What each option takes by itself is in tests/unit/cli/test_options.c.
+# Handling of options by the commands: if they are wrong, exit code 2, one sentence and no file, even if only the scene, the
+# device or other options show it. tests/unit/cli/test_options.c covers each option by itself.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -61,7 +61,7 @@ wrong 'frame' --set camera.frames=12 -o none_%d.data --frames 0-12
 wrong 'the scene has one frame, 0' --set camera.frames=1 --frames 3 -o none.data
 wrong --set --set ''
 
-# ---- outputs: several at once; one file is one output, whatever the spelling
+# ---- outputs: several at once; one file is one output, however it is spelled
 expect_exit 0 "${render[@]}" --quiet --frames 0 --output other.data -o picture.data
 expect_stdout_lines 2
 expect_same other.data picture.data
@@ -70,7 +70,7 @@ for names in 'same.gif ./same.gif' 'same.mkv ./no/../same.mkv' '##.data ./%02d.d
     # shellcheck disable=SC2086 # two names
     wrong 'are the same file' --frames 0-1 -o ${names/ / -o }
 done
-# A percent sign, and the name that the only frame of a pattern has.
+# A percent sign, and the name of the only frame of a pattern.
 expect_exit 0 "${render[@]}" --quiet --frames 3 -o 'a%%.data' -o 'b%03d.data'
 expect_same "$logs/stdout" <(printf '%s\n' 'a%.data' b003.data)
 rm 'a%.data' b003.data
@@ -80,7 +80,7 @@ done
 wrong picture.png --frames 0-2 -o picture.png # one name for several frames
 wrong '###.mkv' --frames 0-2 -o '###.mkv'     # a film has no number
 
-# ---- each command refuses what is not its own
+# ---- each command refuses others' options
 for command in render devices tune; do
     expect_refusal 2 "$hedron" "$command" --gpu
     expect_stderr_contains '--gpu'
@@ -100,7 +100,7 @@ expect_exit 0 "$hedron" -V
 expect_stdout_lines 1 'hedron [0-9.]+'
 expect_refusal 2 "$hedron" </dev/null # neither a terminal nor an input
 
-# ---- none of the wrong ones left anything behind
+# ---- no refused command left a file
 rm -r picture.data out
 expect_files .
 finish

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Output that cannot be written: a full or closed standard output, folders that cannot be made, full disks, an FFmpeg
-# that is missing or fails. What was finished before stays; no temporary file does.
+# Output that cannot be written: a full or closed standard output, folders that cannot be made, full disks, an FFmpeg that is
+# missing or fails. Finished files stay; no temporary file does.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -11,13 +11,13 @@ sed -e '1s/.*/9/' -e '3s/.*/32 24 120/' -e '$s/.*/1 1/' "$work/official.in" >"$w
 render=("$hedron" render --backend c "${small[@]}")
 
 # ---- standard output
-# expect_failure CODE...: the command that just ran ended with one of these and a sentence.
+# expect_failure CODE...: the last command ended with one of these and a sentence.
 expect_failure() {
     [[ " $* " == *" $code "* ]] || fail "exit code $code, expected $*"
     expect_sentence
 }
 
-# to_full COMMAND...: exit code 1 and a sentence where standard output takes nothing, or is closed.
+# to_full COMMAND...: exit code 1 and a sentence if standard output accepts nothing, or is closed.
 to_full() {
     local full
     : >"$logs/stdout"
@@ -29,7 +29,7 @@ to_full() {
     done
 }
 to_full "$hedron" --cpu
-# The frame was there before its line; those after it may be as well.
+# The frame exists before its line; those after it may as well.
 expect_data out/img_0.data 32 24
 rm -r out
 for arguments in --default --help --version 'devices --json' 'help man' 'help completion' convert; do
@@ -69,11 +69,11 @@ expect_files . folder folder.png folder.mp4
 rmdir folder*
 expect_refusal 2 "${render[@]}" --frames 0 -o "$(printf '%05000d' 0).png"
 
-# ---- what cannot be written is found before a frame of many minutes, and nothing of it stays
+# ---- an unwritable output is found before a frame of many minutes, and leaves nothing
 long=$(printf '%0252d' 0)
 : >blocked
 for name in "$long.png" "$long%d.pfm" blocked/picture.png; do
-    run timeout "$patience" "$hedron" render --quiet --backend c --size 1600x1200 --samples 16 --depth 12 --frames 0 -o "$name"
+    run timeout "$time_limit" "$hedron" render --quiet --backend c --size 1600x1200 --samples 16 --depth 12 --frames 0 -o "$name"
     expect_failure 1 2
 done
 rm blocked
@@ -110,7 +110,7 @@ limited 1 "${render[@]}" --quiet --size 8x8 --frames 0-9 -o '%d.data' --stats st
 expect_stderr_contains 'statistics to stats.jsonl'
 rm -rf ./*
 
-# ---- a full disk, where this user may mount one
+# ---- a full disk, if this user may mount one
 full_disk() {
     # shellcheck disable=SC2016 # for the inner shell
     unshare --mount --map-root-user bash -c '
@@ -156,25 +156,25 @@ else
 fi
 rmdir disk
 
-# ---- no FFmpeg: films cannot be made, and pictures need none. Its failures are in tests/unit/output/test_video.c.
+# ---- no FFmpeg: films are impossible, and pictures need none. tests/unit/output/test_video.c covers its failures.
 mkdir "$work/tools"
 expect_refusal 3 env PATH="$work/tools" "${render[@]}" --frames 0-2 -o '%d.data' -o film.mp4
 expect_stderr_contains ffmpeg
 expect_files .
 if ! has_ffmpeg; then
-    echo "not tested: films that fail, for there is no FFmpeg"
+    echo "not tested: films that fail, because FFmpeg is missing"
     finish
 fi
 ffmpeg=$(command -v ffmpeg)
 
-# ---- FFmpeg fails, with more bytes than the buffers on the way hold; other ways are a matter of output/test_video
+# ---- FFmpeg fails, with more bytes than the buffers on the way hold; output/test_video covers other failures
 fake ffmpeg 'read -r -N 1000 -t 5 || true; echo "had enough" >&2; kill -9 $$'
-expect_exit 1 timeout "$patience" "${with_tools[@]}" "${render[@]}" --quiet --size 400x300 --frames 0-2 -o film.mp4
+expect_exit 1 timeout "$time_limit" "${with_tools[@]}" "${render[@]}" --quiet --size 400x300 --frames 0-2 -o film.mp4
 expect_stderr_contains 'signal 9'
 expect_stdout_lines 0
 expect_files .
 
-# One film of two fails: neither stays, and the pictures do, and so does an old film.
+# One film of two fails: neither stays, but the pictures and an old film do.
 printf 'old' >film.mkv
 # shellcheck disable=SC2016 # for the script that is written
 fake ffmpeg 'if [[ $* == *film.gif* ]]; then exit 1; fi; exec '"'$ffmpeg'"' "$@"'
@@ -182,10 +182,10 @@ expect_exit 1 "${with_tools[@]}" "${render[@]}" --quiet --frames 0-2 -o film.gif
 expect_stderr_contains 'exit code 1'
 expect_stdout_lines 0
 [[ ! -e film.gif && $(<film.mkv) == old && -z $(find . -name '*tmp*') ]] || fail "a film stayed, or the old one went: $(ls)"
-# A talkative FFmpeg does not bring everything to a halt; the new film takes the place of the old one.
+# A talkative FFmpeg does not block the run; the new film replaces the old one.
 fake ffmpeg "head -c 1000000 /dev/zero | tr '\\0' x >&2; exec '$ffmpeg' \"\$@\""
 rm -f ./*.data
-expect_exit 0 timeout "$patience" "${with_tools[@]}" "${render[@]}" --size 400x300 --frames 0-2 -o film.mkv
+expect_exit 0 timeout "$time_limit" "${with_tools[@]}" "${render[@]}" --size 400x300 --frames 0-2 -o film.mkv
 expect_files . film.mkv
 [[ $(head -c 3 film.mkv) != old ]] || fail 'the old film is still there'
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Progress within a frame that takes long: on a terminal, in a pipe, in the classic mode.
+# Progress within a slow frame: on a terminal, in a pipe, in the classic mode.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -12,14 +12,14 @@ time='([0-9]+:)?[0-9]+:[0-9]{2}'
 all='in all(, [0-9.]+ s of it to prepare)?, [0-9.]+ M rays/s'
 part="0/1 frames, [0-9]+ % of the next, $time left"
 
-# on_terminal COMMAND...: standard error is a terminal, of which the file screen has what it got; not the output.
+# on_terminal COMMAND...: standard error is a terminal, whose contents go to the file screen; the output is not.
 # shellcheck disable=SC2317 # expect_exit calls functions by their names
 on_terminal() {
     env TERM=xterm "$cli_folder/in_terminal" 100x24 blocks screen -- bash -c 'exec "$@" 2>/dev/tty' bash "$@"
 }
 
-# ---- on a terminal, in the passes of a bound: with so many samples that the frame takes some two seconds here, which a
-# shorter one tells. Its part grows, never shrinks, and nothing stays of its line.
+# ---- on a terminal, during the passes of an error bound: with enough samples for some two seconds, estimated by a shorter
+# frame. The share grows, never shrinks, and nothing of its line stays.
 render=("$hedron" render --backend c --threads 1 "${size[@]}" --max-error 2 -o long.png)
 most=64
 for ((samples = 4; samples <= most; samples = next > most && samples < most ? most : next)); do
@@ -32,7 +32,7 @@ for ((samples = 4; samples <= most; samples = next > most && samples < most ? mo
     (($(sort -u parts | wc -l) < 2)) || break
 done
 ((samples <= most)) || fail 'no frame took long'
-sort -n -c parts 2>"$logs/which" || fail "what is done does not grow: $(tr '\n' ' ' <parts)"
+sort -n -c parts 2>"$logs/which" || fail "the progress does not grow: $(tr '\n' ' ' <parts)"
 ! grep '% of the next' shown | grep -v -x -E "\[[#.]{24}\] $part" >"$logs/which" ||
     fail "there is another line than those of progress: $(head -n 3 "$logs/which")"
 [[ $(tail -c 4 screen) == $'\r\033[K' ]] || fail "the line stays: $(tail -c 60 screen | od -c | tail -n 4)"
@@ -46,7 +46,7 @@ expect_same long.png before.png
 expect_exit 0 on_terminal "${render[@]}" --quiet --samples "$samples"
 [[ ! -s screen ]] || fail "--quiet is not quiet on a terminal"
 
-# ---- the classic mode: standard output has what it always has, also where it is the same terminal
+# ---- the classic mode: standard output is unchanged, even on the same terminal
 # shellcheck disable=SC2317 # as above
 classic() {
     "$hedron" --cpu --threads 1 "${size[@]}" "$@" <"$work/official.in"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Random scenes, rendered by a tracer that was written from docs/model.md alone, have the same pixels.
+# Random scenes, rendered by a ray tracer written from docs/model.md alone, have the same pixels.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"

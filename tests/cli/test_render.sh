@@ -48,7 +48,7 @@ expect_files . 'take 00' 'take 00/a.data' 'take 10' 'take 10/a.data'
 expect_data 'take 10/a.data' 32 24
 rm -rf ./*
 
-# ---- backends, pipelines, lanes and threads, as options ask for them, give the same bytes; fast arithmetic nearly
+# ---- backends, pipelines, lanes and threads, selected by options, give the same bytes; fast arithmetic nearly
 # picture NAME OPTION...: with sides that are no multiple of anything.
 picture() {
     expect_exit 0 "${no_nvidia[@]}" "$hedron" render --quiet --size 33x25 --samples 2 --depth 3 --frames 40 -o "$@"
@@ -70,16 +70,16 @@ if has_opencl; then
     picture other.png --backend opencl --precision double
     expect_exit 0 "$hedron" compare other.png double.png --fail-above 0
     picture fast.png --backend opencl --math fast
-    expect_exit 0 "$hedron" compare float.png fast.png --fail-above 32 # of four samples one may meet another edge
+    expect_exit 0 "$hedron" compare float.png fast.png --fail-above 32 # of four samples one may hit another edge
 else
-    echo "not tested: OpenCL, for there is no device with strict arithmetic"
+    echo "not tested: OpenCL, because no device has strict arithmetic"
 fi
 expect_exit 0 "$hedron" render --backend c "${small[@]}" --frames 0 --math fast -o fast.data
 expect_stderr_contains 'the C backend has only strict arithmetic, so --math fast has no effect on it'
 rm ./*.*
 
-# ---- a picture says what it is, and not where or when it was made
-texts() { # FILE: those of a PNG but for its fingerprint, a line each
+# ---- a picture describes its content, and not its place or time of rendering
+texts() { # FILE: the chunks of a PNG except its fingerprint, a line each
     python3 - "$1" <<'PYTHON'
 import struct, sys
 data = open(sys.argv[1], "rb").read()
@@ -109,11 +109,11 @@ if command -v python3 >"$logs/which"; then
     expect_exit 0 "$hedron" render --backend c --size 32x24 --frames 0 -o plain.png
     [[ $'\n'$(texts plain.png)$'\n' == *$'\nScene: the built-in scene\n'* ]] || fail 'the built-in scene is not named'
 else
-    echo "not tested: the texts of a PNG, for there is no python3"
+    echo "not tested: the texts of a PNG, because python3 is missing"
 fi
 rm -rf ./*
 
-# ---- several outputs of one run; the names are told as they were given
+# ---- several outputs of one run; messages have the names as given
 render --size 32x24 --frames 0-1 -o 'out/%04d.png' --output='out/##.data'
 expect_stdout_lines 2 'out/(%04d\.png|##\.data)'
 expect_files out 0000.png 0001.png 00.data 01.data
@@ -130,9 +130,9 @@ expect_stdout_lines 1 'hedron\.png'
 expect_png hedron.png 32 24
 rm hedron.png
 
-# ---- films; what is in them is in tests/unit/output/test_video.c
+# ---- films; tests/unit/output/test_video.c checks their contents
 if ! has_ffmpeg; then
-    echo "not tested: films, for there is no FFmpeg"
+    echo "not tested: films, because FFmpeg is missing"
     expect_files .
     finish
 fi
@@ -152,7 +152,7 @@ render --size 32x24 --frames 0,7
 expect_stdout_lines 1 'hedron\.mp4'
 expect_film hedron.mp4 2 32 24
 expect_files . hedron.mp4 new new/odd.MP4
-# Films and pictures at once; a film that fails takes no pictures with it.
+# Films and pictures at once; a film that fails keeps the pictures.
 render --size 32x24 --frames 0-1 -o "it's.mp4" -o both.mkv -o both_%d.data -o both_%d.png
 expect_stdout_lines 4
 expect_film "it's.mp4" 2 32 24

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# A run that is started again renders what is missing and nothing else, and makes the same files: numbered pictures,
-# films behind their last whole segment; also when it was killed, as often as a third argument says.
+# A repeated run renders the missing frames only, and makes the same files: numbered pictures, films after their last whole
+# segment. It may have been killed, as often as a third argument says.
 # shellcheck disable=SC2317 # wait_until calls functions by their names
 set -euo pipefail
 # shellcheck source=lib.sh
@@ -22,7 +22,7 @@ cat >scene.json <<'JSON'
 JSON
 make_texture floor.data
 
-# render COUNT OPTIONS...: of the frames 0 to 5, so many are rendered and the others left as they are.
+# render COUNT OPTIONS...: of the frames 0 to 5, renders so many and leaves the others unchanged.
 render() {
     local expected=$1 rendered resumed
     rm -f stats.jsonl
@@ -38,15 +38,15 @@ render() {
     fi
 }
 
-# ---- what is there is left alone, and what is missing or damaged is not
+# ---- existing frames are left alone, and missing or damaged ones are not
 render 6 scene.json -o 'out/%d.png'
 cp -r out first
-looks=$(stat -c '%n %i %y' out/*) # by inode and time of change, what is written again differs
+looks=$(stat -c '%n %i %y' out/*) # a file that is written again differs in inode and time of change
 render 0 scene.json -o 'out/%d.png'
 expect_stdout_lines 1 'out/%d\.png'
 render 0 --quiet scene.json -o 'out/%d.png' --lanes 1 --threads 1 --pipeline wavefront # which does not matter
 expect_silent_stderr
-# No device is needed for nothing.
+# A finished run needs no device.
 expect_exit 3 "${no_nvidia[@]}" "$hedron" render --backend cuda scene.json --frames 10 -o 'out/%d.png'
 expect_exit 0 "${no_nvidia[@]}" "$hedron" render --backend cuda scene.json --frames 3-5 -o 'out/#.png'
 [[ $(stat -c '%n %i %y' out/*) == "$looks" ]] || fail 'finished pictures were written again'
@@ -54,11 +54,11 @@ rm out/3.png
 printf 'x' >>out/0.png
 truncate -s -1 out/5.png
 cp out/1.png out/2.png
-touch out/3.png.tmp-4000000-0 # as a run leaves it that was killed
+touch out/3.png.tmp-4000000-0 # as a killed run leaves it
 render 4 scene.json -o 'out/%d.png'
 expect_exit 0 diff -r out first
 
-# ---- whatever decides a pixel is in the fingerprint, and names are not
+# ---- everything that decides a pixel is in the fingerprint, and names are not
 cp floor.data other.data
 sed 's/floor\.data/other.data/' scene.json >other.json
 render 0 other.json -o 'out/%d.png' --set output.frames_per_second=25
@@ -70,7 +70,7 @@ render 0 scene.json -o 'out/%d.png' --set camera.frames=41
 printf '\100' | dd of=floor.data bs=1 seek=8 conv=notrunc status=none
 render 6 scene.json -o 'out/%d.png' --set camera.frames=41
 
-# ---- what is always rendered
+# ---- always rendered
 render 6 scene.json -o 'out/%d.png' --set camera.frames=41 --again
 for math in fast fast strict; do
     render 6 scene.json -o 'fast/%d.png' --math "$math"
@@ -102,11 +102,11 @@ if command -v cmake >"$logs/which"; then
     done
 fi
 
-# ---- films: of finished frames; joined of segments, they are what they are in one go
+# ---- films: of finished frames; joined segments equal a film made in one run
 frames=70 # 30 a second: three segments
 film=("$hedron" render --backend c --size 64x48 --samples 1 --depth 2 --frames "0-$((frames - 1))")
 
-# What no joining may change: the pictures, in order, and the times; those of an MP4, which are not lossless, by time.
+# Joining must not change: the pictures, in order, and the times; those of an MP4, which are not lossless, by time.
 content() {
     ffprobe -v error -show_entries packet=pts_time -of csv=p=0 "$1" | tr -d , | sort -n
     if [[ $1 != *.mp4 ]]; then
@@ -114,7 +114,7 @@ content() {
     fi
 }
 
-# expect_segments NAME COUNT: so many whole ones, and nothing that is being written.
+# expect_segments NAME COUNT: so many whole ones, and no unfinished one.
 expect_segments() {
     local found
     found=$(find . -name "$1.part-*" | grep -c -E 'part-[0-9]{4}-[0-9a-f]{16}$' || true)
@@ -122,8 +122,8 @@ expect_segments() {
     ! compgen -G './*.tmp-*' || fail 'temporary files are left'
 }
 
-# stop_at_third SIGNAL: from now on the FFmpeg of the third segment sends it to hedron first, once the second one is
-# whole. One whose hedron is killed does not begin: it might make its file at any time.
+# stop_at_third SIGNAL: from now on the FFmpeg of the third segment first sends it to hedron, after the second one is whole. If
+# hedron is killed it does not begin: it might make its file at any time.
 stop_at_third() {
     fake ffmpeg "if [[ \$* == *.part-0002* ]]; then
             until compgen -G '*.part-0001-????????????????' >/dev/null; do sleep 0.01; done
@@ -143,13 +143,13 @@ if has_ffmpeg; then
     rm -r ./*
 
     for ending in mkv mp4; do
-        # Fast arithmetic, of plain C the same, keeps no segments.
+        # Fast arithmetic, in plain C the same, keeps no segments.
         expect_exit 0 "${film[@]}" --quiet --math fast -o "whole.$ending"
         expect_exit 0 "${film[@]}" --quiet -o "film.$ending"
         expect_same <(content "film.$ending") <(content "whole.$ending")
         mv "film.$ending" "$work/undisturbed.$ending"
         rm "whole.$ending"
-        # Ended within the third segment, it goes on there.
+        # Interrupted in the third segment, it continues there.
         stop_at_third TERM
         expect_exit 143 "${with_tools[@]}" "${film[@]}" -o "film.$ending"
         expect_stderr_contains 'of 70 frames; frames kept: 0-59; the same command goes on with 60-69'
@@ -160,20 +160,20 @@ if has_ffmpeg; then
         expect_same "film.$ending" "$work/undisturbed.$ending"
         rm "film.$ending"
     done
-    # Killed, it leaves what it was writing to, which goes with the next run.
+    # Killed, it leaves its unfinished file, which the next run removes.
     stop_at_third KILL
     expect_exit 137 "${with_tools[@]}" "${film[@]}" -o film.mkv
     stop_at_third TERM
     expect_exit 143 "${with_tools[@]}" "${film[@]}" -o film.mkv
     expect_stderr_contains 'hedron: 60 of 70 frames were finished already'
     expect_segments film.mkv 2
-    # Two films, of which one is further: frames of both are needed until the other is as far.
+    # Two films, one of which has more: frames of both are needed until the other has as many.
     expect_exit 0 "${film[@]}" -o film.mkv -o "it's.mp4"
     expect_files . film.mkv "it's.mp4"
     expect_same film.mkv "$work/undisturbed.mkv"
     expect_same "it's.mp4" "$work/undisturbed.mp4"
     rm ./*
-    # Segments of another film are not taken, and go once there is a new one; --again takes none.
+    # Segments of another film are not used, and go once there is a new one; --again uses none.
     for change in '--depth 3' ''; do
         # shellcheck disable=SC2086 # several words
         expect_exit 143 "${with_tools[@]}" "${film[@]}" $change -o film.mkv
@@ -185,7 +185,7 @@ if has_ffmpeg; then
     expect_same film.mkv "$work/undisturbed.mkv"
     rm film.mkv
 
-    # ---- a frame has its name only once the film has it: FFmpeg takes nothing, and the run is killed or interrupted
+    # ---- a frame gets its name only after the film has it: FFmpeg accepts nothing, and the run is killed or interrupted
     fake ffmpeg "echo \$\$ >'$work/leader.new'; mv '$work/leader.new' '$work/leader'; exec sleep 600"
     held=("$hedron" render --backend c --quiet --size 400x300 --samples 1 --depth 0 --frames 0-9 -o 'held/%d.png')
     has_temporary() {
@@ -202,10 +202,10 @@ if has_ffmpeg; then
     expect_files held {0..9}.png film.mkv
     film+=(-o killed/film.mkv)
 else
-    echo "not tested: films, for there is no FFmpeg"
+    echo "not tested: films, because FFmpeg is missing"
 fi
 
-# ---- killed again and again at random instants: nothing under a final name is incomplete, and none is lost
+# ---- killed repeatedly at random instants: every file under a final name is complete, and none is lost
 start_sequence() {
     rm -f stats.jsonl
     start "${film[@]}" --size 96x72 --samples 2 --depth 6 --quiet --stats stats.jsonl -o 'killed/%02d.png'
@@ -228,7 +228,7 @@ note_rendered() {
     [[ -z $twice ]] || fail "frames were rendered twice: $twice"
 }
 
-lose_frames() { # about half of them: there must be something left to do
+lose_frames() { # about half of them: something must remain to do
     local i
     for ((i = 0; i < frames; i++)); do
         if ((RANDOM % 2)); then

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Wrong scene files: exit code 2, a message that names the file and the place, no file; and notes on what is seldom meant.
-# Every kind of mistake is a matter of the unit tests (input).
+# Wrong scene files: exit code 2, a message that names the file and the place, no file; and notes on unusual settings. The unit
+# tests cover every kind of mistake (input).
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -26,17 +26,17 @@ cat >good.json <<'JSON'
 JSON
 render=("$hedron" render --backend c --frames 0 --quiet -o picture.data)
 
-# refuse WHAT...: bad.json is refused, with each of these in the message; 'render' says the same and makes no file.
+# refuse WHAT...: bad.json is refused, with each of these in the message; 'render' prints the same and makes no file.
 refuse() {
     local what
-    expect_exit 2 timeout "$patience" "$hedron" check bad.json
+    expect_exit 2 timeout "$time_limit" "$hedron" check bad.json
     for what in "$@"; do
         expect_stderr_contains "$what"
     done
     expect_stdout_lines 0
     grep -q -E '^hedron: (cannot read the scene )?bad\.json' "$logs/stderr" || fail 'the message names no file'
     cp "$logs/stderr" "$work/checked"
-    expect_exit 2 timeout "$patience" "${render[@]}" bad.json
+    expect_exit 2 timeout "$time_limit" "${render[@]}" bad.json
     expect_stdout_lines 0
     expect_same "$logs/stderr" "$work/checked"
 }
@@ -59,7 +59,7 @@ expect_refusal 2 "${render[@]}" ''
 : >bad.json
 refuse 'bad.json is empty'
 
-# ---- a key, a value, what values are to each other, and all of it at once
+# ---- a key, a value, relations between values, and all of it at once
 wrong '.image.widht = 1' 'bad.json: image.widht is an unknown key; did you mean "width"?'
 wrong '.image.width = 0 | .solids[1].circumradius = -1' 'bad.json: 2 problems' '  image.width is 0' \
     '  solids[1].circumradius is -1'
@@ -74,7 +74,7 @@ expect_stderr_contains 'bad.json: output.path is "picture.data", which names one
 expect_exit 0 "$hedron" render --backend c --frames 0 --quiet bad.json
 rm picture.data
 
-# ---- what is seldom meant is a note, and no mistake
+# ---- an unusual setting gives a note, not an error
 jq '.materials.paper = {} | .output.path = "film.mp4" | .output.bits = 16' good.json >bad.json
 expect_exit 0 "$hedron" check bad.json
 expect_silent_stderr
@@ -103,11 +103,11 @@ expect_stderr_contains 'hedron: standard input: image.width is 0'
 rm -r picture.data folder bad.json
 expect_files . floor.data
 
-# ---- nothing is told of what is in a file that is no scene
+# ---- no message quotes a file that is not a scene
 echo 'root:secret:0:0' >secrets
 expect_refusal 2 "$hedron" check secrets
 expect_stderr_contains 'secrets is not a scene: expected the ending .json or text that begins with {'
-! grep -q -e root -e secret: "$logs/stderr" || fail 'words of the file are told'
+! grep -q -e root -e secret: "$logs/stderr" || fail 'a message quotes the file'
 printf 'solid teapot' >teapot.stl
 expect_refusal 2 "$hedron" render teapot.stl
 expect_stderr_contains 'teapot.stl is a mesh by its ending'

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Scene files: rendering them, changing values, checking, and making them of classic inputs.
+# Scene files: rendering them, changing values, checking, and converting classic inputs.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -29,7 +29,7 @@ render() {
     expect_silent_stderr
 }
 
-# ---- the scene says where to; the texture lies beside it, wherever one stands
+# ---- the scene names the output; the texture lies beside it, whatever the current folder
 render scenes/cube.json
 expect_stdout_lines 1 'out/###\.png'
 expect_files out 000.png 001.png 002.png
@@ -60,7 +60,7 @@ expect_exit 0 "$hedron" check scenes/cube.json
 expect_silent_stderr
 expect_stdout_lines 1 'scenes/cube\.json: fine, 1 solid, 25 lights, 3 frames'
 sed 's/1.2/-1.2/; s/: 50/: 500/' scenes/cube.json >scenes/both.json
-# Each of several is looked at.
+# Each of several is checked.
 expect_exit 2 "$hedron" check scenes/both.json scenes/cube.json missing.json
 expect_stdout_lines 1 'scenes/cube\.json: fine, .*'
 for words in 'scenes/both.json: 2 problems' 'circumradius is -1.2' 'field_of_view is 500' missing.json '2 of 3 scenes are wrong'; do
@@ -73,13 +73,13 @@ if command -v jq >"$logs/which"; then
         and .[0].problems == [] and (.[1].problems | length == 2 and any(startswith("camera.field_of_view")))
         and (.[2].problems | length == 1)' "$logs/stdout" >"$logs/jq" || fail 'check --json says otherwise'
 else
-    echo "not tested: what 'check --json' prints, for there is no jq"
+    echo "not tested: the output of 'check --json', because jq is missing"
 fi
 sed 's/"depth"/"exposure": 1e-6, "depth"/' scenes/cube.json >scenes/both.json
 expect_exit 0 "$hedron" check scenes/both.json
 expect_stdout_lines 2 '.*/both\.json: (fine, .*|note: all that is in view in frame 0 is nearly black: image\.exposure is 1e-06, .*)'
 rm scenes/both.json
-# Complete scenes in the documents, which give no cause for a note either, and those that come with the program.
+# Complete scenes in the documents, which give no note either, and the supplied ones.
 awk -v folder="$PWD" '/^```json/ { text = "\n"; next }
     /^```/ { if (text ~ /"hedron": 1/) printf "%s", text >(folder "/manual" ++count ".json"); text = "" }
     text != "" { text = text $0 "\n" }' "$cli_folder"/../../docs/*.md "$cli_folder"/../../docs/reference/*.md
@@ -118,13 +118,13 @@ expect_silent_stderr
 expect_same "$logs/stdout" new/converted.json
 # Of the output and of the texture: the classic mode knows no other curve.
 (($(grep -c '"curve": "linear"' new/converted.json) == 2)) || fail 'the curves are not linear'
-# What the classic mode writes in the data format for want of an ending has one in the scene.
+# Output without an extension, which the classic mode writes in the data format, has one in the scene.
 sed "s|out/img_%d.data|out/img_%d.mp4|" "$work/official.in" >bare.in
 expect_exit 0 "$hedron" convert bare.in -o bare.json
 render bare.json "${classic[@]}"
 expect_files out img_5.mp4.data
 rm -r out
-# A texture keeps its place when the scene goes to another folder; a name that begins with ~ is no home folder.
+# A texture keeps its place when the scene moves to another folder; a name that begins with ~ is no home folder.
 mkdir '~near'
 cp scenes/floor.data '~near'
 for name in scenes/floor.data '~near/floor.data'; do
@@ -140,7 +140,7 @@ expect_exit 0 "$hedron" compare --json json.png out/frame_5.png
 expect_stdout_contains '"identical": true'
 rm -r out far new '~near' ./*.*
 
-# What is wrong makes no file, and leaves an old one.
+# A failure makes no file, and leaves an old one.
 printf 'old' >old.json
 head -c 300 "$work/official.in" >short.in
 expect_refusal 2 "$hedron" convert short.in -o old.json

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# 'hedron selftest': certificates of devices that compute rightly and of some that do not, as text and
-# as JSON, the exit codes, and what of it is remembered.
+# 'hedron selftest': reports on devices that compute correctly and on some that do not, as text and as JSON, the exit codes,
+# and remembered results.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -21,7 +21,7 @@ has_schemas=true
 python3 -c 'from jsonschema import Draft202012Validator' 2>"$logs/validate" || has_schemas=false
 $has_schemas || echo "not tested: the certificate's schema, for Python has no jsonschema 4"
 
-# expect_certificate VERDICT COUNT: of one device and so many tests, with the keys in the order that the documents have.
+# expect_certificate RESULT COUNT: of one device and so many tests, with the keys in the documented order.
 expect_certificate() {
     if command -v jq >"$logs/which" && ! jq -e --argjson count "$2" --arg verdict "$1" '.certificates | length == 1 and (.[0] |
         keys_unsorted == ["hedron", "backend", "index", "name", "driver", "compiler", "verdict", "tests", "time", "seconds"]
@@ -46,7 +46,7 @@ expect_refusal 2 "$hedron" selftest --device c:0 --backend opencl
 
 # ---- OpenCL, wrong and right
 if is_sanitized || ! has_opencl; then
-    echo "not tested: OpenCL, for there is no device, or nothing can be preloaded; nor all of plain C"
+    echo "not tested: OpenCL and all of plain C, because there is no device, or preloading fails"
     finish
 fi
 quick=("$hedron" selftest --quick --device opencl:0)
@@ -58,18 +58,18 @@ expect_stdout_contains '(it is rounded twice)'
 expect_certificate wrong 2
 expect_exit 0 "${no_nvidia[@]}" "$hedron" devices
 expect_stdout_contains 'strict arithmetic: no, it computes wrongly: fma(a, b, c) of a = '
-# What is remembered is found out anew, and is then right.
+# A remembered result is tested again, and is then correct.
 expect_exit 0 "${no_nvidia[@]}" "${quick[@]}"
 expect_stdout_contains 'right    arithmetic in double, 8192 tuples of operands ('
 expect_exit 0 "${no_nvidia[@]}" "$hedron" devices
-! grep -q 'computes wrongly' "$logs/stdout" || fail "a device that computes rightly is still told to compute wrongly"
-# Frames that are wrong though the arithmetic is right.
+! grep -q 'computes wrongly' "$logs/stdout" || fail "a device that computes correctly is still reported as wrong"
+# Frames that are wrong although the arithmetic is correct.
 take "$build" '1.5259021896696422e-5' '1.6e-5'
 expect_exit 1 env HEDRON_CACHE=off "${driver[@]:1}" "${quick[@]}"
 expect_stdout_contains 'right    arithmetic in float, 8192 tuples of operands ('
 expect_stdout_contains 'wrong    golden frames in float by mega, '
 expect_stdout_contains ', depth 1 of the ray: '
-# Rays that end too early are deeper than those of most frames.
+# The rays that end too early are deeper than those of most frames.
 take "$build" 'if (level == view->depth)' 'if (level == view->depth || level == 8)'
 expect_exit 1 env HEDRON_CACHE=off "${driver[@]:1}" "${quick[@]}"
 expect_stdout_contains 'wrong    golden frames in float by mega, '

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# --stats: a line of JSON about each frame, and files that take none.
+# --stats: a line of JSON for each frame, and failing files.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -9,7 +9,7 @@ command -v jq >"$logs/which" || skip "there is no jq"
 use_official_input
 render=("$hedron" render --quiet --backend c "${small[@]}")
 
-expect_json() { # FILE FILTER EXPECTED: what jq says of all lines together
+expect_json() { # FILE FILTER EXPECTED: the result of jq on all lines together
     [[ $(jq -c -s "$2" "$1" 2>&1) == "$3" ]] || fail "$1: $2 is $(jq -c -s "$2" "$1"), expected $3"
 }
 
@@ -28,7 +28,7 @@ expect_json new/stats.jsonl 'all(.[]; .seconds | all(.[]; . >= 0) and .trace > 0
 expect_json new/stats.jsonl 'map([.seconds.convert, .seconds.film, .began.convert, .began.film]) | unique' '[[0,0,null,null]]'
 # Plain C has lanes and no launches.
 expect_json new/stats.jsonl 'all(.[]; (.renderer | test("lane")) and .longest_launch_ms == null)' true
-# Another run writes the file anew; standard output then has nothing else.
+# Another run replaces the file; standard output then has nothing else.
 expect_exit 0 "${render[@]}" --frames 7 -o a.data --stats new/stats.jsonl
 expect_json new/stats.jsonl 'map(.frame)' '[7]'
 expect_exit 0 "${render[@]}" --frames 0-1 -o '##.data' --stats -
@@ -43,7 +43,7 @@ expect_same <(cut -f 1,3 "$logs/stdout") \
 rm -r out stats.jsonl
 expect_refusal 2 "$hedron" --cpu "${small[@]}" --frames 0 --stats - <"$work/official.in"
 
-# ---- films, and a reader that goes away: it ends the program, but not before it has cleaned up
+# ---- films, and a reader that goes away: it ends the program, but only after cleaning up
 if has_ffmpeg; then
     expect_exit 0 "${render[@]}" --frames 0-1 -o film.mkv --stats stats.jsonl
     expect_json stats.jsonl 'all(.[]; .seconds.convert > 0 and .seconds.film > 0 and .seconds.store == 0 and .began.store == null
@@ -59,7 +59,7 @@ if has_ffmpeg; then
     expect_sentence
     expect_stderr_contains 'cannot write the statistics to standard output'
     expect_files .
-    # Where only the messages are lost, the film is made.
+    # If only the messages are lost, the film is made.
     "$hedron" render --verbose --backend c "${small[@]}" --frames 0-1 -o film.mkv >"$logs/stdout" 2>&4 ||
         fail 'nothing is made without a reader of standard error'
     exec 4>&-
@@ -83,7 +83,7 @@ for file in 00.data ./*.data; do
 done
 rm ./*.data
 
-# ---- files that the run reads or writes otherwise, and what is no statistics
+# ---- files that the run reads or writes otherwise, and text that is no statistics
 "$hedron" convert "$work/official.in" -o scene.json
 cp scene.json "$work/scene.json"
 ln -s scene.json link.json
@@ -98,7 +98,7 @@ for file in a07.data ./new/../a07.data; do
     expect_refusal 2 "${render[@]}" --frames 7 -o 'a##.data' --stats "$file"
     expect_stderr_contains 'which is an output'
 done
-# A start that fails leaves an earlier file alone.
+# A failed start leaves an earlier file unchanged.
 echo '{"frame":0}' >stats.jsonl
 expect_refusal 3 "${render[@]}" --device 'no such device' --frames 0 -o a.data --stats stats.jsonl
 [[ $(<stats.jsonl) == '{"frame":0}' ]] || fail 'a start that failed wrote to the statistics'

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The floor's texture in the classic mode: every format, where its file may be, and files that are no textures. What is
-# in files, right and wrong, is a matter of the unit tests (image).
+# The floor's texture in the classic mode: every format, the places of its file, and files that are no textures. The unit tests
+# cover the contents of files, right and wrong (image).
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -28,7 +28,7 @@ refuse() {
     expect_stderr_contains "$2"
 }
 
-# ---- where the file is; the name does not tell the format
+# ---- places of the file; the name does not decide the format
 # shellcheck disable=SC2088 # the program itself is to replace the tilde
 accept '~/floor.data' home.data
 cp "$HOME/floor.data" here.png
@@ -43,7 +43,7 @@ for kind in png data; do
     accept "texture.$kind" "from_$kind.data"
 done
 expect_same from_png.data from_data.data
-# A JPEG; its file in the corpus stands behind a byte of the fuzz target's own.
+# A JPEG; its file in the corpus follows a byte of the fuzz target's own.
 tail -c +2 "$cli_folder/../fuzz/corpus/texture/jpeg_420" >photo.png
 accept photo.png photo.data
 expect_different photo.data home.data

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# 'hedron tune': what it measures and prints, that later runs use what it found, and that pictures do not
-# depend on it. Which runs it holds for is a matter of the unit tests (choice/test_measured_choice).
+# 'hedron tune': its measurements and output, that later runs use its result, and that pictures do not depend on it. The unit
+# tests cover which runs it applies to (choice/test_measured_choice).
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -10,11 +10,11 @@ export HEDRON_CACHE=$work/cache
 tune=("$hedron" tune --backend c --threads 1 "${small[@]}")
 render=("$hedron" render --backend c --threads 1 "${small[@]}" --frames 0 --verbose -o picture.data)
 
-# expect_launch WORDS OPTION...: a rendering says that it uses this; "": that it uses nothing; the picture is as ever.
+# expect_launch WORDS OPTION...: a rendering reports that it uses this; "": that it uses nothing; the picture is unchanged.
 expect_launch() {
     expect_exit 0 "${render[@]}" "${@:2}"
     [[ $(sed -n 's/^launch *//p' "$logs/stderr") == "${1:+$1: the best for this kind of scene, by 'hedron tune'}" ]] ||
-        fail "it is not told that '$1' is remembered"
+        fail "standard error does not say that '$1' is remembered"
     expect_same picture.data expected.data
 }
 
@@ -34,11 +34,11 @@ if ! head -n 1 "$logs/stdout" | grep -q -x -E 'the built-in scene on c 0, .*' ||
     fail 'the table has other candidates'
 fi
 best=$(sed -n 's/^the best: \(.*\); remembered for scenes of this kind$/\1/p' "$logs/stdout")
-[[ -n $best ]] || fail "it does not tell what is the best"
+[[ -n $best ]] || fail "the table does not name the best"
 
-# ---- later runs use it, with the same bytes; what they ask for themselves comes first
+# ---- later runs use it, with the same bytes; their own options come first
 expect_launch "$best"
-grep -q -E "^renderer .*, ${best%%,*}$" "$logs/stderr" || fail "what is remembered is not used"
+grep -q -E "^renderer .*, ${best%%,*}$" "$logs/stderr" || fail "the remembered choice is not used"
 expect_launch '' --pipeline wavefront
 
 # ---- a scene from standard input, and JSON
@@ -51,14 +51,14 @@ if [[ $(jq -c '[.scene, .backend, .index, .width, .height, .remembered, .reason,
     fail "the JSON is another"
 fi
 
-# ---- where nothing can be remembered
+# ---- nothing can be remembered
 expect_exit 0 env HEDRON_CACHE=off "${tune[@]}" --lanes "$some" --json
 expect_stdout_contains '"reason": "HEDRON_CACHE is off"'
 expect_exit 1 env HEDRON_CACHE=/dev/null "${tune[@]}" --lanes "$some"
 expect_stdout_contains '; not remembered: cannot use the folder /dev/null: it is not a folder'
 expect_stderr_contains 'hedron: cannot use the folder /dev/null: it is not a folder'
 
-# ---- what is wrong
+# ---- errors
 expect_refusal 2 "${tune[@]}" none.json
 expect_stderr_contains 'none.json'
 expect_refusal 2 "${tune[@]}" --frames 9999

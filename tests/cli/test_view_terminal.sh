@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The live view in a terminal: what it saves is what 'hedron render' makes of that view, by each way to see it.
+# The live view in a terminal: it saves what 'hedron render' makes of that view, with each protocol.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -24,7 +24,7 @@ see() {
     cp "$logs/stdout" said
 }
 
-# expect_view PICTURE OPTION...: what 'hedron render' makes of the camera that was printed last.
+# expect_view PICTURE OPTION...: equals 'hedron render' of the last printed camera.
 expect_view() {
     local picture=$1 camera
     shift
@@ -38,7 +38,7 @@ expect_view() {
 setsid -w "$hedron" view --terminal --backend c </dev/null 2>lacking || true
 ! grep -q 'built without' lacking || skip "hedron-view has no terminal, for chafa (libchafa-dev) was not there"
 
-# ---- a view that was turned, moved and brought nearer
+# ---- a rotated, moved and zoomed view
 right='\x1b[C' up='\x1b[A'
 see blocks wait:finished "keys:$right$right${up}dw+pc" wait:saved keys:q -- --backend c "${small[@]}"
 expect_stdout_contains hedron-001.png
@@ -60,12 +60,12 @@ expect_view hedron-001.png --backend c "${small[@]}" --precision double
 expect_view hedron-002.png "${deeper[@]}"
 expect_view hedron-003.png "${deeper[@]}" --aa adaptive
 
-# ---- a picture that takes minutes, of passes that hang together, is given up for a key
+# ---- a picture of dependent passes that takes minutes is abandoned for a key
 waits='wait:refining: 1 x 1 samples, 100 %'
 see blocks "$waits" "keys:$right" wait:moving: "$waits" "keys:$right" wait:moving: "$waits" keys:q \
     -- --backend c --size 960x540 --samples 64 --aa adaptive --max-error 0.05
 
-# ---- the flight: a frame that was stopped at is that of the film
+# ---- the camera path: a frame that it stopped at is that of the film
 see blocks wait:finished keys:.... 'wait:frame 4 of 240' 'keys: ' wait:playing 'keys: ' keys:p wait:saved keys:q \
     -- --backend c "${small[@]}"
 frame=$(tr '\033' '\n' <screen | sed -n 's/.*frame \([0-9]*\) of 240; h.*/\1/p' | tail -n 1)
@@ -73,11 +73,11 @@ expect_exit 0 "$hedron" render --quiet --frames "$frame" --backend c -o flight.p
 expect_exit 0 "$hedron" compare flight.png hedron-001.png --fail-above 0
 rm -f hedron-001.png
 
-# ---- two settings beside each other
+# ---- two settings side by side
 see blocks wait:finished 'keys:2' 'wait:difference' 'keys:f' 'wait:right *: double' wait:finished 'keys:2q' \
     -- --backend c "${small[@]}"
 
-# ---- the scene's file is followed; a mistake is told with its place and leaves the picture
+# ---- the scene's file is watched; an error is reported with its place and leaves the picture
 expect_exit 0 "$hedron" new scene.json
 cp scene.json good.json
 sed 's/"circumradius": [0-9.]*/"circumradius": -1/' good.json >wrong.json
@@ -88,7 +88,7 @@ see blocks wait:finished 'sh:cp wrong.json scene.json' 'wait:circumradius is -1'
 expect_stdout_contains scene-001.png
 expect_view scene-001.png scene.json --backend c "${small[@]}"
 
-# ---- what terminals say of themselves
+# ---- terminals' answers about themselves
 see kitty wait:finished keys:q -- --backend c "${small[@]}"
 grep -q -a -F $'\033_Ga=T,f=' screen || fail "a terminal with the kitty protocol got no picture by it"
 see sixel wait:finished keys:q -- --backend c "${small[@]}"

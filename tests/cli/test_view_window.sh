@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The live view in a window, under Xvfb with keys and a mouse that xdotool makes.
+# The live view in a window, under Xvfb with keys and a mouse simulated by xdotool.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -25,8 +25,8 @@ for tool in Xvfb xdotool import identify; do
     command -v "$tool" >/dev/null || skip "$tool is not installed"
 done
 
-# ---- a display of our own
-# Without -noreset it starts anew whenever its last client leaves, and loses who comes then.
+# ---- a display of its own
+# Without -noreset it restarts when its last client leaves, and loses the next one.
 timeout 300 Xvfb -displayfd 3 -noreset -screen 0 1280x800x24 -nolisten tcp 3>display 2>/dev/null &
 server=$!
 trap 'clean_up; kill "$server"' EXIT
@@ -38,9 +38,9 @@ await 'the display' test -s display
 DISPLAY=:$(<display)
 export DISPLAY
 unset WAYLAND_DISPLAY
-export SDL_VIDEODRIVER=x11 DBUS_SESSION_BUS_ADDRESS=unix:path=/nonexistent # nothing is waited for that is not there
+export SDL_VIDEODRIVER=x11 DBUS_SESSION_BUS_ADDRESS=unix:path=/nonexistent # waiting for a missing file would hang
 
-# expect_saved NUMBER OPTION...: the picture with that number is what 'hedron render' makes of the camera.
+# expect_saved NUMBER OPTION...: the picture with that number equals 'hedron render' of the camera.
 expect_saved() {
     local picture=hedron-$1.png camera
     shift
@@ -52,7 +52,7 @@ expect_saved() {
     expect_stdout_contains identical
 }
 
-# ---- keys and mouse, which go to the window under the pointer, for there is no window manager
+# ---- keys and mouse, which go to the window under the pointer: there is no window manager
 "${no_nvidia[@]}" "$hedron" view --backend c "${small[@]}" >said 2>errors &
 view=$!
 await 'the window' xdotool search --name '^hedron$'

@@ -16,7 +16,7 @@ static const HdFrameRequest requests[ROUNDS] = {
     {.curve = HD_CURVE_SRGB}, {.curve = HD_CURVE_LINEAR},
 };
 
-/* One scene seen in two ways, so that no frame can be taken for its neighbour. */
+/* One scene with two cameras, so that no frame can be mistaken for its neighbour. */
 typedef struct Views {
     HdFrameTables tables[VIEWS];
     HdFrame singles[VIEWS];
@@ -48,7 +48,7 @@ static void close_views(Views *views) {
     }
 }
 
-/* Of a frame that arrived as wished for. */
+/* Compares a frame that arrived as requested. */
 static bool is_same(const Views *views, int round, HdFrame *frame) {
     const HdFrame *singles = &views->singles[round % VIEWS];
     size_t pixels = (size_t)frame->width * (size_t)frame->height;
@@ -74,8 +74,8 @@ static bool collect(Views *views, HdRenderer *renderer, int round) {
     return same;
 }
 
-/* Each frame is submitted before its predecessor is collected. The last one is dropped. */
-void check_flights(const Target *target, int *pictures, int *different) {
+/* Submits each frame before collecting its predecessor. The last one is dropped. */
+void check_frames_in_flight(const Target *target, int *pictures, int *different) {
     Views views;
     HdError error;
     open_views(&views, target);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Frames that are under way at the same time, and those that a device encodes by itself. */
+/* Checks frames in flight together, and those that a device encodes by itself. */
 #ifndef HD_CONFORMANCE_FRAMES_IN_FLIGHT_H
 #define HD_CONFORMANCE_FRAMES_IN_FLIGHT_H
 
 #include "render_scene.h"
 
-/* Renders a picture as radiance and in 8 bits on each curve, several frames under way, and compares
-   all of them with the frame rendered alone. Prints what differs on `label`; adds to the numbers of
+/* Renders a picture as radiance and in 8 bits on each curve, several frames in flight, and compares
+   each with the frame rendered alone. Prints differences on `label`; adds to the numbers of
    pictures compared and of those that differ. */
-void check_flights(const Target *target, int *pictures, int *different);
+void check_frames_in_flight(const Target *target, int *pictures, int *different);
 
 #endif

@@ -1,23 +1,24 @@
 /* SPDX-License-Identifier: MIT */
 /* The conformance suite: renders the fixed list of frames on every backend, device and lane count
-   that opens, in float and double, and demands one hash for each frame and precision, the committed
-   one, and another one of what is met first; no scene's own kernels are built with the latter. With
-   --write-golden FILE those of the first renderer are written instead. The options --backend,
-   --lanes, --precision and --threads leave out the others; with
-   --one-build no scene has kernels of its own. Then it renders with the other pipeline and with
-   other launches (variants.h). Each renderer also has frames under way together (in_flight.h). With
-   --few each renders only what the least of the variants do, and no truths are checked. With
-   --brief so do kernels of a scene's own, beside all frames without, processors with more lanes
-   than they take by themselves, and the variants that differ from another only in how the work is
-   cut, which are left out in double; with more lanes than that no scene has kernels of its own;
-   with fewer none has them in plain C, and where kernels are compiled no frame is surveyed. In
-   double, where kernels are compiled, it leaves out all lanes but one and those, unless --lanes
-   asks for others, and CPUs that work as GPUs do. With
-   --ptx 61 CUDA compiles to PTX for compute_61, of which the driver makes machine code for the
-   device: so the text for a Pascal card runs on any newer one.
+   that opens, in float and double. It demands one hash for each frame and precision, the committed
+   one, and another one of the first hits, which need general kernels. Then it renders with the
+   other pipeline and with other launches (variants.h), and checks frames in flight
+   (frames_in_flight.h).
 
-   Ends with 0 where all is well, 1 where something differs, 2 where it is called wrongly, and 77
-   where nothing of the backend in --backend opens. */
+   --write-golden FILE writes the first renderer's hashes instead. --backend, --lanes, --precision
+   and --threads leave out the others. --one-build builds no scene's own kernels. --few renders only
+   the frames that the least of the variants render, and checks no truths. --ptx 61 makes CUDA
+   compile to PTX for compute_61, which the driver compiles for the device: so the text for a Pascal
+   card runs on any newer one.
+
+   --brief shortens the suite. Only a few frames are rendered by a scene's own kernels, by more
+   lanes than a processor's default, and by variants that differ only in how the work is cut, which
+   double leaves out. With more lanes than the default no scene has its own kernels, with fewer none
+   has them in plain C, and compiled kernels then render no frame with an error bound. In double,
+   compiled kernels leave out all lanes but one and the default, unless --lanes asks for others, and
+   CPUs that work as GPUs.
+
+   Exit codes: 0 equal, 1 differences, 2 wrong usage, 77 nothing of --backend opens. */
 #define _POSIX_C_SOURCE 200809L
 #include <inttypes.h>
 #include <stdbool.h>
@@ -37,8 +38,7 @@
 #include "verify/golden.h"
 
 enum { MAX_FRAMES = 64, MAX_NAME = 64 };
-/* With this many lanes each scene has the kernels that it needs, where a CPU's are compiled for it.
- */
+/* Lane count at which each scene has its own kernels, if a CPU's are compiled for it. */
 enum { OWN_BUILDS = 8 };
 
 static const char usage[] =
@@ -48,7 +48,7 @@ static const char usage[] =
     "                          [--one-build] [--few] [--brief] [--pictures FOLDER]\n"
     "                          [--ptx ARCHITECTURE] (of CUDA; 61: compute_61, a Pascal card's)\n";
 
-/* Which frames are rendered; those that are surveyed have kernels of their own. */
+/* Selections of frames; those with an error bound have kernels of their own. */
 typedef enum Frames { FEW, NOT_BOUNDED, EVERY } Frames;
 
 typedef struct Golden {
@@ -60,7 +60,7 @@ typedef struct Options {
     const char *write_golden, *pictures;
     const HdBackend *backend; /* NULL: all */
     int lanes, precision;     /* an index into lane_counts, an HdPrecision; or ALL */
-    int threads;              /* one less than there are; or ALL */
+    int threads;              /* number of threads less one; or ALL */
     bool one_build, few, brief;
     int math;
     int ptx_arch; /* 0: machine code */
@@ -70,7 +70,7 @@ typedef struct Tally {
     int renderers, frames, different, truths, untrue;
 } Tally;
 
-/* What is committed; every frame must be there. */
+/* Reads the committed hashes; every frame must be there. */
 static bool read_golden(Golden *golden) {
     bool good = true;
     for (int i = 0; i < hd_golden_frame_count; i++)
@@ -150,7 +150,7 @@ static void compare_hash(const Target *target, const char *name, uint64_t hash, 
            target->label);
 }
 
-/* The first renderer, which is plain C's, knows all of it. */
+/* The first renderer, plain C's, knows all of it. */
 static void compare_frame(const Target *target, int number, const Options *options, Golden *golden,
                           Tally *tally) {
     const HdPrecision precision = target->precision;
@@ -180,7 +180,7 @@ static bool is_bounded(int frame) {
     return bounded;
 }
 
-/* The frames that are surveyed come last, for kernels are built anew for them. */
+/* Frames with an error bound come last, because kernels are built again for them. */
 static void compare_frames(const Target *target, Frames frames, const Options *options,
                            Golden *golden, Tally *tally) {
     int different = tally->different, compared = tally->frames;
@@ -198,8 +198,8 @@ static bool is_left_out(const Options *options, const HdRenderOptions *wanted) {
     return options->threads != ALL && wanted->threads != options->threads + 1;
 }
 
-/* Renders all frames and checks the truths, or only some of the frames. What is met first is looked
-   for where the renderer is wanted for it. */
+/* Renders all frames and checks the truths, or only some of the frames. Looks for first hits if
+   requested of the renderer. */
 static void check_renderer(const HdDevice *device, const HdRenderOptions *wanted, Frames frames,
                            bool one_build, const Options *options, Golden *golden, Tally *tally) {
     HdError error;
@@ -226,14 +226,13 @@ static void check_renderer(const HdDevice *device, const HdRenderOptions *wanted
              precision, device->name, text, ptx, one_build ? ", one build" : "");
     if (frames != FEW)
         check_truths(&target, &tally->truths, &tally->untrue);
-    check_flights(&target, &tally->frames, &tally->different);
+    check_frames_in_flight(&target, &tally->frames, &tally->different);
     compare_frames(&target, frames, options, golden, tally);
     tally->renderers++;
     hd_renderer_close(target.renderer);
 }
 
-/* The lanes of which all frames are rendered: briefly only those that a processor takes where
-   nobody asks for any, and fewer. */
+/* Returns the largest lane count that renders all frames: with --brief a processor's default. */
 static int max_lanes_for_all(const HdDevice *device, HdPrecision precision,
                              const Options *options) {
     const HdRenderOptions wanted = {.precision = precision};
@@ -367,7 +366,7 @@ int main(int count, char **arguments) {
     }
     if (options.write_golden == NULL && !read_golden(&golden))
         return 1;
-    /* The plain C backend first: it is always there. */
+    /* The plain C backend first: it always exists. */
     for (int i = HD_BACKEND_COUNT - 1; i >= 0; i--)
         if (options.backend == NULL || options.backend == hd_backends[i])
             check_backend(hd_backends[i], &options, &golden, &tally);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Renders a scene, or ends the program: no test can go on without its frame. */
+/* Renders a scene, or ends the program: no test can continue without its frame. */
 #ifndef HD_CONFORMANCE_RENDER_SCENE_H
 #define HD_CONFORMANCE_RENDER_SCENE_H
 
@@ -9,24 +9,24 @@
 #include "scene/camera.h"
 #include "scene/scene.h"
 
-/* What renders the frames. */
+/* A renderer of the frames. */
 typedef struct Target {
     HdRenderer *renderer;
     HdPrecision precision;
-    bool one_build;   /* the kernels are built for all scenes of the suite at once, which saves time
-                         where building takes most of it; otherwise for what each scene needs */
-    bool first_hits;  /* the renderer was opened for these, and frames come with all of them */
-    char label[1024]; /* for messages */
+    bool one_build;   /* whether kernels are built for all scenes of the suite at once, which saves
+                         time if building takes most of it; otherwise for each scene's needs */
+    bool first_hits;  /* layers that the renderer was opened for and that all frames have */
+    char label[1024]; /* name for messages */
 } Target;
 
-/* The devices of a backend; where they cannot be listed the reason is printed, and there are none.
- */
+/* Returns the devices of a backend; if listing fails, prints the reason and returns none. */
 int find_devices(const HdBackend *backend, HdDevice devices[HD_MAX_DEVICES]);
 
 /* Prints the message and ends the program with 1. */
 _Noreturn void fail(const char *what, const HdError *error);
 
-/* Validates, compiles, uploads and renders. The caller frees the frame. `name` is for messages. */
+/* Validates, compiles, uploads and renders a scene. The caller frees the frame. `name` is for
+   messages. */
 HdFrame render_scene(const Target *target, const HdScene *scene, const HdCamera *camera,
                      const char *name);
 

@@ -21,10 +21,10 @@ void expect(Check *check, const char *truth, int x, int y, double found, double 
     if (fabs(found - expected) <= check->tolerance * (fabs(expected) + 1e-3))
         return;
     check->failed++;
-    if (check->told != truth)
+    if (check->failed_truth != truth)
         printf("UNTRUE %s at (%d, %d): %.9g, expected %.9g on %s\n", truth, x, y, found, expected,
                check->target->label);
-    check->told = truth;
+    check->failed_truth = truth;
 }
 
 void expect_compared(Check *check, const char *truth, int compared, int at_least) {

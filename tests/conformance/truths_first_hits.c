@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the eye's rays meet first: depth, normal, number and coverage. */
+/* First hits of the eye's rays: depth, normal, number and coverage. */
 #include <math.h>
 
 #include "truths.h"
@@ -8,7 +8,7 @@
 enum { WIDTH = 37, HEIGHT = 29, SIDE = 3 };
 static const double FLOOR_Z = -1.0, HALF_SIDE = 3.0, CUBE_HALF = 0.5;
 
-/* A cube along the axes, hovering above a square floor, which are numbers 1 and 2. */
+/* Builds a cube along the axes, hovering above a square floor; they are numbers 1 and 2. */
 static void build(HdScene *scene, HdCamera *camera) {
     build_scene(scene, WIDTH, HEIGHT, SIDE, 2, 1, 0);
     build_solid(scene, 0, HD_HEXAHEDRON, hd_vec3(0.0, 0.0, 0.25), CUBE_HALF * sqrt(3.0), grey(0.5),
@@ -18,17 +18,17 @@ static void build(HdScene *scene, HdCamera *camera) {
 }
 
 typedef struct Expected {
-    double depth; /* 0: nothing is met */
+    double depth; /* 0: nothing is hit */
     HdVec3 normal;
     int object;
-    bool is_near_edge; /* too near for floats to tell what is met */
+    bool is_near_edge; /* too near for floats to decide the hit */
 } Expected;
 
 static double component(HdVec3 a, int axis) {
     return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
 }
 
-/* Slab by slab. */
+/* Intersects slab by slab. */
 static void meet_cube(const HdCamera *camera, HdVec3 direction, Expected *expected) {
     const HdVec3 from = hd_sub(camera->eye, hd_vec3(0.0, 0.0, 0.25));
     double enter = 0.0, before = 0.0, leave = 1e9;
@@ -66,7 +66,7 @@ static Expected look(const HdCamera *camera, HdVec3 direction) {
     return expected;
 }
 
-/* Whether floats can tell. */
+/* Returns whether floats can decide. */
 static bool is_clear(const HdScene *scene, const HdCamera *camera, int x, int y, double *alpha) {
     int covered = 0;
     bool is_near_edge = false;

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* How often rays meet faces: of a closed solid two, whatever they are aimed at, and its own ones
-   never hide what is before them. Rays that are aimed at random tell none of it. */
+/* Hits of faces: a ray crosses a closed solid's surface twice, wherever it is aimed, and a solid's
+   own faces never hide what lies in front of them. Random rays show none of it. */
 #include <math.h>
 
 #include "truths.h"
 #include "verify/scene_builder.h"
 
-/* Between mirrors that glow alike, the radiance is a geometric series, whatever the ray does. */
+/* Between mirrors that glow equally, the radiance is a geometric series, whatever path the ray
+   takes. */
 static void check_mirror_series(Check *check) {
     HdScene scene;
     HdCamera camera;
@@ -30,9 +31,9 @@ static void check_mirror_series(Check *check) {
     }
 }
 
-/* Through clear glass that halves the light at each face, a white background is 4^-k, exactly, for
-   every ray that passes k solids, also for rays aimed at edges and corners: no face is missed or
-   met twice. Returns how many pixels look through the solid. */
+/* Clear glass halves the light at each face. A white background is then exactly 4^-k for every ray
+   that passes k solids, also at edges and corners: no face is missed or hit twice. Returns the
+   number of pixels that look through the solid. */
 static int check_no_leaks(Check *check, HdSolidKind kind, HdVec3 aim) {
     HdScene scene;
     HdCamera camera;
@@ -73,8 +74,8 @@ static void check_edges_and_corners(Check *check) {
     }
 }
 
-/* The middle pixel looks at `target` on the floor z = -1, lit by one light through whatever is
-   between: the ratio of the radiance with and without the solids is the transmittance. */
+/* The middle pixel looks at `target` on the floor z = -1, lit by one light through the solids. The
+   ratio of the radiance with and without them is the transmittance. */
 static void check_transmittance(Check *check, const char *truth, HdScene *scene, HdVec3 target,
                                 double expected) {
     HdCamera camera;
@@ -110,7 +111,7 @@ static void check_panes_through_corners(Check *check) {
     }
 }
 
-/* Through two opposite edges of a cube: as clear glass, and where a rim stops the light. */
+/* Through two opposite edges of a cube: as clear glass, and with a rim that stops the light. */
 static void check_panes_through_edges(Check *check) {
     HdScene scene;
     for (int rim = 0; rim < 2; rim++) {
@@ -122,8 +123,8 @@ static void check_panes_through_edges(Check *check) {
     }
 }
 
-/* The faces of a solid that is alone with its edge lights see none of them from outside: there is
-   its ambient light and no other, in front of a black background. */
+/* The outer faces of a lone solid get no light from its edge lights: they show its ambient light
+   and no other, in front of a black background. */
 static void check_own_lights(Check *check) {
     const double ambient = 0.25 * 0.5;
     HdScene scene;

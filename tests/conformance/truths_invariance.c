@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a change of the scene must do to the picture: nothing, the same as before, or a known thing.
- */
+/* Effects of a change of the scene on the picture: none, or a known one. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -18,7 +17,7 @@ static void expect_true(Check *check, const char *truth, bool holds) {
     expect(check, truth, 0, 0, holds ? 1.0 : 0.0, 1.0);
 }
 
-/* ---- a scene that has all that solids, lights and floors can have, on a coarse grid ---- */
+/* ---- a scene with all features of solids, lights and floors, on a coarse grid ---- */
 
 typedef struct Place {
     double scale;
@@ -84,7 +83,7 @@ static void check_scaling(Check *check) {
     check_same_bytes(check, "triangles scaled by a power of two", HD_GEOMETRY_TRIANGLES, places, 3);
 }
 
-/* On the grid of its places a scene may move: what the kernels get is relative to the eye. */
+/* The scene may move on the grid of its coordinates: the kernels get them relative to the eye. */
 static void check_moving(Check *check) {
     const Place places[] = {{1.0, {0.125, -0.25, 0.375}},
                             {1.0, {64.0, -128.0, 32.0}},
@@ -112,7 +111,7 @@ static HdFrame render_quarter(const Check *check, bool turned) {
     return render_last(check, &scene, &camera);
 }
 
-/* (x, y) goes to (-y, x): the pixel in column i and row j to column j and row SIDE - 1 - i.
+/* (x, y) becomes (-y, x): the pixel in column i and row j becomes column j and row SIDE - 1 - i.
    Rounding may push a sample over an edge. */
 static void check_quarter_turn(Check *check) {
     enum { MAX_DIFFERENT = SIDE * SIDE * 3 / 200 };
@@ -132,7 +131,7 @@ static void check_quarter_turn(Check *check) {
 
 enum { LIGHTS = 7 };
 
-/* Lit by lights alone: no background and no ambient light. */
+/* Renders with lights alone: no background and no ambient light. */
 static HdFrame render_lit(const Check *check, int first_light, double power) {
     const Place origin = {.scale = 1.0};
     HdScene scene, lit;
@@ -156,7 +155,8 @@ static HdFrame render_lit(const Check *check, int first_light, double power) {
     return render_last(check, &scene, &camera);
 }
 
-/* Every value of a picture is as many times another one's; returns how many are above 1. */
+/* Checks that every value of a picture is the same multiple of another's; returns the number of
+   values above 1. */
 static int expect_times(Check *check, const char *truth, const HdFrame *found, double power,
                         const HdFrame *before) {
     int bright = 0;
@@ -170,7 +170,7 @@ static int expect_times(Check *check, const char *truth, const HdFrame *found, d
     return bright;
 }
 
-/* Sums of floats depend on the order in their last digits alone. */
+/* Sums of floats depend on their order in the last digits alone. */
 static void check_light_order(Check *check) {
     HdFrame before = render_lit(check, 0, 1.0);
     for (int first = 1; first < LIGHTS; first += 2) {
@@ -181,7 +181,7 @@ static void check_light_order(Check *check) {
     hd_frame_free(&before);
 }
 
-/* Radiance is linear in the light, far above 1 as well, where files clamp. */
+/* Radiance is linear in the light, also far above 1, where files clamp. */
 static void check_doubled_light(Check *check) {
     HdFrame before = render_lit(check, 0, 1.0);
     for (double power = 2.0; power <= 512.0; power *= 16.0) {
@@ -193,9 +193,9 @@ static void check_doubled_light(Check *check) {
     hd_frame_free(&before);
 }
 
-/* A point of the floor below the origin is seen from one place and lit from another. One solid of
-   glass is on the first way and two are on the second. Both places are as high and as far, so that
-   only the ways are swapped. */
+/* Renders a point of the floor below the origin, seen from one place and lit from another. One
+   solid of glass is on the first segment and two are on the second. Both places have equal height
+   and distance, so that only the segments are swapped. */
 static double render_swapped(const Check *check, HdVec3 eye, HdVec3 light, double transmission) {
     HdScene scene;
     HdCamera camera;
@@ -219,8 +219,7 @@ static double render_swapped(const Check *check, HdVec3 eye, HdVec3 light, doubl
     return found;
 }
 
-/* The view ray multiplies what it passes one by one, and a way to a light does it in its own way.
- */
+/* The view ray multiplies the transmissions one by one; a shadow segment does so in its own way. */
 static void check_swapped(Check *check) {
     const HdVec3 one = {2.0, 1.0, 2.0}, other = {1.0, 2.0, 2.0};
     const double transmissions[] = {1.0, 0.9, 0.37};
@@ -235,8 +234,8 @@ static void check_swapped(Check *check) {
 
 /* ---- energy ---- */
 
-/* In a white world, surfaces that mirror, let through and glow with shares that make 1 are at most
-   white, and less where rays end too early. */
+/* In a white world, surfaces that mirror, transmit and glow with shares that sum to 1 are at most
+   white, and darker if rays end too early. */
 static void check_energy(Check *check, double shares) {
     const double indices[] = {1.0, 1.5, 2.4};
     const HdSolidKind kinds[] = {HD_HEXAHEDRON, HD_OCTAHEDRON, HD_ICOSAHEDRON};
@@ -284,10 +283,9 @@ static double largest_near(const HdFrame *frame, int x, int y, int channel, doub
     return largest;
 }
 
-/* The camera goes a millionth of the scene's size: no pixel changes by 1 of 255 unless a sample
-   crosses a discontinuity, and then it shows what the pixels about it show. Discontinuities are
-   edges of solids, of the floor, of rims and discs, of shadows, and where reflection becomes
-   total. */
+/* The camera moves a millionth of the scene's size: no pixel changes by 1 of 255 unless a sample
+   crosses a discontinuity, and then it shows its neighbours' values. Discontinuities are edges of
+   solids, of the floor, of rims and discs, of shadows, and the onset of total reflection. */
 static void check_small_step(Check *check) {
     enum { MAX_CROSSED = WIDTH * HEIGHT / 200 };
     const Place origin = {.scale = 1.0};

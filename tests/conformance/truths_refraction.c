@@ -6,7 +6,7 @@
 #include "truths.h"
 #include "verify/scene_builder.h"
 
-/* A cube that shows nothing of its own. */
+/* Builds a cube with no emission of its own. */
 static void build_clear_cube(HdScene *scene, int width, int height, int depth, HdVec3 rotation,
                              double index, double background) {
     build_scene(scene, width, height, 1, depth, 1, 0);
@@ -16,8 +16,7 @@ static void build_clear_cube(HdScene *scene, int width, int height, int depth, H
     scene->solids[0].face.index_of_refraction = index;
 }
 
-/* One ray that meets a face at the critical angle plus `excess`, on that side of it from which
-   there is one. */
+/* Checks one ray that hits a face at the critical angle plus `excess`, from the denser side. */
 static void check_critical_angle(Check *check, HdVec3 rotation, int face, double index,
                                  double excess) {
     const double glow = 0.2, background = 0.5;
@@ -62,8 +61,8 @@ static void check_critical_angles(Check *check, HdVec3 rotation) {
         }
 }
 
-/* Where nothing is lost, a clear solid before a white background is white: what does not pass is
-   reflected, totally or not. Two reflections that are not total leave less than can be seen. */
+/* Without losses, a clear solid before a white background is white: light that does not pass is
+   reflected, totally or not. Two partial reflections leave less than is visible. */
 static void check_nothing_lost(Check *check, double index) {
     HdScene scene;
     HdCamera camera;

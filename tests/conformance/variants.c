@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-/* The least memory that works: a packet or a group of threads at a time. */
+/* The least memory that works: one packet or group of threads at a time. */
 enum { LEAST = 1, LITTLE = 100000, SOME = 1000000 };
 
 #define WAVEFRONT   .pipeline = HD_PIPELINE_WAVEFRONT
@@ -50,7 +50,7 @@ bool variant_suits(const Variant *variant, const HdDevice *device) {
         return device->is_cpu;
     case FOR_PLAIN_C:
         return is_plain_c;
-    case FOR_CUDA: /* only it compiles for as many threads as it is asked to */
+    case FOR_CUDA: /* only it compiles for a requested number of threads */
         return device->backend == &hd_backend_cuda;
     case FOR_CPUS_AS_GPUS:
         return device->is_cpu && !is_plain_c;

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* Ways to render that must not change a byte: the other pipeline, little memory for its queue, and
-   the sizes of launches. */
+/* Variants of rendering that must not change a byte: the other pipeline, little memory for its
+   queue, and the sizes of launches. */
 #ifndef HD_CONFORMANCE_VARIANTS_H
 #define HD_CONFORMANCE_VARIANTS_H
 
 #include "device/renderer.h"
 
-/* Which frames: a few are those of is_variant_frame. ONLY_CUT differs from another variant, or from
-   what lanes render, only in how the work is cut. FIRST_HITS looks for these too: their kernel is
-   the same in each variant, so that one with each pipeline does, and one with each way to cut the
-   work that is theirs as well. */
+/* Selects frames: a few are those of is_variant_frame. ONLY_CUT differs from another variant, or
+   from a lane count, only in how the work is cut. FIRST_HITS also compares first hits. Their kernel
+   is the same in each variant, so one with each pipeline does, and one with each way to cut their
+   work. */
 enum { FEW_FRAMES = 0, EVERY_FRAME = 1, ONLY_CUT = 2, FIRST_HITS = 4 };
 
 typedef struct Variant {
@@ -23,8 +23,8 @@ extern const int variant_count;
 
 bool variant_suits(const Variant *variant, const HdDevice *device);
 
-/* True for a few frames: overlapping solids, a single pixel, clamps, two with meshes, and one
-   with everything else that a scene can have. */
+/* Returns true for a few frames: overlapping solids, a single pixel, clamps, two with meshes, and
+   one with all other features of a scene. */
 bool is_variant_frame(const char *name);
 
 #endif

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* Preloaded before the OpenCL library, a driver that fails: FAILING_OPENCL is the name of a
-   function, FAILING_OPENCL_AT the number of its first call that fails, from 1, FAILING_OPENCL_TIMES
-   how many of them fail, else all from there, and FAILING_OPENCL_CODE what they fail with.
-   FAILING_OPENCL_HANGS, if it is there, is a file that is made before the call then waits for ever.
-   FAILING_OPENCL_TEXT is what a compiler of it takes for something else, FAILING_OPENCL_FOR: all of
-   it in the text of a program.
-   FAILING_OPENCL_NAME is what each device says is its name, and with FAILING_OPENCL_LIES a driver
-   claims a hundred devices more than it has, and texts of all the memory that there is, which it
-   then writes to.
-   With FAILING_OPENCL_NS the devices are GPUs whose queues have no profiling, each work item takes
-   so many nanoseconds, and the clock only goes on, to the end of all that is queued, while the host
-   waits for it. At its end the program appends to the file FAILING_OPENCL_REPORT how many launches
-   there were and how many of them took more than 50 ms. */
+/* A driver that fails, preloaded before the OpenCL library. FAILING_OPENCL is the name of a
+   function, FAILING_OPENCL_AT the number of its first call that fails, from 1. FAILING_OPENCL_TIMES
+   is how many of them fail, by default all from there, and FAILING_OPENCL_CODE their error.
+   FAILING_OPENCL_HANGS, if set, is a file that is made before the call waits for ever.
+   FAILING_OPENCL_TEXT is a text that the compiler mistakes for FAILING_OPENCL_FOR, everywhere in a
+   program. FAILING_OPENCL_NAME is the name of each device. With FAILING_OPENCL_LIES the driver
+   claims a hundred devices too many, and texts of all the memory that there is, which it then
+   writes to.
+
+   With FAILING_OPENCL_NS the devices are GPUs whose queues have no profiling, and each work item
+   takes so many nanoseconds. The clock advances only while the host waits for the queue, to the end
+   of its work. At its end the program appends to the file FAILING_OPENCL_REPORT the number of
+   launches and the number of those that took more than 50 ms. */
 #define _GNU_SOURCE
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
@@ -28,12 +28,12 @@
 
 #include "real.h"
 
-#pragma GCC diagnostic ignored "-Wdeprecated-declarations" /* what 1.2 had is what is used */
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations" /* hedron uses the functions of 1.2 */
 
 static atomic_int calls, launches, too_long;
 static atomic_long now = 1, over = 1; /* nanoseconds */
 
-/* The kernel is asked for other clocks: the loader's lock may be held by who wants the time. */
+/* The kernel provides other clocks: the thread that asks the time may hold the loader's lock. */
 int clock_gettime(clockid_t clock, struct timespec *time) {
     if (clock != CLOCK_MONOTONIC || getenv("FAILING_OPENCL_NS") == NULL)
         return (int)syscall(SYS_clock_gettime, clock, time);
@@ -48,7 +48,7 @@ __attribute__((destructor)) static void report(void) {
         close(file);
 }
 
-/* What the call is to fail with, or CL_SUCCESS. */
+/* Returns the call's error, or CL_SUCCESS. */
 static cl_int failure_of(const char *function) {
     const char *failing = getenv("FAILING_OPENCL"), *mark = getenv("FAILING_OPENCL_HANGS");
     if (failing == NULL || strcmp(failing, function) != 0)
@@ -64,7 +64,7 @@ static cl_int failure_of(const char *function) {
     return (cl_int)number_of("FAILING_OPENCL_CODE", CL_OUT_OF_RESOURCES);
 }
 
-/* Those that return a code, and those that return a handle and the code by their last argument. */
+/* Calls that return a code, and calls that return a handle and the code by their last argument. */
 #define CODED(name, parameters, arguments)                                                         \
     cl_int name parameters {                                                                       \
         cl_int(*real) parameters;                                                                  \
@@ -72,7 +72,7 @@ static cl_int failure_of(const char *function) {
         find_real(#name, &real);                                                                   \
         return failure != CL_SUCCESS ? failure : real arguments;                                   \
     }
-/* Those that wait do so even then: nobody may use memory that a copy still reads. */
+/* Calls that wait do so even then: nobody may use memory that a copy still reads. */
 #define WAITING(name, parameters, arguments)                                                       \
     cl_int name parameters {                                                                       \
         cl_int(*real) parameters;                                                                  \
@@ -94,7 +94,7 @@ static cl_int failure_of(const char *function) {
         return NULL;                                                                               \
     }
 
-/* No queue has these where there is no profiling. */
+/* No queue has these without profiling. */
 static cl_command_queue_properties offered(cl_command_queue_properties wanted) {
     return getenv("FAILING_OPENCL_NS") != NULL && wanted != 0 ? ~(cl_command_queue_properties)0
                                                               : wanted;
@@ -159,7 +159,7 @@ MADE(cl_command_queue, clCreateCommandQueue,
       cl_int *code),
      (context, device, offered(properties), code))
 
-/* The caller's, with every `from` replaced. */
+/* Returns a copy with every `from` replaced; the caller frees it. */
 static char *replaced(const char *text, const char *from, const char *by) {
     size_t room = strlen(text) + 1;
     for (const char *at = text; (at = strstr(at, from)) != NULL; at += strlen(from))

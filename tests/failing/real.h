@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What libraries that are preloaded need; _GNU_SOURCE comes before the first header. */
+/* Helpers for preloaded libraries; _GNU_SOURCE comes before the first header. */
 #ifndef FAILING_REAL_H
 #define FAILING_REAL_H
 
@@ -13,7 +13,7 @@ static inline void find_real(const char *name, void *function) {
     memcpy(function, &found, sizeof found);
 }
 
-/* The number in an environment variable. */
+/* Returns the number in an environment variable. */
 static inline long number_of(const char *name, long otherwise) {
     const char *text = getenv(name);
     return text != NULL ? atol(text) : otherwise;

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* Preloaded, a system that fails as environment variables tell.
+/* A system that fails, preloaded and set by environment variables.
    Memory: FAILING_MEMORY_AT is the number, from 1, of the first allocation that fails;
-   FAILING_MEMORY_TIMES is how many of them fail, 1 if it is not there. FAILING_MEMORY_COUNT names a
-   file that gets their number.
+   FAILING_MEMORY_TIMES is how many of them fail, by default 1. FAILING_MEMORY_COUNT names a file
+   that gets their number.
    Threads: FAILING_THREADS_AFTER of them are started, later ones refused.
-   Orphans: with FAILING_ORPHANS programs outlive the one that started them.
-   A file system that hangs: to open a file whose name has STUCK_OPEN in it waits for ever, as for a
-   server that is gone, and no signal but one that kills ends it; STUCK_MARK is made before.
-   A disk: SYNC_LOG names a file that gets a line for each call: "sync FILE BYTES", "folder FOLDER",
-   "rename FROM TO BYTES". SYNC_FAIL=N: the call number N of fsync(), counted from 1, and all later
-   ones fail with an input/output error. */
+   Orphans: with FAILING_ORPHANS programs outlive their parent.
+   A file system that hangs: opening a file with STUCK_OPEN in its name waits for ever, as for a
+   lost server, and only a deadly signal ends it; STUCK_MARK is made before. A disk: SYNC_LOG names
+   a file that gets a line for each call: "sync FILE BYTES", "folder FOLDER", "rename FROM TO
+   BYTES". SYNC_FAIL=N: the call number N of fsync(), counted from 1, and all later ones fail with
+   an input/output error. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
@@ -29,7 +29,7 @@
 
 /* ---- memory ---- */
 
-/* glibc's own, for dlsym() allocates as well. */
+/* glibc's own, because dlsym() allocates as well. */
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);
 void *__libc_realloc(void *memory, size_t size);
@@ -100,7 +100,7 @@ int prctl(int option, ...) {
 
 /* ---- a file system that hangs ---- */
 
-/* The system lets the parent of a vfork() handle no signal before the child has ended. */
+/* The parent of a vfork() handles no signal before the child has ended. */
 static void hang(void) {
     pid_t parent = getpid();
     if (vfork() == 0) { /* NOLINT(clang-analyzer-security.insecureAPI.vfork) */

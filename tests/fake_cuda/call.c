@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* How every call begins and ends, contexts, and what is said of misuse. */
+/* Begin and end of every call, contexts, and reports of misuse. */
 #define _POSIX_C_SOURCE 200809L
 #include <pthread.h>
 #include <stdarg.h>
@@ -14,7 +14,7 @@ enum { FIRST_FAILING = 3 };
 
 struct CUctx_st {
     int retained;
-    HdCuResult lost; /* what every call returns from now on */
+    HdCuResult lost; /* the result of every later call */
 };
 
 static struct CUctx_st primary;
@@ -30,7 +30,7 @@ int fake_capability(void) {
     return (int)fake_number("FAKE_CUDA_CAPABILITY", 61.0);
 }
 
-/* Makes the file, so that a test knows of it. */
+/* Makes the file, to notify a test. */
 static void hang(const char *event) {
     FILE *file = fopen(event, "w");
     if (file != NULL)
@@ -103,7 +103,8 @@ HdCuResult cuDevicePrimaryCtxRetain(HdCuContext *context, HdCuDevice device) {
 HdCuResult cuDevicePrimaryCtxRelease_v2(HdCuDevice device) {
     FAKE_CALL_ANYWHERE(cuDevicePrimaryCtxRelease);
     if (device != 0 || primary.retained == 0)
-        return fake_misuse(FAKE_INVALID_CONTEXT, "a context is released that nobody has");
+        return fake_misuse(FAKE_INVALID_CONTEXT,
+                           "the program releases a context that it does not hold");
     primary.retained--;
     int left = fake_living_count() + fake_memory_count();
     if (primary.retained == 0 && left != 0 && primary.lost == HD_CU_SUCCESS)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The part of CUDA's device language that the kernels use, as C++ for one processor: threads are
-   fibers of the driver (fibers.c). The fake NVRTC includes it before the text that it is given and
-   ends that with a FAKE_KERNEL for each entry point. */
+   fibers of the driver (fibers.c). The fake NVRTC includes it before the kernels' text, after which
+   it appends a FAKE_KERNEL for each entry point. */
 #include "kernel.h"
 
 #define __device__
@@ -89,7 +89,7 @@ static inline double __longlong_as_double(long long a) {
     return fake_bits<double>(a);
 }
 
-/* ---- entry points: how many parameters they have, what these are, and how to call them ---- */
+/* ---- entry points: number of parameters, their types, and how to call them ---- */
 
 template <typename T> struct FakeType {
     static constexpr FakeParameter described = {sizeof(T), 0, 0};

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Stands in for NVIDIA's driver (libcuda.so.1), so that the CUDA backend can be tested without a
-   device: it runs what the fake NVRTC builds (nvrtc.c) on one processor. FAKE_CUDA_DRIVER is the
-   version of CUDA that it tells, FAKE_CUDA_CAPABILITY its device's, 61 for sm_61;
-   with FAKE_CUDA_TIMEOUT=0 it ends no long kernels. */
+/* Stands in for NVIDIA's driver (libcuda.so.1), to test the CUDA backend without a device: it runs
+   the fake NVRTC's modules (nvrtc.c) on one processor. FAKE_CUDA_DRIVER is the version of CUDA that
+   it reports, FAKE_CUDA_CAPABILITY its device's, 61 for sm_61; with FAKE_CUDA_TIMEOUT=0 it ends no
+   long kernels. */
 #include <stdio.h>
 
 #include "fake.h"
@@ -18,7 +18,7 @@ HdCuResult cuDriverGetVersion(int *version) {
     return HD_CU_SUCCESS;
 }
 
-/* Those that tests are told of. */
+/* The errors that tests cause. */
 static const struct {
     HdCuResult code;
     const char *name, *text;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the files of the fake driver share. One thread at a time is in any of them. */
+/* Declarations shared by the fake driver's files. One thread at a time is in any of them. */
 #ifndef HD_FAKE_CUDA_FAKE_H
 #define HD_FAKE_CUDA_FAKE_H
 
@@ -22,9 +22,9 @@ enum {
     FAKE_NOT_READY = 600
 };
 
-/* Every function begins with one of them. They make it fail where it is told to (FAKE_CUDA_FAILS)
-   and keep other threads out until it returns. FAKE_CALL wants a current context, too, that is
-   not lost. */
+/* Every function begins with one of them. They make it fail if FAKE_CUDA_FAILS says so, and keep
+   other threads out until it returns. FAKE_CALL also requires a current context that is not
+   lost. */
 #define FAKE_CALL_ANYWHERE(function)                                                               \
     __attribute__((cleanup(fake_leave))) HdCuResult fake_entered = fake_enter(#function, false);   \
     if (fake_entered != HD_CU_SUCCESS)                                                             \
@@ -36,44 +36,45 @@ enum {
 HdCuResult fake_enter(const char *function, bool needs_context);
 void fake_leave(HdCuResult *entered);
 
-/* Tells on standard error what the program did that it must not; returns the code. */
+/* Reports on standard error the program's misuse; returns the code. */
 __attribute__((format(printf, 2, 3))) HdCuResult fake_misuse(HdCuResult code, const char *format,
                                                              ...);
 
-/* Likewise where it is noticed too late for its call: the context is lost, and the next call that
+/* Likewise if it is noticed too late for its call: the context is lost, and the next call that
    waits returns the code. */
 void fake_lose(HdCuResult code, const char *what);
 HdCuResult fake_lost(void);
 
-/* The value of an environment variable. */
+/* Returns the value of an environment variable. */
 double fake_number(const char *variable, double otherwise);
 
-/* Of the device: 61 stands for sm_61. */
+/* Returns the device's architecture: 61 stands for sm_61. */
 int fake_capability(void);
 
-/* ---- what lives, by its address (living.c): a use of anything else is an error ---- */
+/* ---- living handles, by their address (living.c): using any other is an error ---- */
 
 typedef enum FakeKind { FAKE_STREAM, FAKE_EVENT, FAKE_MODULE, FAKE_FUNCTION } FakeKind;
 
-/* Zeroed memory that is known under its kind. NULL: there is none. */
+/* Returns zeroed memory, registered under its kind; NULL if there is none. */
 void *fake_create(FakeKind kind, size_t bytes);
 bool fake_lives(FakeKind kind, const void *handle);
 void fake_forget(FakeKind kind, void *handle);
 
 /* ---- memory (memory.c) ---- */
 
-/* Where the host has the device's memory; NULL where it is not all in one that lives. */
+/* Returns the host's address of the device's memory; NULL unless all of it lies in one living
+   allocation. */
 void *fake_memory(HdCuPointer pointer, size_t bytes);
-/* Variables of a module, which are memory of the device too while the module lives. False: there is
-   no room for more. */
+/* Registers variables of a module, which are memory of the device while the module lives. Returns
+   false if the table is full. */
 bool fake_add_global(const void *module, void *data, size_t bytes);
 void fake_drop_globals(const void *module);
 bool fake_is_pinned(const void *data, size_t bytes);
 
-/* Whether nobody wrote before or behind any memory. */
+/* Returns whether nobody wrote before or behind any memory. */
 bool fake_guards_hold(void);
 
-/* Of memory, streams, events, modules. */
+/* Counts of memory, streams, events, modules. */
 int fake_living_count(void);
 int fake_memory_count(void);
 
@@ -82,18 +83,18 @@ int fake_memory_count(void);
 typedef struct FakeLaunch {
     HdCuFunction function;
     FakeIndex blocks, threads;
-    uint64_t *arguments; /* as given; device addresses */
+    uint64_t *arguments; /* as passed; device addresses */
 } FakeLaunch;
 
 /* Queues a launch, whose arguments become the queue's. */
 HdCuResult fake_queue_launch(HdCuStream stream, FakeLaunch launch);
 
-/* Tells of what is queued, for something is freed. */
+/* Reports queued operations before something is freed. */
 void fake_expect_idle(void);
 
 /* ---- launches (launch.c, fibers.c) ---- */
 
-/* Runs it; what goes wrong loses the context. */
+/* Runs a launch; an error loses the context. */
 void fake_run_launch(const FakeLaunch *launch);
 
 typedef struct FakeGrid {
@@ -103,7 +104,7 @@ typedef struct FakeGrid {
     const FakeShared *shared;
 } FakeGrid;
 
-/* Runs all blocks, whose numbers are set in `thread`. Returns what went wrong, or NULL. */
+/* Runs all blocks, whose numbers are set in `thread`. Returns the error, or NULL. */
 const char *fake_run_grid(const FakeGrid *grid);
 
 #endif

@@ -8,7 +8,7 @@
 
 #include "fake.h"
 
-/* Stacks do not all begin in the same lines of the cache. */
+/* Stacks must not all begin in the same cache lines. */
 enum {
     MAX_FIBERS = 1024,
     STACK = (128 << 10) + 1088,
@@ -27,15 +27,16 @@ static Fiber fibers[MAX_FIBERS];
 static unsigned char *stacks;
 static void *scheduler; /* its stack */
 static Fiber *current;
-static const FakeGrid *grid; /* that runs */
+static const FakeGrid *grid; /* the running one */
 static unsigned int launches;
 static const char *failure;
 
-/* ---- from one stack to another ---- */
+/* ---- switching stacks ---- */
 
 #ifdef __x86_64__
 
-/* Keeps what a function must keep, on the stack that is left, and where that ends. */
+/* Saves the registers that a function must preserve on the current stack, and stores its
+   pointer. */
 void fake_switch(void **from, void *to);
 __asm__(".text\n"
         ".globl fake_switch\n"
@@ -59,7 +60,7 @@ __asm__(".text\n"
         "    ret\n"
         ".size fake_switch, . - fake_switch\n");
 
-/* A stack on which fake_switch returns to `begin`, as if called. */
+/* Prepares a stack on which fake_switch returns to `begin`, as if called. */
 static void *prepare(unsigned char *stack, void (*begin)(void)) {
     enum { KEPT = 6 };
     uintptr_t top = ((uintptr_t)stack + STACK) & ~(uintptr_t)63;
@@ -101,7 +102,7 @@ static void start_threads(unsigned int count) {
 }
 
 /* Returns whether any thread could run. Every other block, and launch, begins with its last thread,
-   so that what relies on an order is wrong in one of them. */
+   so that code that relies on an order is wrong in one of them. */
 static bool run_ready(unsigned int count) {
     bool any = false;
     for (unsigned int turn = 0; turn < count; turn++) {
@@ -116,8 +117,8 @@ static bool run_ready(unsigned int count) {
     return any;
 }
 
-/* Lets the threads go on if all of them wait. Those that ended never will: nothing waits for them.
- */
+/* Lets the threads continue if all of them wait. Those that ended never will: nothing waits for
+   them. */
 static bool release(unsigned int count) {
     for (unsigned int i = 0; i < count; i++)
         if (fibers[i].is_over || !fibers[i].waits)

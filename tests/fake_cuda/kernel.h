@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the fake driver (C) and the kernels that its NVRTC builds (C++) tell each other. A kernel
+/* The interface between the fake driver (C) and the kernels that its NVRTC builds (C++). A kernel
    NAME is the object fake_kernel_NAME of its module, beside fake_thread and fake_shared. */
 #ifndef HD_FAKE_CUDA_KERNEL_H
 #define HD_FAKE_CUDA_KERNEL_H
@@ -10,7 +10,7 @@ typedef struct FakeIndex {
     unsigned int x, y, z;
 } FakeIndex;
 
-/* The thread that runs, set by the driver. */
+/* The running thread, set by the driver. */
 typedef struct FakeThread {
     FakeIndex thread, block, threads, blocks;
     void (*wait)(void); /* until all threads of the block do so */
@@ -27,8 +27,7 @@ typedef struct FakeKernel {
     const FakeParameter *parameters;
 } FakeKernel;
 
-/* Memory that threads of a block share, with FAKE_SHARED_GUARD bytes at its begin that are no
-   kernel's. */
+/* Memory that threads of a block share; the first FAKE_SHARED_GUARD bytes belong to no kernel. */
 typedef struct FakeShared {
     unsigned char *begin, *end;
 } FakeShared;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Modules, which are shared objects, their functions and their launches. FAKE_CUDA_REFUSES is the
-   number of modules that are not loaded at first. As on a device, machine code is loaded if it is
-   of the device's architecture, and PTX if it is of no newer one. */
+   number of modules that fail to load at first. As on a device, machine code loads if its
+   architecture is the device's, and PTX if it is not newer. */
 #define _GNU_SOURCE /* pipe2 */
 #include <dlfcn.h>
 #include <elf.h>
@@ -32,7 +32,7 @@ struct CUfunc_st {
 
 /* ---- modules ---- */
 
-/* A shared object ends with the table of its sections. */
+/* Returns the size of a shared object, which ends with the table of its sections. */
 static size_t image_size(const void *image) {
     Elf64_Ehdr header;
     memcpy(&header, image, sizeof header);
@@ -52,7 +52,7 @@ static bool write_image(int file, const void *image) {
     return true;
 }
 
-/* The loader wants a file, of a name that it has not seen. */
+/* The loader wants a file, under a name that it has not seen. */
 static void *load_image(const void *image) {
     const char *folder = getenv("TMPDIR");
     char path[4096];
@@ -71,10 +71,11 @@ static bool is_refused(void) {
     return count++ < (int)fake_number("FAKE_CUDA_REFUSES", 0.0);
 }
 
-/* What kernels are built with, unless PTX is loaded with another limit. */
+/* Limits that kernels are built with, unless PTX is loaded with another limit. */
 enum { REGISTERS = 64 };
 
-/* Before PTX there is its head and a NUL, behind machine code its architecture. */
+/* Finds the object: PTX has its head and a NUL before it, machine code its architecture behind
+   it. */
 static const void *find_object(const void *image, bool *suits) {
     const char *head = image;
     int arch = 0;
@@ -190,7 +191,7 @@ HdCuResult cuFuncGetAttribute(int *value, HdCuAttribute attribute, HdCuFunction 
 
 /* ---- launches ---- */
 
-/* Joins pieces of memory. False where one is not there, as a pipe's end notices. */
+/* Joins pieces of memory. Returns false if one is invalid, as a pipe's end notices. */
 static bool read_safely(void *to, const struct iovec *from, int count) {
     static int ends[2] = {-1, -1};
     ssize_t bytes = 0;
@@ -204,7 +205,7 @@ static bool read_safely(void *to, const struct iovec *from, int count) {
     return written == bytes;
 }
 
-/* Nobody tells how long the array is, but what follows it is no argument. */
+/* The array's length is unknown, but no argument follows its end. */
 static HdCuResult read_arguments(HdCuFunction function, void **from, uint64_t *arguments) {
     const FakeKernel *kernel = function->kernel;
     void *place[MAX_PARAMETERS];
@@ -303,5 +304,5 @@ void fake_run_launch(const FakeLaunch *launch) {
     if (failure != NULL)
         fake_lose(HD_CU_ERROR_LAUNCH_FAILED, failure);
     else if (!fake_guards_hold())
-        fake_lose(HD_CU_ERROR_ILLEGAL_ADDRESS, "a kernel wrote beside memory");
+        fake_lose(HD_CU_ERROR_ILLEGAL_ADDRESS, "a kernel wrote outside an allocation");
 }

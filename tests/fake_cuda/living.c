@@ -3,7 +3,7 @@
 
 #include "fake.h"
 
-/* Stays for ever, so that no other one has its address. */
+/* Stays allocated, so that no other one has its address. */
 typedef struct Living {
     struct Living *next;
     FakeKind kind;

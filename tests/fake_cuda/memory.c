@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Memory of the device, which is the host's at addresses that the host cannot read, and memory of
-   the host for copies. Both are full of POISON at first and lie between guards. FAKE_CUDA_MEMORY is
-   how many bytes the device tells that it has. No more than FAKE_CUDA_LARGEST are given at once,
-   and FAKE_CUDA_FREE in all, as where a desktop has the rest. */
+   the host for copies. Both are filled with POISON at first and lie between guards.
+   FAKE_CUDA_MEMORY is the device's reported size in bytes. At most FAKE_CUDA_LARGEST bytes are
+   granted at once, and FAKE_CUDA_FREE in all, as if a desktop had the rest. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -39,7 +39,7 @@ bool fake_guards_hold(void) {
     return true;
 }
 
-/* ---- what there is ---- */
+/* ---- the allocations ---- */
 
 int fake_memory_count(void) {
     int count = 0;
@@ -98,7 +98,7 @@ bool fake_is_pinned(const void *data, size_t bytes) {
     return false;
 }
 
-/* ---- to take and to free ---- */
+/* ---- allocating and freeing ---- */
 
 static Memory *take(size_t bytes) {
     Memory *memory = malloc(sizeof *memory);
@@ -115,7 +115,7 @@ static Memory *take(size_t bytes) {
     return memory;
 }
 
-static HdCuResult give_back(Memory **link) {
+static HdCuResult release(Memory **link) {
     Memory *memory = *link;
     bool held = holds(memory);
     fake_expect_idle();
@@ -123,7 +123,8 @@ static HdCuResult give_back(Memory **link) {
     free(memory->data - GUARD);
     free(memory);
     return held ? HD_CU_SUCCESS
-                : fake_misuse(HD_CU_ERROR_ILLEGAL_ADDRESS, "something was written beside memory");
+                : fake_misuse(HD_CU_ERROR_ILLEGAL_ADDRESS,
+                              "something was written outside an allocation");
 }
 
 static double device_bytes(void) {
@@ -144,7 +145,7 @@ HdCuResult cuMemAlloc_v2(HdCuPointer *pointer, size_t bytes) {
     if (memory == NULL)
         return HD_CU_ERROR_OUT_OF_MEMORY;
     *pointer = memory->address = next_address;
-    next_address += (bytes / PAGE + 2) * PAGE; /* never again the same */
+    next_address += (bytes / PAGE + 2) * PAGE; /* never the same again */
     return HD_CU_SUCCESS;
 }
 
@@ -152,7 +153,7 @@ HdCuResult cuMemFree_v2(HdCuPointer pointer) {
     FAKE_CALL(cuMemFree);
     for (Memory **link = &all; *link != NULL; link = &(*link)->next)
         if (pointer != 0 && (*link)->address == pointer)
-            return give_back(link);
+            return release(link);
     return fake_misuse(FAKE_INVALID_VALUE, "memory of the device is freed that is not there");
 }
 
@@ -171,7 +172,7 @@ HdCuResult cuMemFreeHost(void *data) {
     FAKE_CALL(cuMemFreeHost);
     for (Memory **link = &all; *link != NULL; link = &(*link)->next)
         if ((*link)->address == 0 && (*link)->data == data)
-            return give_back(link);
+            return release(link);
     return fake_misuse(FAKE_INVALID_VALUE, "memory of the host is freed that is not there");
 }
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Stands in for NVRTC 12.8, or with FAKE_NVRTC_MAJOR=13 for 13.0, which knows nothing before sm_75:
-   has the system's compiler build the text, with device.h before it, as a shared object that the
-   fake driver runs. With FAKE_NVRTC_WRONG it computes wrongly. What was built of the same is taken
-   from the folder that FAKE_NVRTC_CACHE names, which must be there. */
+/* Stands in for NVRTC 12.8, or with FAKE_NVRTC_MAJOR=13 for 13.0, which supports nothing before
+   sm_75. The system's compiler builds the text, with device.h before it, as a shared object that
+   the fake driver runs. With FAKE_NVRTC_WRONG it computes wrongly. The folder FAKE_NVRTC_CACHE,
+   which must exist, keeps earlier builds. */
 #define _GNU_SOURCE /* posix_spawn_file_actions_addchdir_np */
 #include <fcntl.h>
 #include <inttypes.h>
@@ -125,7 +125,8 @@ static void add(Words *words, const char *word) {
         words->word[words->count++] = word;
 }
 
-/* What options of NVRTC, or how they begin, mean to a C++ compiler; NULL: nothing, "": the same. */
+/* A C++ compiler's equivalents of NVRTC's options, or of their beginnings; NULL: nothing, "": the
+   same. */
 static const struct {
     const char *option, *meaning;
 } options_known[] = {
@@ -152,7 +153,7 @@ static bool add_option(Words *words, const char *option) {
     return false;
 }
 
-/* 61 of sm_61 and of compute_61; 0: of neither. */
+/* Returns 61 for sm_61 and compute_61; 0 for neither. */
 static int find_arch(const char *option) {
     int arch = 0;
     if (sscanf(option, "--gpu-architecture=sm_%d", &arch) != 1)
@@ -201,9 +202,9 @@ static void remove_folder(const char *folder) {
     rmdir(folder);
 }
 
-/* ---- to compile ---- */
+/* ---- compiling ---- */
 
-/* Runs the compiler in the folder; what it says goes to `log`. */
+/* Runs the compiler in the folder; its messages go to `log`. */
 static bool run(const char *folder, Words *words) {
     posix_spawn_file_actions_t actions;
     pid_t child;
@@ -252,7 +253,7 @@ static bool describe_kernels(const char *folder) {
     return file != NULL;
 }
 
-/* ---- what was built before ---- */
+/* ---- earlier builds ---- */
 
 static uint64_t hash_file(uint64_t hash, const char *folder, const char *name) {
     Text text = {0};
@@ -262,8 +263,8 @@ static uint64_t hash_file(uint64_t hash, const char *folder, const char *name) {
     return hash;
 }
 
-/* Of all that the object depends on: text, device.h and what that includes, command line, compiler.
- */
+/* Hashes all that the object depends on: text, device.h and its includes, command line,
+   compiler. */
 static uint64_t hash_build(const char *folder, const Words *words) {
     uint64_t hash = hash_file(HD_HASH_START, folder, "kernels.cpp");
     struct stat compiler;
@@ -285,7 +286,7 @@ static bool name_kept(char name[MAX_NAME], const char *folder, const Words *word
     return true;
 }
 
-/* Under another name first: who reads it finds all or nothing. */
+/* Writes under another name first: a reader finds all or nothing. */
 static void keep(const char *name, const Text *image) {
     const char *folder = getenv("FAKE_NVRTC_CACHE");
     char unfinished[MAX_PATH], path[MAX_PATH], own[MAX_NAME + 16];
@@ -371,12 +372,12 @@ HdNvrtcResult nvrtcGetProgramLog(HdNvrtcProgram program, char *log) {
 
 enum { HEAD_SIZE = 64 };
 
-/* Of PTX, with its NUL. */
+/* Returns the size of PTX, with its NUL. */
 static size_t write_head(HdNvrtcProgram program, char head[HEAD_SIZE]) {
     return (size_t)snprintf(head, HEAD_SIZE, ".version 8.7\n.target sm_%d\n", program->arch) + 1;
 }
 
-/* Of machine code. */
+/* Returns the size of machine code. */
 static size_t write_tail(HdNvrtcProgram program, char tail[HEAD_SIZE]) {
     return (size_t)snprintf(tail, HEAD_SIZE, "sm_%d", program->arch) + 1;
 }

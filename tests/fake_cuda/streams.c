@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Streams and events. What is queued is carried out as late as possible: when somebody waits for
-   it. So memory that is used again too early, and a wait that is missing, shows. Time passes only
-   while kernels run: what they take, or FAKE_CUDA_THREAD_NS nanoseconds for each of their threads.
-   With FAKE_CUDA_SKIPS they do nothing, in no time. */
+/* Streams and events. Queued operations run as late as possible: when somebody waits for them. So
+   memory that is reused too early, and a missing wait, become visible. Time passes only while
+   kernels run: their real time, or FAKE_CUDA_THREAD_NS nanoseconds for each of their threads. With
+   FAKE_CUDA_SKIPS they do nothing, in no time. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdlib.h>
 #include <string.h>
@@ -19,7 +19,7 @@ struct CUstream_st {
 
 struct CUevent_st {
     unsigned int flags;
-    bool was_recorded; /* and maybe the record was not carried out yet */
+    bool was_recorded; /* and maybe the record was not run yet */
     bool is_reached;   /* it was */
     double time;       /* ms, then */
 };
@@ -31,7 +31,7 @@ typedef struct Operation {
     HdCuPointer device; /* COPY_* */
     void *host;
     void *staged;  /* the bytes of memory that the host may change */
-    uint64_t hash; /* of those that it may not */
+    uint64_t hash; /* the bytes that it may not */
     size_t bytes;
     FakeLaunch launch; /* LAUNCH */
     HdCuEvent event;   /* RECORD, WAIT */
@@ -41,7 +41,7 @@ static double now; /* ms */
 static Operation queue[MAX_OPERATIONS];
 static int queued;
 
-/* ---- to carry out ---- */
+/* ---- running ---- */
 
 static double seconds(void) {
     struct timespec time;
@@ -84,14 +84,14 @@ static void copy_to_host(const Operation *copy) {
 
 static void carry_out(Operation *operation);
 
-/* Runs a stream up to and with operation number `last`. */
+/* Runs a stream up to and including operation number `last`. */
 static void run_stream(const struct CUstream_st *stream, int last) {
     for (int i = 0; i <= last; i++)
         if (queue[i].stream == stream && !queue[i].done)
             carry_out(&queue[i]);
 }
 
-/* Up to the event's last record before operation number `before`. */
+/* Runs up to the event's last record before operation number `before`. */
 static void run_to_event(const struct CUevent_st *event, int before) {
     for (int i = before - 1; i >= 0; i--)
         if (queue[i].kind == RECORD && queue[i].event == event) {
@@ -100,13 +100,13 @@ static void run_to_event(const struct CUevent_st *event, int before) {
         }
 }
 
-/* Once the context is lost nothing happens any more. */
+/* Runs an operation; after the context is lost nothing happens any more. */
 static void carry_out(Operation *operation) {
     operation->done = true;
     if (operation->kind == WAIT)
         run_to_event(operation->event, (int)(operation - queue));
     if (fake_lost() != HD_CU_SUCCESS) {
-        /* it stays as it was */
+        /* it stays unchanged */
     } else if (operation->kind == COPY_TO_DEVICE) {
         copy_to_device(operation);
     } else if (operation->kind == COPY_TO_HOST) {
@@ -135,7 +135,7 @@ static void run_all(void) {
             carry_out(&queue[i]);
 }
 
-/* ---- to queue ---- */
+/* ---- queueing ---- */
 
 static void forget_done(void) {
     int kept = 0;
@@ -148,7 +148,7 @@ static void forget_done(void) {
 static HdCuResult put(Operation operation) {
     forget_done();
     if (queued == MAX_OPERATIONS)
-        return fake_misuse(HD_CU_ERROR_OUT_OF_MEMORY, "nobody waits for what is queued");
+        return fake_misuse(HD_CU_ERROR_OUT_OF_MEMORY, "the program never waits for queued work");
     queue[queued++] = operation;
     return fake_lost();
 }
@@ -170,8 +170,7 @@ static HdCuResult check_event(HdCuEvent event, bool must_be_recorded) {
 static HdCuResult check_copy(HdCuPointer device, const void *host, size_t bytes,
                              HdCuStream stream) {
     if (bytes == 0 || host == NULL || fake_memory(device, bytes) == NULL)
-        return fake_misuse(FAKE_INVALID_VALUE, "a copy of %zu bytes goes beyond what is there",
-                           bytes);
+        return fake_misuse(FAKE_INVALID_VALUE, "a copy of %zu bytes exceeds the allocation", bytes);
     return check_stream(stream);
 }
 
@@ -183,7 +182,7 @@ HdCuResult fake_queue_launch(HdCuStream stream, FakeLaunch launch) {
     return code;
 }
 
-/* Memory that the driver did not give is read before the call returns. */
+/* Memory that the driver did not allocate is read before the call returns. */
 HdCuResult cuMemcpyHtoDAsync_v2(HdCuPointer to, const void *from, size_t bytes, HdCuStream stream) {
     FAKE_CALL(cuMemcpyHtoDAsync);
     HdCuResult code = check_copy(to, from, bytes, stream);
@@ -205,7 +204,7 @@ HdCuResult cuMemcpyHtoDAsync_v2(HdCuPointer to, const void *from, size_t bytes, 
     return put(copy);
 }
 
-/* Memory that the driver did not give is filled before the call returns. */
+/* Memory that the driver did not allocate is filled before the call returns. */
 HdCuResult cuMemcpyDtoHAsync_v2(void *to, HdCuPointer from, size_t bytes, HdCuStream stream) {
     FAKE_CALL(cuMemcpyDtoHAsync);
     HdCuResult code = check_copy(from, to, bytes, stream);
@@ -302,7 +301,7 @@ HdCuResult cuEventSynchronize(HdCuEvent event) {
     return fake_lost();
 }
 
-/* Something takes a millisecond where no time passed. */
+/* An operation takes a millisecond even if no time passed. */
 HdCuResult cuEventElapsedTime(float *milliseconds, HdCuEvent start, HdCuEvent end) {
     FAKE_CALL(cuEventElapsedTime);
     HdCuResult code = check_event(start, true);

@@ -32,7 +32,7 @@ void fuzz_expect(int holds, const char *what) {
     abort();
 }
 
-/* In memory where there is such a file system: campaigns write millions of files. */
+/* Makes the folder in memory if possible: campaigns write millions of files. */
 static void make_folder(void) {
     const char *memory = access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp";
     snprintf(folder, sizeof folder, "%s/hedron-fuzz-XXXXXX", memory);
@@ -40,7 +40,7 @@ static void make_folder(void) {
     atexit(remove_folder);
 }
 
-/* The place of the path with that name, or a free one. */
+/* Returns the place of the path with that name, or a free one. */
 static char *path_of(const char *name) {
     char path[PATH_SIZE];
     snprintf(path, sizeof path, "%s/%s", folder, name);

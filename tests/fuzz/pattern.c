@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Path patterns. Input: a byte that makes the number of a frame, and the pattern. */
+/* Path patterns. Input: a byte that selects a frame's number, and the pattern. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Pictures that are compared, row by row: PNG, OpenEXR and PFM. */
+/* Pictures for comparison, row by row: PNG, OpenEXR and PFM. */
 #include <stdlib.h>
 
 #include "fuzz.h"

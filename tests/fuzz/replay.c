@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Hands every file of a folder to a fuzz target, and changed copies of each: the campaign's finds
-   stay found, wherever there is no libFuzzer. The changes follow from the bytes and the number
-   alone, so that a run can be repeated.
-
-     fuzz_TARGET FOLDER [CHANGES] */
+/* Passes every file of a folder to a fuzz target, and changed copies of each: the campaign's finds
+   stay fixed, even without libFuzzer. The changes follow from the bytes and the number alone, so
+   that a run can be repeated. fuzz_TARGET FOLDER [CHANGES] */
 #define _XOPEN_SOURCE 700
 
 #include <dirent.h>
@@ -26,7 +24,7 @@ static size_t random_below(size_t limit) {
     return (size_t)(random_state >> 11) % limit;
 }
 
-/* An input of its own size, so that a sanitizer sees a byte read too many. */
+/* Runs a copy of its own size, so that a sanitizer detects a byte read too many. */
 static void run_copy(const uint8_t *bytes, size_t size) {
     uint8_t *copy = malloc(size > 0 ? size : 1);
     fuzz_expect(copy != NULL, "no memory");
@@ -35,7 +33,7 @@ static void run_copy(const uint8_t *bytes, size_t size) {
     free(copy);
 }
 
-/* Sets a byte, flips a bit, takes a run of bytes out, or says one twice. */
+/* Sets a byte, flips a bit, removes a run of bytes, or repeats one. */
 static size_t change(uint8_t *bytes, size_t size) {
     const size_t at = random_below(size), rest = size - at;
     const size_t length = 1 + random_below(rest < 16 ? rest : 16);

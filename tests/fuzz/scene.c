@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Scenes in JSON, without the files they name: checked as 'hedron check' does, compiled, written
+/* Scenes in JSON, without the files that they name: checked as by 'hedron check', compiled, written
    and read back. */
 #define _POSIX_C_SOURCE 200809L
 
@@ -19,7 +19,7 @@ static HdStatus parse(HdSceneFile *file, const char *text, size_t size, HdError 
     return hd_scene_file_parse(file, text, size, &source, error);
 }
 
-/* NULL: a path is not UTF-8, which JSON cannot say. */
+/* Prints the scene; NULL: a path is not UTF-8, which JSON cannot express. */
 static char *print(const HdSceneFile *file, size_t *size) {
     static HdError error;
     char *text = NULL;
@@ -31,7 +31,7 @@ static char *print(const HdSceneFile *file, size_t *size) {
     return text;
 }
 
-/* Lights beyond 2^39 may come back a rounding off. */
+/* Lights beyond 2^39 may come back with a rounding error. */
 static int is_exact(const HdScene *scene) {
     for (int i = 0; i < scene->light_count; i++) {
         const HdVec3 at = scene->lights[i].intensity;

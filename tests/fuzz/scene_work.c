@@ -9,8 +9,8 @@
 /* More takes the campaign's time. */
 enum { MAX_SOLIDS = 8, MAX_LIGHTS = 2000, WIDTH = 8, HEIGHT = 6, MAX_DEPTH = 3 };
 
-/* What sanitizers see (cpu_kernels.cmake): packets of floats that are taken where nobody asks for
-   lanes, single lanes of doubles. */
+/* Kernels that sanitizers check (cpu_kernels.cmake): packets of floats with the default lanes,
+   single lanes of doubles. */
 static HdRenderer *open_renderer(HdPrecision precision) {
     static HdError error;
     HdDevice device;
@@ -37,7 +37,7 @@ static void render(const HdScene *scene, const HdCamera *camera, HdPrecision pre
     hd_frame_free(&frame);
 }
 
-/* A small picture of it. */
+/* Makes the scene's picture small. */
 static HdScene shrunk(const HdScene *scene) {
     HdScene small = *scene;
     hd_scene_drop_error_bound(&small);

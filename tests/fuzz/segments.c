@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Files beside a film that is being made: its segments and what a killed run was writing to are
-   removed, and nothing else is. Input: names of files, one a line. */
+/* Files beside a film in progress: removes its segments and a killed run's unfinished file, and
+   nothing else. Input: names of files, one a line. */
 #define _XOPEN_SOURCE 700
 
 #include "output/resume.h"
@@ -37,7 +37,7 @@ static void path_of(char path[HD_MAX_PATH], const char *film, const char *name) 
     snprintf(path, HD_MAX_PATH, "%.*s/%s", (int)(slash - film), film, name);
 }
 
-/* What has no name that a file can have is left out; returns how many there are. */
+/* Makes the files with valid names; returns their number. */
 static int make_files(char *text, const char *film, const char *names[MAX_NAMES]) {
     char path[HD_MAX_PATH], *rest = NULL;
     int count = 0;
@@ -55,7 +55,7 @@ static int make_files(char *text, const char *film, const char *names[MAX_NAMES]
     return count;
 }
 
-/* Those that match are gone, the others are there; these are removed if it is the end. */
+/* Expects matching files gone and the others present; removes these at the end. */
 static void check_files(const char *film, const char *names[], int count, Kind gone, bool is_end) {
     char path[HD_MAX_PATH];
     for (int i = 0; i < count; i++) {

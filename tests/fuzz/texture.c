@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Textures: PNG, JPEG, or else the data format. Input: a byte that picks the curve, and the file.
- */
+/* Textures: PNG, JPEG, or else the data format. Input: a byte that selects the curve, and the
+   file. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,8 +17,8 @@ static void touch(const HdTexture *texture) {
         sum = (uint16_t)(sum + texture->texels[i]);
 }
 
-/* The most pixels that a frame's head of a JPEG says: SOF0 to SOF15, its length, its bits, and two
-   bytes each of height and width. */
+/* Returns the largest number of pixels in a JPEG's frame headers: SOF0 to SOF15, its length, its
+   bits, and two bytes each of height and width. */
 static uint64_t pixels_of_jpeg(const unsigned char *bytes, size_t size) {
     uint64_t most = 0;
     for (size_t i = 0; i + 9 <= size; i++) {

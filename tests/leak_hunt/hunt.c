@@ -9,17 +9,16 @@
 #include "scene/platonic.h"
 #include "verify/scene_builder.h"
 
-/* Where things are along y, and what they show. The floor and the background have one radiance of
-   their own in red and green; the light adds to the floor's green. */
+/* Depths along y, and radiances. The floor and the background have one radiance of their own in red
+   and green; the light adds to the floor's green. */
 #define FLOOR_DEPTH 5.0
 #define WALL_DEPTH  0.1
 #define GLOW        0.25
 #define LIGHT       0.5
 
 /* In the second, third and fourth the eye looks along x, z and -y of the mesh. In the fifth and the
-   sixth its rays change the axis that they are nearest to within the picture. Single precision
-   resolves the skin in all of them: its steps at 200 times the scale are 1/500 of a pixel's width
-   there. */
+   sixth the dominant axis of its rays changes within the picture. Single precision resolves the
+   sheets in all of them: its steps at 200 times the scale are 1/500 of a pixel's width there. */
 const Placement placements[PLACEMENT_COUNT] = {
     {"size 1", 1.0, {0, 0, 0}, {0, 0, 0}, 0},
     {"size 1e-4, along x", 1e-4, {1, -2, 3}, {0, 0, 90}, 0},
@@ -51,12 +50,12 @@ static HdMaterial glowing(void) {
     return material;
 }
 
-/* From the eye's coordinates to the world's. */
+/* Converts the eye's coordinates to the world's. */
 static HdVec3 in_world(const Hunt *hunt, HdVec3 p) {
     return hd_scale(hd_add(p, hunt->placement->offset), hunt->placement->scale);
 }
 
-/* Turns a mesh so that the instance, which turns it back, is where it was. */
+/* Rotates a mesh so that the instance, which rotates it back, keeps its place. */
 static void unturn(HdMesh *mesh, HdVec3 rotation_degrees) {
     HdVec3 axes[3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     hd_rotate_points(axes, 3, rotation_degrees);
@@ -79,7 +78,7 @@ static bool has_light(HuntKind kind) {
     return kind != HUNT_MIRRORS && !is_room(kind);
 }
 
-/* The pixels behind the skin, with or without their shadow rays. */
+/* Fills the expected crossings of pixels behind the sheets and of their shadow rays. */
 static void know_sheets(Hunt *hunt) {
     int last = hunt->side - 1 - HUNT_RIM;
     for (int y = 0; y < hunt->side; y++)
@@ -106,7 +105,7 @@ static void add_floor(Hunt *hunt) {
     hunt->scene.floor.material = glowing();
 }
 
-/* Meshes: the skin, the spots or mirrors if there are any, the stray one if there is one. */
+/* Meshes: the sheets, the spots or mirrors if any, the stray one if any. */
 static void add_meshes(Hunt *hunt) {
     HdScene *scene = &hunt->scene;
     const Placement *placement = hunt->placement;
@@ -166,7 +165,7 @@ void hunt_begin(Hunt *hunt, HuntKind kind, const Placement *placement, int side,
     add_meshes(hunt);
 }
 
-/* A vector of a length of up to 64 steps, the short ones as likely as the long ones. */
+/* Returns a vector of up to 64 steps; short ones are as likely as long ones. */
 static HdVec3 small_move(uint64_t *random, double step) {
     double length = step * exp2(random_between(random, -2.0, 6.0));
     HdVec3 move = {random_between(random, -1.0, 1.0), random_between(random, -1.0, 1.0),
@@ -188,8 +187,7 @@ HdCamera hunt_camera(Hunt *hunt, double step) {
                       .tangent_of_half_fov = HUNT_TANGENT};
 }
 
-/* Of a share of radiance that is no power of a half nobody knows what happened; it counts as a
-   leak. */
+/* If the share of radiance is no power of a half, the cause is unknown; it counts as a leak. */
 static void judge_ray(double share, int surfaces, HuntPixel pixel, Catch *caught) {
     double crossings = share > 0.0 ? -log2(share) : 1000.0;
     bool is_whole = fabs(crossings - rint(crossings)) < 0.01;
@@ -203,13 +201,13 @@ static void judge_ray(double share, int surfaces, HuntPixel pixel, Catch *caught
     caught->double_hits += count > surfaces && is_whole;
 }
 
-/* Of rays that must not arrive. */
+/* Counts rays that must not arrive. */
 static void judge_blocked_ray(double arrived, HuntPixel pixel, Catch *caught) {
     caught->rays += pixel == PIXEL_WITHIN;
     caught->leaks += pixel == PIXEL_WITHIN && arrived != 0.0;
 }
 
-/* What the light adds to the green of a pixel's floor without the skin. */
+/* Returns the light's part of the green of a pixel's floor without the sheets. */
 static double light_of(const Hunt *hunt, int x, int y) {
     HdVec3 point = hd_scale(hunt_pixel_ray(hunt->side, x, y), FLOOR_DEPTH);
     HdVec3 way = hd_normalize(hd_sub(hunt->light, point));

@@ -46,8 +46,8 @@ static void add_sheet_triangle(HdMesh *mesh, int sheet, int first, int a, int b,
         add_triangle(mesh, first + a, first + c, first + b);
 }
 
-/* Whether a cell's diagonal runs down to the right. In the corners of the sheet it runs inwards,
-   for a triangle of three vertices of the rim would be in both sheets, and have nothing between. */
+/* Returns whether a cell's diagonal runs down to the right. In the corners of the sheet it runs
+   inwards: a triangle of three vertices of the rim would be in both sheets. */
 static bool falls(int n, int i, int j, uint64_t *random) {
     bool by_chance = random_bits(random) & 1;
     if ((i == 0 || i == n - 2) && (j == 0 || j == n - 2))
@@ -71,7 +71,7 @@ static void add_sheet(HdMesh *mesh, int n, int sheet, uint64_t *random) {
         }
 }
 
-/* Joins an edge of the front sheet's rim, as its triangle names it, to that of the back sheet. */
+/* Joins an edge of the front sheet's rim, in its triangle's order, to that of the back sheet. */
 static void add_wall(HdMesh *mesh, int n, int a, int b) {
     int behind = n * n;
     add_triangle(mesh, b, a, a + behind);
@@ -98,7 +98,7 @@ static HdVec3 vertex_ray(int side, int i, int j) {
     return hunt_pixel_ray(side, HUNT_RIM + 2 * i, HUNT_RIM + 2 * j);
 }
 
-/* Triangles from a vertex to the rim. */
+/* Returns the number of triangles from a vertex to the rim. */
 static int steps_to_rim(int n, int i, int j) {
     int across = i < n - 1 - i ? i : n - 1 - i, down = j < n - 1 - j ? j : n - 1 - j;
     return across < down ? across : down;
@@ -111,8 +111,7 @@ static double depth_of_sheet(int side, int sheet, int steps, double height) {
     return sheet == FRONT ? 2.5 - away : 2.5 + away;
 }
 
-/* Of row j of n, the first of which is the edge. The nearer to it, the smaller are the triangles.
- */
+/* Returns a vertex of row j of n. Row 0 is the edge, towards which triangles get smaller. */
 static HdVec3 wedge_vertex(int n, int sheet, int i, int j) {
     const double slope = 0.08748866352592401; /* tan 5 degrees */
     double across = (double)i / (n - 1), down = (double)j / (n - 1);
@@ -132,7 +131,7 @@ static HdVec3 material_vertex(HuntMeshMaterial mesh_material, int side, int shee
                           : hd_scale(ray, 2.0 + height * 2.0 * HUNT_TANGENT / side);
 }
 
-/* Sheets have vertices in common where they meet; the others have walls between them. */
+/* Sheets have common vertices at their joint; the others have walls between them. */
 void build_mesh_material(HdMesh *mesh, HuntMeshMaterial mesh_material, int side, double roughness,
                          const HdMaterial *material, uint64_t *random) {
     int n = vertices_of_side(side);
@@ -172,7 +171,7 @@ void build_spots(HdMesh *mesh, int side, const bool *chosen, double depth,
                 add_spot(mesh, side, x, y, depth);
 }
 
-/* A corner or a point of an edge of the mesh. */
+/* Returns a corner or a point of an edge of the mesh. */
 static HdVec3 choose_target(const HdMesh *mesh, uint64_t *random) {
     int triangle = (int)random_between(random, 0.0, mesh->triangle_count);
     int k = (int)random_between(random, 0.0, 3.0);
@@ -182,7 +181,7 @@ static HdVec3 choose_target(const HdMesh *mesh, uint64_t *random) {
     return hd_add(a, hd_scale(hd_sub(b, a), share));
 }
 
-/* Between the way to the eye and that to a target which lies well on this side of the wall. */
+/* Returns a normal that mirrors the eye's ray to a target well on this side of the wall. */
 static HdVec3 choose_normal(HdVec3 point, const HdMesh *target, HdVec3 rotation_degrees,
                             uint64_t *random) {
     HdVec3 way;

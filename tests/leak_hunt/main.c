@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* The leak hunt: aims rays at edges and corners of closed meshes (hunt.h) on every backend and
    device that opens, in float and double, with both pipelines and on CPUs with every number of
-   lanes, and counts those that cross a surface too seldom (leaks) or too often (double hits). RAYS
-   are aimed, or somewhat more, for each backend and precision; another --seed aims other ones, so
-   that a long hunt can be made in parts.
+   lanes. It counts those that cross a surface too seldom (leaks) or too often (double hits). At
+   least RAYS are aimed for each backend and precision; another --seed aims other ones, so that a
+   long hunt can be made in parts.
 
-   Ends with 0 where there are none, 1 where there are some or rendering fails, 2 where it is called
-   wrongly, and 77 where nothing of the backend in --backend opens. */
+   Exit codes: 0 no leaks, 1 leaks or a failure, 2 wrong usage, 77 nothing of --backend opens. */
 #include <inttypes.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -24,7 +23,7 @@
 
 enum { PIPELINES = 2, MAX_RENDERERS = LANE_COUNTS * PIPELINES };
 
-/* Few rays go into small pictures, so that there are still some for every scene and renderer. */
+/* Few rays go into small pictures, so that enough remain for every scene and renderer. */
 enum { TINY_SIDE = 33, SMALL_SIDE = 65, LARGE_SIDE = 257 };
 static const double few_rays = 1e5, many_rays = 2e7;
 
@@ -53,7 +52,7 @@ typedef struct Party {
     HdPrecision precision;
     int side;
     int seed;
-    double share; /* of rays for each renderer, placement and kind */
+    double share; /* rays for each renderer, placement and kind */
 } Party;
 
 static void add_catch(Catch *sum, const Catch *more) {
@@ -85,7 +84,7 @@ static void hunt_frame(HdRenderer *renderer, Hunt *hunt, double step, HdFrame *f
     hunt_judge(hunt, frame->rgb, caught);
 }
 
-/* Until the share of rays is spent; the first frame's eye is where the mesh was made for. */
+/* Hunts until the share of rays is spent; the mesh is made for the first frame's eye. */
 static void hunt_with(HdRenderer *renderer, Hunt *hunt, const Party *party, Catch *caught) {
     HdError error;
     HdFrame frame;
@@ -131,8 +130,8 @@ static void join(Party *party, const HdDevice *device, const HdRenderOptions *wa
     party->renderers[party->count++] = renderer;
 }
 
-/* The C backend with all numbers of lanes; devices that compile their kernels, which takes long,
-   with those that suit them. */
+/* Adds the C backend with all numbers of lanes; devices that compile their kernels, which takes
+   long, with their default. */
 static void gather(Party *party, const HdDevice *device, const Options *options) {
     int lane_choices = device->backend == &hd_backend_c ? LANE_COUNTS : 1;
     for (int i = 0; i < lane_choices; i++)
@@ -208,7 +207,7 @@ int main(int count, char **arguments) {
         fputs(usage, stderr);
         return EXIT_USAGE;
     }
-    /* The plain C backend first: it is always there. */
+    /* The plain C backend first: it always exists. */
     for (int i = HD_BACKEND_COUNT - 1; i >= 0; i--)
         if (options.backend == NULL || options.backend == hd_backends[i])
             hunt_backend(hd_backends[i], &options, &total);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* The plain C kernels with the test of Moeller and Trumbore (1997, Fast, Minimum Storage
-   Ray/Triangle Intersection) in place of their own: what the hunt must find leaks with. */
+   Ray/Triangle Intersection) in place of their own: the hunt must find its leaks. */
 #define cross_triangle exact_cross_triangle
 #include "cpu/dialect.h"
 #include "kernels/common/triangle.h"
 #undef cross_triangle
 
-/* The same as kernels/common/triangle.h says. */
+/* The same contract as in kernels/common/triangle.h. */
 FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3 a, Vec3 b, Vec3 c,
                         TriangleCrossing *crossing) {
     vreal zero = splat(R(0.0)), one = splat(R(1.0));

@@ -4,9 +4,9 @@
 
     compare_scenes.py HEDRON FIRST_SEED COUNT
 
-What belongs to a seed stays in the current folder: SEED.json, the files that it names, and the pictures
-SEED-float.pfm, SEED-double.pfm and SEED-own.pfm. Tells of each scene that differs its seed and the first pixel from the top. Ends
-with 1 where more than a few pixels of all scenes differ.
+A seed's files stay in the current folder: SEED.json, the files that it names, and the pictures SEED-float.pfm,
+SEED-double.pfm and SEED-own.pfm. Prints the seed of each scene that differs, and the first pixel from the top. Ends with 1 if
+more than a few pixels of all scenes differ.
 """
 import array
 import json
@@ -18,11 +18,11 @@ import tracer
 from random_scenes import HEIGHT, WIDTH, Maker
 
 TOLERANCES = {"float": 1e-4, "double": 1e-6}  # relative; a tenth of it absolute
-SHARE_ALLOWED = 0.0005  # of all pixels: an edge may pass a sample so closely that rounding decides
+SHARE_ALLOWED = 0.0005  # share of all pixels: an edge may pass a sample so closely that rounding decides
 
 
 def values_of(path):
-    """The values of a PFM, from the bottom."""
+    """Returns the values of a PFM, from the bottom."""
     data = path.read_bytes().split(b"\n", 3)[3]
     values = array.array("f", data)
     if sys.byteorder == "big":
@@ -31,7 +31,7 @@ def values_of(path):
 
 
 def compared(first, second, tolerance):
-    """The pixels that differ, as (y, x, values, values), and the largest difference of the others."""
+    """Returns the pixels that differ, as (y, x, values, values), and the largest difference of the others."""
     a, b = values_of(first), values_of(second)
     if len(a) != 3 * WIDTH * HEIGHT or len(b) != len(a):
         raise ValueError(f"{first} and {second} have {len(a) // 3} and {len(b) // 3} pixels")
@@ -46,7 +46,7 @@ def compared(first, second, tolerance):
 
 
 def rendered(hedron, seed, folder):
-    """The pictures of the scene of a seed: the tracer's, and hedron's by precision."""
+    """Returns pictures of a seed's scene: the reference's, and hedron's by precision."""
     keys, frame = Maker(seed, folder).scene()
     scene, own = (folder / f"{seed}{end}" for end in (".json", "-own.pfm"))
     theirs = {precision: folder / f"{seed}-{precision}.pfm" for precision in TOLERANCES}
@@ -59,7 +59,7 @@ def rendered(hedron, seed, folder):
 
 
 def main():
-    """The command line."""
+    """Runs the command line."""
     if len(sys.argv) != 4:
         sys.exit(__doc__)
     first, count = int(sys.argv[2]), int(sys.argv[3])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""OBJ and MTL by docs/reference/files.md, smooth normals by docs/model.md; polygons are fans of a corner."""
+"""Reads OBJ and MTL by docs/reference/files.md, smooth normals by docs/model.md; polygons are fans of a corner."""
 import math
 import struct
 
@@ -7,7 +7,7 @@ from vectors import BLACK, WHITE, along, cross, dot, minus, times, unit
 
 
 def single(value):
-    """A number as a float has it."""
+    """Returns a number rounded to float."""
     return struct.unpack("f", struct.pack("f", value))[0]
 
 
@@ -36,11 +36,11 @@ class Model:
 
     @staticmethod
     def corner(text):
-        """The three numbers of a corner, from 0; None where it has none."""
+        """Returns the three indices of a corner, from 0; None for missing ones."""
         return [int(number) - 1 if number else None for number in (text.split("/") + ["", ""])[:3]]
 
     def statements(self):
-        """Of each material of the libraries its statements, by name."""
+        """Returns the statements of each material of the libraries, by name."""
         found, current = {}, None
         for library in self.libraries:
             for line in (self.path.parent / library).read_text("utf-8").splitlines():
@@ -54,7 +54,7 @@ class Model:
 
 
 def from_mtl(statements):
-    """The keys of a material of an MTL library."""
+    """Returns the keys of a material of an MTL library."""
     def numbers(word, unless):
         return [float(number) for number in statements[word].split()] if word in statements else unless
 
@@ -80,7 +80,7 @@ def from_mtl(statements):
 
 
 def smooth_normals(triangles, crease):
-    """For each triangle of places its three corners' normals: means of classes about each place."""
+    """Returns three corner normals for each triangle: means of classes about each place."""
     normals = [unit(cross(minus(b, a), minus(c, a))) for a, b, c in triangles]
     about = {}
     for number, triangle in enumerate(triangles):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Makes random scenes of all that the model has: a seed makes the same scene on every machine."""
+"""Makes random scenes with all features of the model: a seed makes the same scene on every machine."""
 import math
 import random
 import struct
@@ -20,29 +20,29 @@ class Maker:
         self.materials = {}
 
     def chance(self, share):
-        """True in that share of all cases."""
+        """Returns true in that share of all cases."""
         return self.dice.random() < share
 
     def number(self, low, high):
-        """A number between two."""
+        """Returns a number between two."""
         return round(self.dice.uniform(low, high), 6)
 
     def point(self, reach):
-        """A point of a cube about the origin."""
+        """Returns a point of a cube about the origin."""
         return [self.number(-reach, reach) for _ in range(3)]
 
     def colour(self, low=0.2):
-        """A colour that is not too dark."""
+        """Returns a colour that is not too dark."""
         return [self.number(low, 1) for _ in range(3)]
 
     def shares(self, inside, opaque):
-        """Reflection and transmission, either of them often 0."""
+        """Returns reflection and transmission, either of them often 0."""
         reflection = self.number(0.05, 0.5) if self.chance(0.6) else 0
         transmission = self.number(0.1, 0.5) if not opaque and self.chance(0.7) else 0
         return {f"{inside}reflection": reflection, f"{inside}transmission": transmission}
 
     def material(self, index=1, opaque=False, alike=False):
-        """The name of a material that is made; `alike`: on both sides."""
+        """Makes a material and returns its name; `alike`: on both sides."""
         keys = {"colour": self.colour(), "ambient": self.number(0, 0.3), "diffuse": self.number(0, 1),
                 "specular": self.number(0, 1), "shininess": self.dice.choice([1, 5, 64, 300]),
                 **self.shares("", opaque), "index_of_refraction": index}
@@ -57,12 +57,12 @@ class Maker:
         return name
 
     def falloff(self):
-        """Either of the two or none."""
+        """Returns either of the two or none."""
         name, low, high = self.dice.choice([("", 0, 0), ("falloff_distance", 1, 5), ("falloff_end", 5, 12)])
         return {name: self.number(low, high)} if name else {}
 
     def light(self):
-        """A point light anywhere, in half of the cases where solids are or near them, or below the floor."""
+        """Returns a point light: anywhere, in half of the cases in or near solids, or below the floor."""
         place = self.point(3.5)
         if self.chance(0.3):
             place = [a + b for a, b in zip(self.dice.choice(PLACES), self.point(0.2))]
@@ -70,7 +70,7 @@ class Maker:
                 **self.falloff()}
 
     def edge_lights(self, radius):
-        """Lights with discs, lights alone, or discs alone."""
+        """Returns lights with discs, lights alone, or discs alone."""
         keys = {"per_edge": self.dice.choice([1, 2, 3]),
                 "colours": [self.colour(0) for _ in range(self.dice.choice([1, 2, 4, 7, 30]))]}
         if self.chance(0.6):
@@ -81,7 +81,7 @@ class Maker:
         return keys
 
     def solid(self, centre, radius, refracts, lights):
-        """A solid in its place."""
+        """Returns a solid in its place."""
         index = self.dice.choice([0.7, 1.3, 1.5, 2.4]) if refracts else 1
         keys = {"kind": self.dice.choice(KINDS), "centre": centre, "circumradius": radius,
                 "rotation": self.point(180), "material": self.material(index)}
@@ -92,7 +92,7 @@ class Maker:
         return keys
 
     def solids(self, overlapping):
-        """None to three that are apart, or two about one place."""
+        """Returns none to three separate solids, or two about one place."""
         if overlapping:
             return [self.solid(self.point(0.5), self.number(0.7, 1.3), False, i == 0) for i in range(2)]
         places = self.dice.sample(PLACES, self.dice.choice([0, 1, 2, 3, 3]))
@@ -100,14 +100,14 @@ class Maker:
                 for i, place in enumerate(places)]
 
     def texture(self, name):
-        """The size of a picture in the data format that is made."""
+        """Makes a picture in the data format and returns its size."""
         width, height = self.dice.randint(1, 5), self.dice.randint(1, 5)
         pixels = self.dice.randbytes(4 * width * height)
         (self.folder / name).write_bytes(struct.pack("<ii", width, height) + pixels)
         return width, height
 
     def floor(self, cutting):
-        """A quadrilateral below the solids, or a steeper one that cuts them; either side of it may be above."""
+        """Returns a quadrilateral below the solids, or a steeper one that cuts them; either side of it may be above."""
         level, slope = (0.1, self.number(-0.5, 0.5)) if cutting else (-1.5, self.number(-0.05, 0.05))
         square = [(-3, 3), (3, 3), (3, -3), (-3, -3)]
         corners = [[coordinate + self.number(-0.5, 0.5) for coordinate in corner] for corner in square]
@@ -120,11 +120,11 @@ class Maker:
         return keys
 
     def words(self, statement, numbers):
-        """A line of a file of numbers."""
+        """Returns a line of a file of numbers."""
         return " ".join([statement, *(f"{number:.6f}" for number in numbers)])
 
     def library(self):
-        """The size of the texture, or (1, 1), of a material library that is made."""
+        """Makes a material library; returns the size of its texture, or (1, 1)."""
         size, lines = (1, 1), []
         for material in ("paint", "glass"):
             black = material == "glass" and self.chance(0.4)
@@ -150,7 +150,7 @@ class Maker:
                     for z in (-0.4, 0.4) for turn in turns] + [(0, 0, self.number(-1.2, 0)), (0, 0, 1)]
         lines = [f"mtllib {self.name}.mtl"] + [self.words("v", vertex) for vertex in vertices]
         lines += [self.words("vn", [a + b for a, b in zip(vertex, self.point(0.3))]) for vertex in vertices]
-        for _ in vertices:  # where the texture begins anew is left out
+        for _ in vertices:  # where the texture begins again is left out
             lines.append(self.words("vt", (shift + self.number(0.51 / n, 1 - 0.51 / n) for n in size)))
         form = self.dice.choice(["{0}", "{0}/{0}", "{0}//{0}", "{0}/{0}/{0}"])
         for i in range(AROUND - self.chance(0.5)):
@@ -163,7 +163,7 @@ class Maker:
         (self.folder / f"{self.name}.obj").write_text("\n".join(lines) + "\n")
 
     def mesh(self, centre):
-        """The shape in a place."""
+        """Returns the shape in a place."""
         keys = {"file": f"{self.name}.obj", "position": centre, "rotation": self.point(180),
                 "scale": self.dice.choice([0.8, [0.7, 1, 0.5]]), "crease": self.dice.choice([20, 60, 180]),
                 "normals": self.dice.choice(["file", "flat", "smooth"])}
@@ -172,7 +172,7 @@ class Maker:
         return keys
 
     def camera(self, inside):
-        """A fixed eye, also upright above the scene, a path, or an eye near a place."""
+        """Returns a fixed eye, also upright above the scene, a path, or an eye near a place."""
         keys = {"field_of_view": self.number(25, 60), "target": self.point(0.3),
                 "eye": [self.dice.choice([-5, 5]), self.number(-2, 2), self.number(0.3, 3)]}
         if inside:
@@ -189,7 +189,7 @@ class Maker:
         return keys
 
     def scene(self):
-        """The keys of the scene, and the number of a frame of it."""
+        """Returns the keys of the scene, and the number of a frame of it."""
         overlapping = self.chance(0.25)
         keys = {"hedron": 1, "materials": self.materials, "solids": self.solids(overlapping),
                 "image": {"width": WIDTH, "height": HEIGHT, "samples": self.dice.choice([1, 1, 1, 2, 3]),

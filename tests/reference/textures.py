@@ -7,7 +7,7 @@ from vectors import BLACK, along
 
 
 def off_the_srgb_curve(s):
-    """Linear light of a value on the curve."""
+    """Returns linear light of a value on the curve."""
     return s / 12.92 if s <= 0.04045 else ((s + 0.055) / 1.055) ** 2.4
 
 
@@ -23,7 +23,7 @@ class Texture:
         self.repeats = repeats
 
     def at(self, s, t):
-        """The value, bilinear between texel centres."""
+        """Returns the value, bilinear between texel centres."""
         p, q = s * self.width - 0.5, t * self.height - 0.5
         if not self.repeats:
             p, q = min(max(p, 0), self.width - 1), min(max(q, 0), self.height - 1)

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Renders a scene file to a PFM by docs/model.md and docs/reference/ alone: what hedron is compared with.
-
-It is slow, in double, and knows nothing of how hedron computes. Textures are those of the data format.
-"""
+"""Renders a scene file to a PFM by docs/model.md and docs/reference/ alone, as the reference for hedron. It is slow, in
+double, and knows nothing of hedron's code. Textures are those of the data format."""
 import array
 import itertools
 import json
@@ -36,7 +34,7 @@ class Material:
 
 
 class Surface:
-    """What a ray sees in a point: `normal` points to where it comes from."""
+    """A ray's view of a point: `normal` points to the ray's origin."""
     __slots__ = ("point", "normal", "thing", "side", "material", "colour", "emission", "face", "ends")
 
     def __init__(self, point, normal, thing, side, material):
@@ -44,7 +42,7 @@ class Surface:
         self.colour = material.colour
         self.emission = BLACK
         self.face = None
-        self.ends = False  # a disc: there is nothing but the emission
+        self.ends = False  # a disc: only the emission counts
 
 
 class Light:
@@ -57,7 +55,7 @@ class Light:
         self.solid, self.faces = solid, faces
 
     def reaching(self, distance):
-        """Its colour at a distance."""
+        """Returns its colour at a distance."""
         if self.distance is not None:
             return times(1 / (1 + (distance / self.distance)**2), self.colour)
         if self.end is not None:
@@ -70,7 +68,7 @@ SIGNS = list(itertools.product((1, -1), repeat=3))
 
 
 def cyclic(a, b):
-    """R(a, b) of the page: twelve points."""
+    """Returns R(a, b) of the page: twelve points."""
     return [v for p in (a, -a) for q in (b, -b) for v in ((0, p, q), (q, 0, p), (p, q, 0))]
 
 
@@ -112,16 +110,16 @@ class Solid:
         self.add_lights(keys.get("edge_lights", {"per_edge": 0}))
 
     def room(self, face, point):
-        """How far a point lies behind the plane of a face."""
+        """Returns how far a point lies behind the plane of a face."""
         return self.height - dot(self.normals[face], minus(point, self.centre))
 
     def holding(self, edge):
-        """The two faces of an edge."""
+        """Returns the two faces of an edge."""
         return [face for face in range(len(self.normals))
                 if all(self.room(face, self.corners[corner]) < 1e-6 * self.radius for corner in edge)]
 
     def border(self, face):
-        """For each edge of a face a point of it and the direction inwards, in the face."""
+        """Returns for each edge of a face a point of it and the direction inwards, in the face."""
         found = []
         for edge in self.edges:
             if face in self.holding(edge):
@@ -131,7 +129,7 @@ class Solid:
         return found
 
     def add_lights(self, keys):
-        """The lights of the edges, and the discs in order of the edges."""
+        """Adds the lights of the edges, and the discs in order of the edges."""
         count, colours = keys["per_edge"], keys.get("colours", [WHITE])
         self.disc_radius = keys.get("disc_radius", 0)
         for number, edge in enumerate(self.edges):
@@ -144,7 +142,7 @@ class Solid:
                     self.lights.append(Light(place, colour, keys, self, self.holding(edge)))
 
     def span(self, origin, direction):
-        """Where a line enters and leaves: (distance, face) twice, or None where it misses."""
+        """Returns entry and exit of a line: (distance, face) twice, or None if it misses."""
         x, y, z = minus(origin, self.centre)
         dx, dy, dz = direction
         axis = cross((x, y, z), direction)
@@ -165,7 +163,7 @@ class Solid:
         return ((first, entered), (last, left)) if first < last else None
 
     def way_out(self, origin, direction):
-        """Where a ray from within leaves: (distance, face)."""
+        """Returns the exit of a ray from within: (distance, face)."""
         found = []
         for face, normal in enumerate(self.normals):
             speed = dot(normal, direction)
@@ -174,7 +172,7 @@ class Solid:
         return min(found)
 
     def meet(self, origin, direction, left, within):
-        """What a ray meets that left a thing for within or outside of it: (distance, side, face)."""
+        """Returns the hit of a ray that left a thing inwards or outwards: (distance, side, face)."""
         if left is self:
             if not within:
                 return None
@@ -188,12 +186,12 @@ class Solid:
         return None
 
     def on_rim(self, face, point):
-        """Whether a point of a face is on the rim."""
+        """Returns whether a point of a face is on the rim."""
         return self.rim is not None and any(
             dot(inwards, minus(point, corner)) < self.rim_width for corner, inwards in self.borders[face])
 
     def surface(self, point, _, side, face):
-        """What is seen there."""
+        """Returns the surface at a point."""
         rim = self.on_rim(face, point)
         normal = self.normals[face] if side == OUTER else times(-1, self.normals[face])
         found = Surface(point, normal, self, side, self.rim if rim else self.material)
@@ -205,13 +203,13 @@ class Solid:
         return found
 
     def crossed(self, face, point, side):
-        """The factor of light that crosses a face."""
+        """Returns the factor of light that crosses a face."""
         if self.on_rim(face, point):
             return BLACK
         return times(self.material.shares[side][1], self.material.colour)
 
     def passed(self, point, way, light, within):
-        """The factor of a segment; `within`: whether it starts within this solid; None: it is not on it."""
+        """Returns the factor of a segment; `within`: whether it starts within this solid; None: it is not on it."""
         if within is False or (light.solid is self and within):
             return WHITE
         if within:
@@ -244,16 +242,16 @@ class Floor:
             self.texture = Texture(folder / keys["texture"]["file"], keys["texture"]["curve"], False)
 
     def holds(self, point):
-        """Whether a point of the plane is within the border."""
+        """Returns whether a point of the plane is within the border."""
         return all(dot(self.normal, cross(minus(b, a), minus(point, a))) >= 0
                    for a, b in zip(self.corners, self.corners[1:] + self.corners[:1]))
 
     def height(self, point):
-        """How far a point is above the plane."""
+        """Returns how far a point is above the plane."""
         return dot(self.normal, minus(point, self.middle))
 
     def meet(self, origin, direction, left, _):
-        """As of a solid."""
+        """Returns the same as a solid's."""
         speed = dot(self.normal, direction)
         if left is self or speed == 0:
             return None
@@ -262,7 +260,7 @@ class Floor:
         return (distance, OUTER, None) if meets else None
 
     def place(self, point):
-        """The texture coordinates of a point: of two roots in t the one within the square."""
+        """Returns the texture coordinates of a point: of two roots in t the one within the square."""
         c0, c1, c2, c3 = self.corners
         e, f, g = minus(c1, c0), minus(c3, c0), minus(along(c0, 1, c2), along(c1, 1, c3))
         q = minus(point, c0)
@@ -279,7 +277,7 @@ class Floor:
         return dot(minus(q, times(t, f)), across) / dot(across, across), t
 
     def surface(self, point, direction, side, _):
-        """As of a solid."""
+        """Returns the same as a solid's."""
         normal = self.normal if dot(self.normal, direction) < 0 else times(-1, self.normal)
         found = Surface(point, normal, self, side, self.material)
         if self.texture:
@@ -287,7 +285,7 @@ class Floor:
         return found
 
     def passed(self, point, way, _, within):
-        """As of a solid: all or nothing."""
+        """Returns the same as a solid's: all or nothing."""
         if within is not None:
             return WHITE
         here, there = self.height(point), self.height(along(point, 1, way))
@@ -297,7 +295,7 @@ class Floor:
 
 
 class Triangle:
-    """One triangle in the world; what its corners have is in the file's coordinates."""
+    """One triangle in the world; its corners' values are in the file's coordinates."""
 
     def __init__(self, mesh, corners, places, normals, look):
         self.mesh, (self.a, b, c) = mesh, places
@@ -309,7 +307,7 @@ class Triangle:
         self.material, self.texture, self.emission = look
 
     def crossing(self, origin, direction):
-        """Where a line meets it: (distance, side, shares of the corners), or None."""
+        """Returns the hit of a line: (distance, side, shares of the corners), or None."""
         across = cross(direction, self.ac)
         volume = dot(self.ab, across)
         if volume == 0:
@@ -325,7 +323,7 @@ class Triangle:
         return dot(self.ac, upright) / volume, OUTER if volume > 0 else INNER, (1 - b - c, b, c)
 
     def shading_normal(self, direction, side, shares):
-        """The blended normal where it may serve, else the triangle's own."""
+        """Returns the blended normal if it is usable, else the triangle's own."""
         own = self.normal if side == OUTER else times(-1, self.normal)
         if self.normals is None:
             return own
@@ -335,7 +333,7 @@ class Triangle:
         return smooth if speed < 0 and dot(along(direction, -2 * speed, smooth), own) > 0 else own
 
     def surface(self, point, direction, side, shares):
-        """As of a solid."""
+        """Returns the same as a solid's."""
         found = Surface(point, self.shading_normal(direction, side, shares), self, side, self.material)
         found.emission = self.emission
         if self.texture and self.coordinates:
@@ -365,7 +363,7 @@ class Mesh:
 
     @staticmethod
     def looks(model, replacement):
-        """Of each name (material, texture, emission)."""
+        """Returns (material, texture, emission) of each name."""
         found, statements = {}, model.statements()
         for name in {name for name, _ in model.faces}:
             own = statements.get(name, {})
@@ -376,7 +374,7 @@ class Mesh:
 
     @staticmethod
     def corner_normals(model, kind, crease):
-        """Of each triangle its corners' unit normals, or None where it is flat."""
+        """Returns the corners' unit normals of each triangle, or None if it is flat."""
         if kind == "smooth":
             return smooth_normals([[corner[0] for corner in corners] for _, corners in model.faces], crease)
         if kind == "flat":
@@ -386,16 +384,16 @@ class Mesh:
                 for normals in of_file]
 
     def normal_in_world(self, normal):
-        """A normal of the file's coordinates, brought to the world."""
+        """Returns a normal of the file's coordinates in the world's."""
         return unit(self.turn(tuple(n / s for n, s in zip(normal, self.scale))))
 
     def missed(self, origin, direction):
-        """Whether a line misses all of it for sure."""
+        """Returns whether a line certainly misses all of it."""
         axis = cross(minus(origin, self.centre), direction)
         return dot(axis, axis) > self.radius**2 * dot(direction, direction)
 
     def passed(self, point, way, _, on):
-        """The factor of a segment from a point on a triangle, or on none of them."""
+        """Returns the factor of a segment from a point on a triangle, or on none of them."""
         factor = WHITE
         if self.missed(point, way):
             return factor
@@ -427,7 +425,7 @@ class Camera:
 
     @staticmethod
     def place(keys, t):
-        """A point, and the direction from the axis to it."""
+        """Returns a point, and the direction from the axis to it."""
         if not isinstance(keys, dict):
             flat = math.hypot(keys[0], keys[1])
             return tuple(keys), (keys[0] / flat, keys[1] / flat, 0) if flat > 0 else (1, 0, 0)
@@ -438,13 +436,13 @@ class Camera:
         return (r * around[0], r * around[1], z), around
 
     def direction(self, i, j, cells):
-        """Where a sample looks that is i and j half cells from the middle, with so many cells to a row."""
+        """Returns the direction of a sample i and j half cells from the middle, with so many cells to a row."""
         h = self.half / cells
         return unit(along(along(self.forward, i * h, self.right), -j * h, self.up))
 
 
 class Scene:
-    """A scene file, and the light that rays find in it."""
+    """A scene file, and the light along rays."""
 
     def __init__(self, path, frame=0):
         path = Path(path)
@@ -465,7 +463,7 @@ class Scene:
         self.lights += [light for thing in self.things for light in getattr(thing, "lights", ())]
 
     def nearest(self, origin, direction, left, within):
-        """The surface that a ray meets first, or None."""
+        """Returns the first surface that a ray hits, or None."""
         best = (math.inf, None, None)
         found = None
         for thing in self.things:
@@ -480,7 +478,7 @@ class Scene:
         return found and found.surface(along(origin, best[0], direction), direction, best[1], best[2])
 
     def passing_light(self, surface, way, light, within):
-        """T: what comes through from a light to a point, from within the surface's thing or from outside."""
+        """Returns T: the share of a light that reaches a point, from inside the surface's thing or from outside."""
         factor = WHITE
         for thing in self.things:
             on = within if thing is surface.thing else None
@@ -492,7 +490,7 @@ class Scene:
         return factor
 
     def shaded(self, surface, direction):
-        """The light that a point sends out by itself."""
+        """Returns the light that a point sends out by itself."""
         if surface.ends:
             return surface.emission
         material, normal = surface.material, surface.normal
@@ -519,7 +517,7 @@ class Scene:
         return total
 
     def going_on(self, surface, direction):
-        """The rays that go on: (what the weight is multiplied by, direction, whether within)."""
+        """Yields the continuing rays: (factor of the weight, direction, whether within)."""
         material, normal = surface.material, surface.normal
         reflection, transmission = material.shares[surface.side]
         cosine = -dot(normal, direction)
@@ -538,7 +536,7 @@ class Scene:
             yield times(transmission, surface.colour), passing, surface.side == OUTER
 
     def sample(self, direction):
-        """What the rays of one tree add."""
+        """Returns the sum of the rays of one tree."""
         total = BLACK
         rays = [(WHITE, 0, self.camera.eye, direction, None, False)]
         while rays:
@@ -556,7 +554,7 @@ class Scene:
         return total
 
     def pixel(self, x, y):
-        """The mean of a pixel's samples."""
+        """Returns the mean of a pixel's samples."""
         n = self.samples
         total = BLACK
         for b in range(n):
@@ -567,12 +565,12 @@ class Scene:
         return times(1 / (n * n), total)
 
     def picture(self):
-        """All pixels, row by row from the top."""
+        """Returns all pixels, row by row from the top."""
         return [[self.pixel(x, y) for x in range(self.width)] for y in range(self.height)]
 
 
 def write_pfm(path, rows):
-    """Rows from the bottom, little endian."""
+    """Writes rows from the bottom, little endian."""
     values = array.array("f", (channel for row in reversed(rows) for pixel in row for channel in pixel))
     if sys.byteorder == "big":
         values.byteswap()

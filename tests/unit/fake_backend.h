@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A backend for tests: plain C behind what compiles kernels while the program runs, with faults to
-   be switched on. */
+/* A backend for tests: plain C in place of a backend that compiles kernels at run time, with
+   switchable faults. */
 #ifndef HD_TEST_FAKE_BACKEND_H
 #define HD_TEST_FAKE_BACKEND_H
 
@@ -17,22 +17,22 @@ typedef enum FakePoint { FAKE_OPEN, FAKE_UPLOAD, FAKE_SUBMIT, FAKE_COLLECT } Fak
 
 static struct {
     bool is_missing;        /* open fails */
-    bool fails;             /* to render */
+    bool fails;             /* rendering fails */
     bool renders_wrongly;   /* a bit of the picture's last number is wrong */
     bool is_right_in_waves; /* not by the wavefront */
-    bool hides_binary;      /* gives none away */
+    bool hides_binary;      /* refuses memory */
     bool adds_wrongly;      /* in every precision */
-    bool divides_wrongly;   /* but by fused operations */
+    bool divides_wrongly;   /* except by fused operations */
     const char *options;
-    /* What a frame's tracing is said to take; NULL: what it took. */
+    /* Reported tracing time of a frame; NULL: the real one. */
     double (*trace_seconds)(const HdRenderOptions *options);
-    /* Opening fails where it says so; NULL: never. */
+    /* Returns whether opening fails; NULL: never. */
     bool (*refuses)(const HdRenderOptions *options);
-    /* Called at each of these points, with the device's number, on the thread that is there; may
-       wait, or let the device fail. NULL: nothing happens. */
+    /* Called at each of these points, with the device's number, on the thread that reaches it; may
+       wait, or make the device fail. NULL: nothing happens. */
     HdStatus (*event)(FakePoint point, int index, HdError *error);
     atomic_int opened, probed, compiled, loaded, rendered, dropped;
-    /* Of the kernels that were built last. */
+    /* Description of the kernels that were built last. */
     atomic_bool divides_by_fma;
     char key[HD_KERNEL_KEY_LENGTH];
 } fake;
@@ -115,7 +115,7 @@ static HdStatus fake_upload(void *state, const HdSceneTables *tables, HdError *e
 
 static HdStatus fake_submit(void *state, const HdFrameTables *tables, const HdFrameRequest *request,
                             HdError *error) {
-    (void)tables, (void)request; /* plain C has nothing to do yet */
+    (void)tables, (void)request; /* plain C has no work yet */
     return fake_event(FAKE_SUBMIT, ((FakeRenderer *)state)->index, error);
 }
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Tests of the shared kernel functions, called from C, of what no frame of the conformance suite
-   shows: odd numbers, accuracy, bounds. Included once for each HD_LANES and
-   precision. */
+/* Tests of the shared kernel functions, called from C, beyond the frames of the conformance suite:
+   odd numbers, accuracy, bounds. Included once for each HD_LANES and precision. */
 #include <stdbool.h>
 
 #include "cpu/dialect.h"
@@ -29,7 +28,7 @@ TEST(contributions_are_clamped) {
     }
 }
 
-/* docs/numerics.md counts on both limits, in units of the last place. */
+/* docs/numerics.md relies on both limits, in units of the last place. */
 TEST(reciprocals_are_accurate) {
     const long double unit = sizeof(real) == sizeof(float) ? 0x1p-23L : 0x1p-52L;
     for (int i = 0; i < 20000; i++) {
@@ -47,7 +46,7 @@ static Vec3 refract_at_level(Vec3 direction, real relative_index, vmask *total) 
 }
 
 /* A direction may be longer than 1 by rounding: grazing and upright rays must not become NaN, and
-   its length must not pass on from face to face. */
+   its length must not propagate from face to face. */
 TEST(refraction_survives_rounding) {
     vmask total;
     const real ulp = sizeof(real) == 4 ? R(1.1920928955078125e-7) : R(2.220446049250313e-16);
@@ -84,7 +83,7 @@ TEST(pictures_repeat_or_end) {
         for (uint place = 0; place < (WIDTH + 1) * (HEIGHT + 1); place++) {
             uint column = place % (WIDTH + 1), row = place / (WIDTH + 1);
             bool is_beyond = column == WIDTH || row == HEIGHT;
-            /* What is beyond the end of a picture that does not repeat counts nowhere. */
+            /* Coordinates beyond the end of a picture that does not repeat count nowhere. */
             texels[2 * place] = is_beyond && cases[i].is_clamped
                                     ? 65535
                                     : 10000 * (column % WIDTH) + 1000 * (row % HEIGHT);
@@ -96,7 +95,7 @@ TEST(pictures_repeat_or_end) {
     }
 }
 
-TEST(what_filters_light_adds_up) {
+TEST(attenuations_add_up) {
     vreal share = passing_share(splat_int(0), splat_int(0));
     assert_true(lane_real(&share, 0) == R(1.0));
     share = passing_share(splat_int(HD_DARK_DENSITY), splat_int(0));
@@ -109,13 +108,13 @@ TEST(what_filters_light_adds_up) {
     }
 }
 
-/* ---- what is left out of surveyed scenes ---- */
+/* ---- truncation in scenes with an error bound ---- */
 
 /* Lanes in turn: out of a solid, into it, from the fourth mesh. */
 enum { CHANNELS = 3, WAYS = 3, DEAD_LANE = 1 };
 static const double seen_times[WAYS] = {1.0, 2.0, 4.0};
 
-/* Whose weight is (lane + 1) / 4 in one channel. */
+/* Makes rays of weight (lane + 1) / 4 in one channel. */
 static Ray make_ray(int channel) {
     Ray ray = eye_ray(vec3_zero(), ~eq_int(lane_numbers(), splat_int(DEAD_LANE)));
     ray.weight = vec3_zero();
@@ -132,10 +131,9 @@ static Ray make_ray(int channel) {
 
 #define NO_TABLE(type, name) const type *name = NULL;
 
-/* By the greatest radiance that is seen from where a ray leaves, times the exposure; a bound that
-   is the limit is not below it. At the scene's depth all end, and those of a weight below 0.5. What
-   ends is added to the sum. All numbers are sums of few powers of two, so that nothing is rounded.
- */
+/* The bound is the greatest radiance visible from a ray's origin, times the exposure; one at the
+   limit is not below it. At the scene's depth all end, and those of a weight below 0.5. Ended rays
+   add to the sum. All numbers are sums of few powers of two, so that nothing is rounded. */
 TEST(rays_that_end_are_bounded) {
     static const struct {
         double limit;

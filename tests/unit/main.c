@@ -17,7 +17,7 @@
 #include "wrapped.h"
 
 enum { MAX_FILES = 200, MAX_TESTS = 100, MAX_STARTS = 16, MAX_PROGRAMS = 8 };
-enum { PASSED = 42 }; /* the exit code of a file's process, which a stray exit(0) does not have */
+enum { PASSED = 42 }; /* the exit code of a file's process, different from a stray exit(0) */
 
 typedef struct File {
     const char *path;
@@ -110,11 +110,11 @@ typedef struct Timed {
     double begin_seconds;
 } Timed;
 
-static FILE *report; /* standard output, where that of the tests is not */
+static FILE *report; /* standard output, unless it is the tests' */
 
 static int set_up(void **state) {
     Timed *timed = *state;
-    timed->begin_seconds = real_hd_monotonic_seconds(); /* which no test replaces */
+    timed->begin_seconds = real_hd_monotonic_seconds(); /* never replaced by a test */
     return timed->test->setup_func != NULL ? timed->test->setup_func(&timed->state) : 0;
 }
 
@@ -131,20 +131,20 @@ static int tear_down(void **state) {
     return timed->test->teardown_func != NULL ? timed->test->teardown_func(&timed->state) : 0;
 }
 
-/* What cmocka and the tests of a file write: shown after a failure. */
-static void show(int told) {
+/* Shows the output of cmocka and the tests of a file, after a failure. */
+static void show(int log_file) {
     char bytes[4096];
     ssize_t size;
-    lseek(told, 0, SEEK_SET);
-    while ((size = read(told, bytes, sizeof bytes)) > 0)
+    lseek(log_file, 0, SEEK_SET);
+    while ((size = read(log_file, bytes, sizeof bytes)) > 0)
         fwrite(bytes, 1, (size_t)size, stdout);
     fflush(stdout);
 }
 
-static void show_skipped(int told) {
+static void show_skipped(int log_file) {
     char line[512];
-    lseek(told, 0, SEEK_SET);
-    FILE *lines = fdopen(dup(told), "r");
+    lseek(log_file, 0, SEEK_SET);
+    FILE *lines = fdopen(dup(log_file), "r");
     while (lines != NULL && fgets(line, sizeof line, lines) != NULL)
         if (strncmp(line, "[  SKIPPED ] ", 13) == 0 && strstr(line, "test(s)") == NULL)
             printf("  skipped   %s", line + 13);
@@ -187,31 +187,31 @@ static int run_chosen(File *file, int count, char **filters) {
                                    file->group_teardown);
 }
 
-/* Whether the tests of the file pass. */
+/* Returns whether the tests of the file pass. */
 static bool run_file(File *file, int count, char **filters) {
     int status = 0;
-    const int told = memfd_create("told", 0);
+    const int log_file = memfd_create("log", 0);
     fflush(NULL);
     const pid_t child = fork();
     if (child == 0) {
         report = fdopen(fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 100), "w");
-        dup2(told, STDOUT_FILENO);
-        dup2(told, STDERR_FILENO);
-        close(told);
+        dup2(log_file, STDOUT_FILENO);
+        dup2(log_file, STDERR_FILENO);
+        close(log_file);
         exit(run_chosen(file, count, filters) == 0 ? PASSED : 1);
     }
     while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
         ;
     const bool passed = child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == PASSED;
     if (!passed) {
-        show(told);
+        show(log_file);
         if (WIFSIGNALED(status))
             printf("ended by signal %d (%s)\n", WTERMSIG(status), strsignal(WTERMSIG(status)));
         printf("FAILED      %s; alone: ./dev test %s\n", file->name, file->name);
     } else {
-        show_skipped(told);
+        show_skipped(log_file);
     }
-    close(told);
+    close(log_file);
     return passed;
 }
 

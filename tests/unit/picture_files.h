@@ -36,7 +36,7 @@ static inline void write_frame(HdFrame *frame, const HdFormat *format, const HdP
     hd_frame_free(frame);
 }
 
-/* Reads all rows of a picture that has no more than `room` values. */
+/* Reads all rows of a picture of at most `room` values. */
 static inline HdStatus read_picture(const char *path, HdCurve curve, HdPictureFacts *facts,
                                     HdPictureValue *values, int room, HdError *error) {
     HdPictureReader *reader;
@@ -54,7 +54,7 @@ static inline HdStatus read_picture(const char *path, HdCurve curve, HdPictureFa
     return status;
 }
 
-/* What is written to standard error goes into a file, until end_capture tells how much it was. */
+/* Redirects standard error to a file, until end_capture returns its size. */
 static inline int begin_capture(void) {
     const int file = open("stderr.txt", O_RDWR | O_CREAT | O_TRUNC, 0666);
     assert_true(file >= 0);

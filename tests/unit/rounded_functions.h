@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Division and roots of fused operations against the processor's: with float all digits of a
-   divisor and of a number under a root, with both precisions the probe's hard cases. */
+/* Compares division and roots of fused operations with the processor's: in float all digits of a
+   divisor and of a number under a root. In both precisions it tests the probe's hard cases. */
 #define HD_LANES          8
 #define HD_ROUNDED_BY_FMA 1
 
@@ -13,7 +13,7 @@
 #include "unit_test.h"
 #include "verify/probe_operands.h"
 
-/* Sanitizers are slow, and look at a part of the numbers. */
+/* Sanitizers are slow, and check a part of the numbers. */
 #ifndef __has_feature
 #define __has_feature(name) 0
 #endif
@@ -23,7 +23,7 @@ enum { SHARE = 64 };
 enum { SHARE = 1 };
 #endif
 
-/* Any NaN is as good as another. */
+/* Any NaN equals another. */
 static void expect_same(vreal found, const real expected[HD_LANES], const char *what,
                         const real a[HD_LANES], const real b[HD_LANES]) {
     if (memcmp(&found, expected, sizeof found) == 0)
@@ -52,8 +52,8 @@ static void check_roots(const real a[HD_LANES]) {
     expect_same(square_root(load_reals(a)), expected, "the root", a, a);
 }
 
-/* Every number in [1, 2) divides one that is drawn from there; the roots of all in [1, 4). */
-TEST(all_digits_are_right) {
+/* Every number in [1, 2) divides a random one of the same range; the roots of all in [1, 4). */
+TEST(all_digits_are_correct) {
     const uint32_t digits = (uint32_t)1 << 23;
     real a[HD_LANES], b[HD_LANES], drawn[HD_LANES];
     for (uint32_t i = 0; sizeof(real) == sizeof(float) && i < digits; i += SHARE * HD_LANES) {

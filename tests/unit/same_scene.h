@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Whether two scene files say the same, bit by bit: 0 and -0 differ. */
+/* Compares two scene files bit by bit: 0 and -0 differ. */
 #ifndef HD_SAME_SCENE_H
 #define HD_SAME_SCENE_H
 

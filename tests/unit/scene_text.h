@@ -9,11 +9,11 @@
 #include "input/scene_file.h"
 #include "unit_test.h"
 
-/* What must be there, and nothing else. */
+/* The required keys, and nothing else. */
 static const char least_text[] = "{\"hedron\": 1, \"camera\": {\"eye\": [30, 0, 0]}}";
 
-/* Every key, each with a value of its own that is not the default. Solids are far from each other.
- */
+/* Every key, each with a value of its own that is not the default. Solids are far from each
+   other. */
 static const char rich_text[] =
     "{\n"
     "  \"hedron\": 1,\n"
@@ -62,7 +62,8 @@ static const char rich_text[] =
     "            \"texture\": {\"file\": \"floor.png\", \"curve\": \"linear\"}}\n"
     "}\n";
 
-/* Parses a copy with no zero byte behind it, so that a memory checker sees a byte read too many. */
+/* Parses a copy with no zero byte behind it, so that a memory checker detects a byte read too
+   many. */
 static inline HdStatus parse_scene(HdSceneFile *file, const char *text, size_t size,
                                    const HdSceneChange *changes, int change_count, HdError *error) {
     char *copy = malloc(size > 0 ? size : 1);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A temporary folder for the tests of the file that includes this, and what they need for the files
-   in it. Define _XOPEN_SOURCE as 700 first. */
+/* A temporary folder for the tests of the including file, and helpers for its files. Define
+   _XOPEN_SOURCE as 700 first. */
 #ifndef HD_TEST_FOLDER_H
 #define HD_TEST_FOLDER_H
 
@@ -24,12 +24,12 @@ static inline int remove_entry(const char *path, const struct stat *info, int ki
     return remove(path);
 }
 
-/* Removes a folder and what it holds; returns other than 0 where it cannot. */
+/* Removes a folder and its contents; returns other than 0 if it cannot. */
 static inline int remove_folder(const char *path) {
     return nftw(path, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
 }
 
-/* The setup and teardown of the file, where it has no others: its tests run in the folder. */
+/* The setup and teardown of the file, if it has no others: its tests run in the folder. */
 static inline int make_test_folder(void **state) {
     (void)state;
     return mkdtemp(test_folder) == NULL || chdir(test_folder) != 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What each file of unit tests includes: cmocka, assertions that it lacks, and the registration of
-   tests, which main.c runs file by file. */
+/* Header of each file of unit tests: cmocka, further assertions, and the registration of tests,
+   which main.c runs file by file. */
 #ifndef HD_UNIT_TEST_H
 #define HD_UNIT_TEST_H
 
@@ -40,23 +40,23 @@ extern const char *unit_program;
     static void name(void **state __attribute__((unused)))
 #define TEST(name) TEST_WITH(name, NULL, NULL)
 
-/* What runs before all else of the file, in its process. */
+/* Runs before all else of the file, in its process. */
 #define AT_START(start) UNIT_REGISTER(start, unit_add_start(__BASE_FILE__, start))
-/* While tests of the file run, calls of `function`, which wrapped.h has, come to `replacement`. */
+/* While tests of the file run, calls of `function`, which wrapped.h has, go to `replacement`. */
 #define REPLACE(function, replacement)                                                             \
     static void replace_##function(void) {                                                         \
         replaced_##function = (replacement);                                                       \
     }                                                                                              \
     AT_START(replace_##function)
 
-/* What runs once before and after all tests of the file, which do not see its state; the last GROUP
- * counts. */
+/* Run once before and after all tests of the file, which do not see its state; the last GROUP
+   counts. */
 #define GROUP(setup, teardown)                                                                     \
     UNIT_REGISTER(setup##_##teardown, unit_set_group(__BASE_FILE__, setup, teardown))
-/* What runs before and after each TEST of the file. */
+/* Run before and after each TEST of the file. */
 #define EACH(setup, teardown) UNIT_REGISTER(each, unit_set_each(__BASE_FILE__, setup, teardown))
 /* Started under this name, or with it as the first argument, the test program is this program
- * instead. */
+   instead. */
 #define INSTEAD_OF(name, program) UNIT_REGISTER(program, unit_add_program(name, program))
 
 #define expect_near(actual, expected, tolerance)                                                   \

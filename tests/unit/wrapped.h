@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Functions and tables that tests may replace: the linker sends calls to wrapped.c (--wrap), and
-   these go on to the replacement, or where it is NULL to the original. The original is
-   real_FUNCTION. */
+/* Functions and tables that tests may replace: the linker sends calls to wrapped.c (--wrap), which
+   calls the replacement or, if it is NULL, the original. The original is real_FUNCTION. */
 #ifndef HD_WRAPPED_H
 #define HD_WRAPPED_H
 
@@ -43,7 +42,7 @@
     type real_##name parameters;
 HD_WRAPPED(HD_DECLARE_WRAPPED)
 
-/* What the program has as hd_backends. */
+/* The program's hd_backends. */
 extern const HdBackend *replaced_hd_backends[HD_BACKEND_COUNT] __asm__("__wrap_hd_backends");
 
 #endif

@@ -11,8 +11,8 @@ from harness.chart.sheet import device_title
 from harness.measure.numbers import number
 
 ERRORS = {"rmse": "root mean square error", "largest": "largest error"}
-ENOUGH_NEARER = 10  # times nearer to the truth is a reference than what is held to it
-LEAST = 1e-4  # of 255: what is less is drawn there
+ENOUGH_NEARER = 10  # ratio of an error to the reference's own, below which the reference cannot judge it
+LEAST = 1e-4  # steps of 255: smaller errors are drawn there
 TIME = Axis("milliseconds for each frame", True)
 
 
@@ -58,7 +58,7 @@ def device_front(points, error, name, colour, **named):
 # ---- all devices
 
 def fronts(memory):
-    """Returns (least error drawn, {device: its front}), of points far enough from the truth for the reference to judge them."""
+    """Returns (smallest error drawn, {device: its front}) of points far enough from the truth for the reference to judge."""
     limit = ENOUGH_NEARER * own_error(memory["truth"])
     points = [point for point in memory["points"] if point["rmse"] >= max(limit, LEAST)]
     labels = dict.fromkeys(point["device"] for point in points)
@@ -66,9 +66,9 @@ def fronts(memory):
 
 
 def fronts_caption(limit, drawn):
-    told = [f"{label} comes to {number(these[-1]['rmse'], 3)} in {number(these[-1]['ms'], 3)} ms ({these[-1]['name']})."
+    sentences = [f"{label} comes to {number(these[-1]['rmse'], 3)} in {number(these[-1]['ms'], 3)} ms ({these[-1]['name']})."
             for label, these in drawn.items()]
-    return (f"{' '.join(told)} The chart ends at {ENOUGH_NEARER} times the reference's own error of "
+    return (f"{' '.join(sentences)} The chart ends at {ENOUGH_NEARER} times the reference's own error of "
             f"{number(limit / ENOUGH_NEARER, 2)}.")
 
 
@@ -83,7 +83,7 @@ def fronts_chart(about, memory):
 
 
 def fronts_charts(result):
-    """{name: chart}"""
+    """Returns {name: chart}."""
     found = {}
     for scene, memory in (result["fronts"] or {}).items():
         width, height = memory["size"]
@@ -94,7 +94,7 @@ def fronts_charts(result):
 
 
 def charts(result):
-    """{name: chart}"""
+    """Returns {name: chart}."""
     labels = dict.fromkeys(point["device"] for point in result["points"] or [])
     return {f"accuracy_{label.replace(':', '')}_{error}": chart(result, label, error) for label in labels
             for error in ERRORS} | fronts_charts(result)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What hedron chooses by itself, against what it could have chosen: time, and error of the arithmetic."""
+"""What hedron chooses by itself against its alternatives: time, and error of the arithmetic."""
 from dataclasses import dataclass
 
 from harness.accuracy.points import FRAMES, ONCE_SECONDS
@@ -16,10 +16,10 @@ HEAD = ["choice", "way", "device", "scene", "ms [q1..q3]", "to automatic", "RMSE
 class Choice:
     name: str
     option: str
-    ways: dict  # by their names; what comes by itself is another, the first
+    ways: dict  # by name; the program's own choice comes first
     scene: str = "built-in"
     view: tuple = GRID
-    part: int = 1  # of the sides of the frame
+    part: int = 1  # of the frame's sides
 
 
 SEARCHES = {"hierarchy": "bvh", "brute force": "brute"}
@@ -36,7 +36,7 @@ CHOICES = (
 class Choices:
     def __init__(self, plan, judge, size):
         self.plan, self.judge, self.size = plan, judge, size
-        self.jobs = {}  # (device, choice, way): job
+        self.jobs = {}  # (device, choice, variant): job
         self.not_finite = self.frames = 0
         plan.once_seconds = ONCE_SECONDS
 
@@ -74,7 +74,7 @@ class Choices:
         return self.jobs[key]
 
     def table(self):
-        """Entries of the report: time, ratio to what comes by itself, and error."""
+        """Returns entries of the report: time, ratio to the program's own choice, and error."""
         found, automatic = [], {}
         for (label, choice, name), made in self.jobs.items():
             entry = {"choice": choice, "scene": made["scene"], "device": label, "way": name, "trace_ms": None,

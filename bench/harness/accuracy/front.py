@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Error against time: the best front, what is recommended, and the time at equal error."""
+"""Error against time: the best front, recommended settings, and the time at equal error."""
 import math
 
 
 def front(points, error="rmse"):
-    """Those that no other beats in time without having a greater error, by their time. A point is a dictionary
-    with "ms" and the error."""
+    """Returns the points that no other beats in both time and error, by time. A point is a dictionary with "ms" and
+    the error."""
     best = []
     for point in sorted(points, key=lambda each: (each["ms"], each[error])):
         if not best or point[error] < best[-1][error]:
@@ -14,8 +14,8 @@ def front(points, error="rmse"):
 
 
 def time_at(points, error, wanted):
-    """The time at which the front has the wanted error, between its points on a straight line of the
-    logarithms. Where all are better it is that of the fastest; None: none is as good."""
+    """Returns the time at which the front has the wanted error, interpolated on logarithms. If all points are better
+    it is the fastest one's; None if none is as good."""
     best = front(points, error)
     if not best or best[-1][error] > wanted:
         return None
@@ -29,8 +29,7 @@ def time_at(points, error, wanted):
 
 
 def ratios(points, baseline, error="rmse"):
-    """[(error, ratio)]: the time of the points by that of the baseline, at each error of the baseline's front that
-    they reach."""
+    """Returns [(error, ratio)]: the points' time by the baseline's, at each error of the baseline's front that they reach."""
     found = []
     for point in front(baseline, error):
         ms = time_at(points, error, point[error])
@@ -40,6 +39,6 @@ def ratios(points, baseline, error="rmse"):
 
 
 def cheapest(points, limit, error="rmse"):
-    """The fastest one with at most such an error."""
+    """Returns the fastest point with at most such an error."""
     good = [point for point in points if point[error] <= limit]
     return min(good, key=lambda each: each["ms"], default=None)

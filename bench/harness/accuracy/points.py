@@ -12,7 +12,7 @@ from harness.run.program import digest
 
 SCENE = "built-in"
 FRAMES = "0-3"  # the first gives the error and warms up; its neighbours give the time
-ENOUGH_SECONDS, ENOUGH_QUICKLY = 3.0, 0.4  # of a frame: what would take longer is left out
+ENOUGH_SECONDS, ENOUGH_QUICKLY = 3.0, 0.4  # of a frame: slower settings are left out
 ONCE_SECONDS = 0.4  # slower frames are timed in the first round only
 
 
@@ -22,14 +22,14 @@ def empty_memory():
 
 
 class Points:
-    """`memory` is filled, and `save` called, after every run. It may have what an interrupted call of the same left. The scene
-    is one of the plan's, the families are of settings.FAMILIES."""
+    """Measures every setting of every device. Fills `memory` and calls `save` after every run; `memory` may hold the
+    points of an interrupted call. The scene is one of the plan's, the families are of settings.FAMILIES."""
 
     def __init__(self, plan, judge, size, memory, truth_file, save=lambda: None, *, scene=SCENE, families=settings.FAMILIES):
         self.plan, self.memory, self.size, self.save_memory = plan, memory, size, save
         self.scene, self.families = scene, families
         self.truth = Truth(plan, judge, scene, size, truth_file)
-        self.settings, self.left_out = {}, {}  # (device, setting): job, and why there is none
+        self.settings, self.left_out = {}, {}  # (device, setting): job, and the reason if there is none
         plan.once_seconds = ONCE_SECONDS
 
     def job(self, label, setting):
@@ -42,10 +42,10 @@ class Points:
         self.memory["jobs"][key] = self.settings[label, setting] = made
         return made
 
-    # ---- the work
+    # ---- running
 
     def first_round(self):
-        """Runs each setting of a family after the one before, from which its time follows."""
+        """Runs the settings of a family in order; each one's time predicts the next one's."""
         for label in self.plan.runnable:
             for name, family in settings.settings(self.plan.quick).items():
                 before = None
@@ -68,7 +68,7 @@ class Points:
         return True
 
     def judge(self, made):
-        """Error of the first frame, and NaNs and infinities of all."""
+        """Notes the error of the first frame, and the NaNs and infinities of all."""
         if "error" in made:
             return
         frames = made["runs"][0]["frames"]
@@ -81,7 +81,7 @@ class Points:
 
     def measure(self, repeats):
         if not self.truth.is_made(self.memory["truth"]):
-            self.memory.update(empty_memory())  # errors against another picture are worth nothing
+            self.memory.update(empty_memory())  # errors against another picture mean nothing
             self.truth.make()
             self.memory["truth"] = self.truth.facts
         self.first_round()
@@ -89,7 +89,7 @@ class Points:
         self.plan.run_all(repeats)
         self.save()
 
-    # ---- what came of it
+    # ---- results
 
     def save(self):
         points = self.points()
@@ -107,7 +107,7 @@ class Points:
                 "missing": frame.get("missing"), "renderer": made["renderer"], "on_front": False, "recommended": None}
 
     def points(self):
-        """All, with the front and what is recommended marked. An unfinished run gives what it has."""
+        """Returns all points, with the front and recommended settings marked; of an unfinished run those that it has."""
         found = []
         for label in self.plan.runnable:
             points = [self.point(label, setting, made) for (which, setting), made in self.settings.items()
@@ -119,14 +119,14 @@ class Points:
         return found
 
     def absent(self):
-        """What could not be tried, and why."""
+        """Returns the settings that could not be tried, and why."""
         refused = {key: made["reason"] for key, made in self.settings.items() if made["reason"]}
         return [{"device": label, "family": setting.family, "name": setting.name, "reason": reason}
                 for (label, setting), reason in {**refused, **self.left_out}.items()]
 
 
 def recommend(points):
-    """Marks the fastest settings that are at least as good as some grids. What hedron chooses by itself is none."""
+    """Marks the fastest settings that are at least as good as some grids, without those that hedron chooses by itself."""
     others = [point for point in points if point["family"] != settings.CHOSEN]
     for number, word in settings.DRAFT_USUAL_FINE.items():
         grid = next((each for each in points if each["name"] == f"grid {number}"), None)
@@ -136,15 +136,15 @@ def recommend(points):
 
 
 def recommended(points):
-    """[(word, point)], from the draft on."""
+    """Returns [(word, point)], from the draft on."""
     words = list(settings.DRAFT_USUAL_FINE.values())
     return sorted(((point["recommended"], point) for point in points if point["recommended"]),
                   key=lambda each: words.index(each[0].split()[0]))
 
 
 def equal_error(points, label, families=settings.BOUNDED_FAMILIES, baseline=settings.BASELINE):
-    """[(error, ratio)] of the time of some families by that of another; of adaptive sampling and bounded depth by that
-    of the grid in full depth, if not said."""
+    """Returns [(error, ratio)] of some families' time by another's; by default of adaptive sampling and bounded depth
+    by the grid in full depth."""
     own = [each for each in points if each["device"] == label]
     return front.ratios([each for each in own if each["family"] in families],
                         [each for each in own if each["family"] == baseline])

@@ -2,14 +2,13 @@
 """The settings that bench/study accuracy tries, in families: each continues if the one before was affordable."""
 from dataclasses import dataclass
 
-# So deep a grid without a cut-off can be afforded; deeper costs more still, so ratios to it are no
-# exaggeration.
+# The deepest affordable grid without a cut-off. Deeper ones cost more, so ratios to it do not exaggerate.
 FULL_DEPTH = 40
 BOUNDED = ("--depth", "30", "--cutoff", "0.001")
 LESS_BOUNDED = ("--depth", "30", "--cutoff", "0.003")
-SIDE = 4  # of the grid of families that vary something else
+SIDE = 4  # grid of the families that vary something else
 SIDES, SIDES_QUICKLY = (1, 2, 3, 4, 6, 8), (1, 2, 4)
-DRAFT_USUAL_FINE = {2: "draft", 4: "usual", 8: "fine"}  # sides of the grids that they are as good as
+DRAFT_USUAL_FINE = {2: "draft", 4: "usual", 8: "fine"}  # sides of the grids that set their error
 
 
 @dataclass(frozen=True)
@@ -44,13 +43,13 @@ def by_side(family, sides, *others):
 
 
 def by_value(family, option, values, word, *others):
-    """A value more is some three times the work, at most."""
+    """Returns settings of a value each; one value more takes some three times the work, at most."""
     return [Setting(family, f"{word}{value}", (*others, option, str(value)), 3 ** place)
             for place, value in enumerate(values)]
 
 
 def settings(quick):
-    """{family: [Setting]}, each list by its work."""
+    """Returns {family: [Setting]}, each list by its work."""
     sides = SIDES_QUICKLY if quick else SIDES
     at_side = ("--samples", str(SIDE))
     adaptive = ("--aa", "adaptive")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Targets that are held on every scene that ships."""
+"""Targets that hold on every scene that ships."""
 from harness.accuracy.truth import render
 from harness.measure.rows import Missing, Target
 from harness.run import pfm
@@ -10,8 +10,8 @@ BOUND = Target(4, 4, False)
 SAMPLES = RAYS = Target(1 / 2, 1 / 4, False)
 WITHIN = Target(99.9, 99.99)
 LIMIT, NEARER = "1", "0.03"
-# Each of its rays goes on twice at every hit, so that a nearer bound takes hours. A small cut-off promises nothing, but
-# a tenth of it changes this picture by a tenth as much.
+# Each of its rays continues twice at every hit, so that a tighter bound takes hours. A small cut-off promises nothing,
+# but a tenth of it changes this picture by a tenth as much.
 BRANCHING, FEW_PIXELS, LESS_NEAR = "knot", ("--size", "8x6", "--samples", "1"), ("--depth", "400", "--cutoff", "1e-8")
 VIEWS = {True: (("--size", "64x48", "--samples", "1"), ("--size", "32x24", "--samples", "1")),
          False: (("--size", "160x90", "--samples", "2"), ("--size", "64x48", "--samples", "1"))}
@@ -19,12 +19,13 @@ ADAPTIVE = {True: (("--size", "160x90"), ("4",)), False: ((), ("4", "8"))}
 
 
 def there(found):
-    """Without what could not be measured."""
+    """Returns the values without those that could not be measured."""
     return {name: each for name, each in found.items() if not isinstance(each, str)}
 
 
 class SceneTargets:
-    """`scenes` are the files; all runs use one device, because the bytes are the same on all."""
+    """Measures the targets of accuracy on `scenes`, which are files. All runs use one device, because the bytes are
+    the same on all."""
 
     def __init__(self, plan, device, scenes):
         self.plan, self.device, self.scenes = plan, device, scenes
@@ -34,7 +35,7 @@ class SceneTargets:
         self.not_finite = self.frames = 0
 
     def render(self, scene, name, *options):
-        """(statistics, file)"""
+        """Returns (statistics, file)."""
         file = self.plan.folder / f"{name}.pfm"
         frame = render(self.plan, self.device, scene, options, file)
         self.not_finite += pfm.not_finite(file)
@@ -62,7 +63,7 @@ class SceneTargets:
                    min, f"same samples, {' '.join(self.arithmetic_view)}")
         self.each("arithmetic", "%", shares)
 
-    # ---- what is left out
+    # ---- truncation
 
     def truncated(self, scene):
         view, nearer = self.truncation_view, ("--max-error", NEARER)
@@ -96,7 +97,8 @@ class SceneTargets:
     # ---- adaptive sampling
 
     def both_samplings(self, scene, per_axis):
-        """The measure is that of a picture, after the curve, whose brightest lights a display does not show."""
+        """Adds the targets of adaptive sampling. The error is that of a picture after the curve: a display does not
+        show the brightest lights."""
         view = (*self.adaptive_view, "--samples", per_axis)
         (grid, plain), (frame, adaptive) = [self.render(scene, way, *view, "--aa", way) for way in ("grid", "adaptive")]
         return {"samples": frame["rays"]["primary"] / grid["rays"]["primary"],

@@ -1,25 +1,25 @@
 # SPDX-License-Identifier: MIT
-"""The reference that pictures are held to, and what is known of its own error."""
+"""The reference for other pictures' errors, and its own error."""
 from harness.run import pfm
 from harness.run.program import Problem, digest
 
-# Of 32 x 32 dense samples on an edge between black and white, in steps of 255: tests/unit/render/test_samples.c.
+# Error of 32 x 32 dense samples on an edge between black and white, in steps of 255: tests/unit/render/test_samples.c.
 SAMPLE_ERROR, SAMPLE_SIDE = 2.2, 32
 SIDE_QUICKLY = 16
-# Steps of 255 that may be left out of it: the first one that is affordable, or the last.
+# Truncation errors of the reference, in steps of 255: the first affordable one counts, or the last.
 LIMITS = ("0.015625", "0.25", "2")
 SECONDS, SECONDS_QUICKLY = 150, 12
-PART = 16  # of the picture's rows, in its middle: from it follows the time of the whole
+PART = 16  # divisor of the picture's rows: the middle ones predict the time of the whole
 
 
 def own_error(facts):
-    """RMSE of the reference itself, by its distance to that of a quarter of the samples: of those four times as many leave a
-    third of the error (tests/unit/render/test_samples.c), and the errors of both are independent."""
+    """Returns the RMSE of the reference itself, by its distance to a picture of a quarter of the samples. Four times
+    as many samples leave a third of the error (tests/unit/render/test_samples.c), and both errors are independent."""
     return facts["to_quarter_of_samples"]["rmse"] / 10 ** 0.5
 
 
 def render(plan, device, scene, options, file):
-    """The statistics of frame 0, which becomes a PFM."""
+    """Renders frame 0 as a PFM and returns its statistics."""
     done = plan.program.render(device, scene, "0", (*options, *plan.options), file.parent, output=str(file))
     if done["code"] != 0:
         raise Problem(done["code"], done["message"])
@@ -27,7 +27,7 @@ def render(plan, device, scene, options, file):
 
 
 class Truth:
-    """`file` has the picture once `make` was called; `facts` is what is known of it. The scene is one of the plan's."""
+    """Renders a reference. `file` has the picture after `make`, `facts` describes it. The scene is one of the plan's."""
 
     def __init__(self, plan, device, scene, size, file):
         self.plan, self.device, self.scene, self.size, self.file = plan, device, plan.scenes[scene], size, file
@@ -35,7 +35,7 @@ class Truth:
         self.facts = None
 
     def is_made(self, facts):
-        """Whether the file is that of these facts, which then are known of it."""
+        """Returns whether the file belongs to these facts; if so, takes them."""
         self.facts = facts if facts and self.file.is_file() and digest(self.file) == facts["sha256"] else None
         return self.facts is not None
 
@@ -44,7 +44,7 @@ class Truth:
                                                      "--size", f"{self.size[0]}x{self.size[1]}", *more), file)
 
     def limit(self):
-        """By the middle rows, which take longer than the others."""
+        """Returns the affordable truncation error, by the time of the middle rows, which take longer than the others."""
         width, height = self.size
         rows = max(1, height // PART)
         for limit in LIMITS[:-1]:

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass, field
 
-FEW_POWERS = 3  # of ten: then 2 and 5 times them are named too
+FEW_POWERS = 3  # powers of ten: below it 2 and 5 times them are labelled too
 LINEAR_TICKS = 6
 
 
@@ -11,12 +11,12 @@ LINEAR_TICKS = 6
 class Axis:
     words: str
     logarithmic: bool = False
-    ticks: dict = field(default_factory=dict)  # words: place; none: usual ones
+    ticks: dict = field(default_factory=dict)  # {words: place}; empty: usual ones
 
 
 @dataclass(frozen=True)
 class Scale:
-    """From low to high, drawn from start to end."""
+    """An axis from low to high, drawn from start to end."""
     axis: Axis
     low: float
     high: float
@@ -30,13 +30,13 @@ class Scale:
         return self.start + (self.end - self.start) * (value - low) / (high - low)
 
     def ticks(self):
-        """{words: place}"""
+        """Returns {words: place}."""
         found = self.axis.ticks or (logarithmic_ticks if self.axis.logarithmic else linear_ticks)(self.low, self.high)
         return {words: self(value) for words, value in found.items() if self.low <= value <= self.high}
 
 
 def axis_number(value):
-    """No exponent and no trailing zeros; many of them as a word."""
+    """Returns a number without exponent and trailing zeros; large ones as a word."""
     for unit, size in ((" M", 1e6), (" k", 1e3)):
         if value >= 10 * size and value % size == 0:
             return f"{value / size:g}{unit}"
@@ -60,7 +60,7 @@ def linear_ticks(low, high):
 
 
 def limits(values, logarithmic, low=None):
-    """Returns limits of all values with a margin; `low` is the begin of a linear axis."""
+    """Returns limits of all values with a margin; `low` is the start of a linear axis."""
     values = [value for value in values if value > 0 or not logarithmic]
     if not values:
         return 1.0, 10.0

@@ -1,28 +1,28 @@
 # SPDX-License-Identifier: MIT
-"""How often something fails at each of many places: a dot for each, the larger the more often."""
+"""How often something fails at each of many places: the more often, the larger the dot."""
 import math
 from dataclasses import dataclass
 
 from harness.chart.axes import draw_name
 from harness.chart.sheet import Chart
 
-LEAST = 1e-5  # a share that is drawn smallest
+LEAST = 1e-5  # share of the smallest dot
 SMALL, LARGE, NEVER = 2.0, 9.0, 1.6
 LEGEND = {"never": 0, "1 of 10 000": 1e-4, "1 of 100": 1e-2, "always": 1}
-NAMES = 0.28  # of a wide chart's width
+NAMES = 0.28  # share of a wide chart's width
 
 
 @dataclass(frozen=True)
 class Block:
     """Columns that belong together."""
     words: str
-    columns: list  # their names
+    columns: list  # names of the columns
 
 
 @dataclass(frozen=True)
 class Dots:
     name: str
-    shares: list  # for each block one for each column; None: not tried
+    shares: list  # a share for each column of each block; None: not tried
     is_ours: bool = False
 
 
@@ -31,15 +31,15 @@ def radius(share):
     return SMALL + (LARGE - SMALL) * part
 
 
-def dot(sheet, x, y, share, told=""):
+def dot(sheet, x, y, share, hint=""):
     if share:
-        sheet.mark("circle", x, y, radius(share), "bad", told)
+        sheet.mark("circle", x, y, radius(share), "bad", hint)
     elif share is not None:
-        sheet.mark("circle", x, y, NEVER, "soft", told)
+        sheet.mark("circle", x, y, NEVER, "soft", hint)
 
 
 def dots(about, title, caption, blocks, drawn):
-    """A chart, with names in bold of what is ours."""
+    """Returns a chart; `ours` has the names in bold."""
     def paint(sheet):
         sheet.y = sheet.legend([(lambda x, y, share=share: dot(sheet, x, y, share), words) for words, share in LEGEND.items()],
                                0, sheet.width, sheet.y)
@@ -64,7 +64,7 @@ def dots(about, title, caption, blocks, drawn):
             for start, block, shares in zip(starts, blocks, each.shares):
                 sheet.stroke([(start - step / 2, y), (start + step * (len(shares) - 0.5), y)], None, 1, 'class="grid"')
                 for place, share in enumerate(shares):
-                    told = "" if share is None else f"{each.name}, {block.words} {block.columns[place]}: {100 * share:.3g} %"
-                    dot(sheet, start + step * place, y, share, told)
+                    hint = "" if share is None else f"{each.name}, {block.words} {block.columns[place]}: {100 * share:.3g} %"
+                    dot(sheet, start + step * place, y, share, hint)
             sheet.y += 24
     return Chart(about, title, caption, paint)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Charts as files of SVG."""
+"""Charts as SVG files."""
 from harness.store.result import write_text
 
 

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""Lines with quartiles: beside each other what belongs to different machines, on the same axes. Each line of a panel is
-narrower than the one below it, and its marks are others, so that none hides another."""
+"""Lines with quartiles: a panel for each machine, on the same axes. Each line of a panel is narrower than the one
+below it and has other marks, so that none hides another."""
 from dataclasses import dataclass
 
 from harness.chart.axes import Scale, draw_below, limits
 from harness.chart.sheet import Chart, mark_of
 from harness.measure.numbers import number
 
-HEIGHT = {True: 230, False: 280}  # narrow or not
+HEIGHT = {True: 230, False: 280}  # whether the sheet is narrow
 GAP = 34
-WIDTHS, SIZES = (6.0, 3.5, 1.6), (6.5, 5.0, 3.6)  # of lines and marks, from the lowest on
+WIDTHS, SIZES = (6.0, 3.5, 1.6), (6.5, 5.0, 3.6)  # widths of lines and marks, from the lowest on
 DASHES = {1: "", 2: "stroke-dasharray=\"9 5\"", 4: "stroke-dasharray=\"9 5\""}
 
 
@@ -74,8 +74,8 @@ def draw_panel(sheet, drawn, scales, top, y_words, bounds, guides):
 
 
 def lines(about, title, caption, x_axis, y_axis, drawn, bounds=(), bound_name="", guides=None):
-    """A chart; `bounds` are lists of (x, y) that cannot be undercut, drawn with the first line's panel they fit; `guides`
-    {words: y} are marked across."""
+    """Returns a chart. `bounds` are lists of (x, y), lower limits drawn with the first line's panel that they fit;
+    `guides` {words: y} are marked across."""
     drawn = [line for line in drawn if line.points]
     names = list(dict.fromkeys(line.panel for line in drawn))
     of_panel = {name: [line for line in drawn if line.panel == name] for name in names}
@@ -83,7 +83,7 @@ def lines(about, title, caption, x_axis, y_axis, drawn, bounds=(), bound_name=""
     x_range, y_range = limits(x_values, x_axis.logarithmic), limits(y_values, y_axis.logarithmic, 0)
 
     def bounds_of(name):
-        """Those that begin at a point of the panel."""
+        """Returns the lines that begin at a point of the panel."""
         starts = {(line.points[0][0], line.points[0][1]["median"]) for line in of_panel[name]}
         return [points for points in bounds if points[0] in starts]
 

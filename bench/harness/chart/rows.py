@@ -7,19 +7,19 @@ from harness.chart.axes import Axis, Scale, draw_below, limits, logarithmic_tick
 from harness.chart.sheet import Chart, mark_of
 from harness.measure.numbers import number
 
-NAMES, WORDS = 0.3, 0.24  # of a wide chart's width, for names and for words
-APART = 9  # how far dots of one row are above each other
+NAMES, WORDS = 0.3, 0.24  # shares of a wide chart's width, for names and for words
+APART = 9  # distance between dots of one row
 SIZE = 5.5
 
 
 @dataclass(frozen=True)
 class Row:
-    """Rows of one name and group that follow each other are dots of one line."""
+    """A dot. Rows of one name and group that follow each other share a line."""
     name: str
     spread: dict  # "median", "q1", "q3"
-    words: str = ""  # at its end
+    words: str = ""  # words at the end of the row
     colour: object = 0  # a device's number, or a name
-    bound: float = None  # a mark, such as what cannot be undercut
+    bound: float = None  # a mark, such as a lower bound
     group: str = ""  # a heading of rows
     variant: str = ""  # distinguishes dots of a line
 
@@ -84,11 +84,11 @@ class Painter:
             y = sheet.y + deep / 2
             bottom = sheet.y + deep
         else:
-            names, told = sheet.wrapped(rows[0].name, NAMES * sheet.width - 16), sheet.wrapped(words, WORDS * sheet.width)
-            bottom = sheet.y + max(deep, sheet.line * max(len(names), len(told)) + 4)
+            names, notes = sheet.wrapped(rows[0].name, NAMES * sheet.width - 16), sheet.wrapped(words, WORDS * sheet.width)
+            bottom = sheet.y + max(deep, sheet.line * max(len(names), len(notes)) + 4)
             y = (sheet.y + bottom) / 2
             for these, x, anchor, kind in ((names, NAMES * sheet.width - 14, "end", ""),
-                                           (told if words else (), sheet.width * (1 - WORDS), "start", "soft")):
+                                           (notes if words else (), sheet.width * (1 - WORDS), "start", "soft")):
                 for place, each in enumerate(these):
                     sheet.text(x, y + 5 + sheet.line * (place - (len(these) - 1) / 2), each, anchor, kind)
         sheet.stroke([(self.scale.start, y), (self.scale.end, y)], None, 1, 'class="grid"')
@@ -98,8 +98,8 @@ class Painter:
 
 
 def rows(about, title, caption, unit, drawn, bound_name="", spans=False):
-    """A chart: a dot for each row, with whiskers to the quartiles, and a mark at its bound. Logarithmic, but for `spans`,
-    which are from the first to the third quartile. What is 0 stands at the left end, hollow."""
+    """Returns a chart: a dot for each row, with whiskers to the quartiles, and a mark at its bound. The axis is logarithmic,
+    except with `spans`, which reach from the first to the third quartile. A value of 0 stands at the left end, hollow."""
     values = [row.spread[key] for row in drawn for key in ("median", "q1", "q3")] + [row.bound for row in drawn if row.bound]
     axis, ends = Axis(unit, not spans), limits(values, not spans)
     if not spans and min(values) <= 0:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A sheet of SVG, filled from above, and charts. Each chart can be drawn wide, and narrow for a telephone. Its colours follow
-the reader's light or dark screen."""
+"""A sheet of SVG, filled from the top, and charts. Each chart can be drawn wide, and narrow for a telephone. Its
+colours follow the reader's light or dark screen."""
 import html
 import re
 import textwrap
@@ -11,9 +11,9 @@ from harness.store.result import machine_words, scene_words
 
 WIDE, NARROW, MARGIN = 960, 368, 16  # the margin of charts in files of their own
 LETTER = 0.56  # width of a letter by its height, an estimate without a browser
-VENDOR_WORDS = re.compile(r"NVIDIA|AMD|Intel|Processor|CPU|\d+GB|HBM\w*|\d+-Core|@|\d[.\d]*GHz")  # of names of devices
+VENDOR_WORDS = re.compile(r"NVIDIA|AMD|Intel|Processor|CPU|\d+GB|HBM\w*|\d+-Core|@|\d[.\d]*GHz")  # length of devices' names
 MARKS = ("circle", "square", "diamond", "triangle", "cross", "down", "plus")
-# Colours of devices, distinct for the colour-blind too, on light and on dark paper.
+# Colours of devices, distinct for the colour-blind, on light and on dark paper.
 LIGHT = ("#0072b2", "#c24e00", "#007a5a", "#a3397a", "#5a46b8", "#8a6100", "#5b6570", "#b3202c")
 DARK = ("#5ab4f0", "#ff9350", "#2ccb9a", "#f09ac8", "#a99dff", "#e2b443", "#aeb8c2", "#ff7b80")
 COLOURS = len(LIGHT)
@@ -60,13 +60,13 @@ def mark_of(place):
 
 
 class Sheet:
-    """`y` is the end of what is drawn so far."""
+    """A sheet; `y` is the end of the drawing so far."""
 
     def __init__(self, width):
         self.width, self.y, self.parts = width, 0.0, []
         self.is_narrow = width < WIDE
         self.size = 13 if self.is_narrow else 14
-        self.line = self.size + 5  # from one of text to the next
+        self.line = self.size + 5  # distance between baselines
 
     def add(self, element):
         self.parts.append(element)
@@ -97,9 +97,9 @@ class Sheet:
         kind = f" class=\"{look(colour)}\" stroke=\"currentColor\" fill=\"none\"" if colour is not None else ""
         self.add(f"<path d=\"{path}\"{kind} stroke-width=\"{width:g}\" {more}/>")
 
-    def mark(self, name, x, y, size, colour, told="", hollow=False):
-        """Draws one of MARKS; `told` appears when the reader points at it."""
-        words = f"<title>{html.escape(told)}</title>" if told else ""
+    def mark(self, name, x, y, size, colour, hint="", hollow=False):
+        """Draws one of MARKS; `hint` appears when the reader points at it."""
+        words = f"<title>{html.escape(hint)}</title>" if hint else ""
         start = f"class=\"{look(colour)}\" stroke=\"currentColor\" stroke-width=\"1.8\""
         fill = "class=\"paper\"" if hollow and name not in ("cross", "plus") else "fill=\"currentColor\""
         if name == "circle":
@@ -110,7 +110,8 @@ class Sheet:
         self.add(f"<g {start}>{words}{shape}</g>")
 
     def legend(self, entries, x, width, y):
-        """Draws entries of (what draws a sample at a place, words), as many in a row as fit; returns the y at which it ends."""
+        """Draws entries of (function that draws a sample at a place, words), as many in a row as fit; returns the y at
+        which it ends."""
         at, sample = x, 30
         y += self.line
         for draw, words in entries:
@@ -131,7 +132,7 @@ class Sheet:
 
 @dataclass(frozen=True)
 class Chart:
-    """`paint` fills a sheet with the chart alone; the words are beside it, on a page or in a file of its own."""
+    """A chart; `paint` draws it alone on a sheet, and the words stand beside it, on a page or in a file of its own."""
     about: dict
     title: str
     caption: str

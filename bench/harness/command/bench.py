@@ -15,22 +15,22 @@ from harness.run.program import NEVER, ROOT, Problem, Program
 from harness.store import result as results
 
 OWN = ("--backend", "--device", "--frames", "--stats", "--output", "-o")
-NEWS_SECONDS = 10  # between lines of progress if the error output is no terminal
+NEWS_SECONDS = 10  # seconds between lines of progress if the error output is no terminal
 
 
 class News:
     """Progress: one line that changes on a terminal, or a line every few seconds."""
-    told, knows_time = None, False
+    shown_at, knows_time = None, False
 
     def __call__(self, words, seconds_left=None):
-        is_due = self.told is None or time.monotonic() - self.told >= NEWS_SECONDS
+        is_due = self.shown_at is None or time.monotonic() - self.shown_at >= NEWS_SECONDS
         if seconds_left is not None:
             words += f"; about {int(seconds_left // 60)}:{int(seconds_left % 60):02} left of the timing"
             is_due, self.knows_time = is_due or not self.knows_time, True
         if os.isatty(2):
             print(f"\r\033[K{words}", end="", file=sys.stderr, flush=True)
         elif is_due:
-            self.told = time.monotonic()
+            self.shown_at = time.monotonic()
             print(words, file=sys.stderr, flush=True)
 
     @staticmethod
@@ -49,8 +49,8 @@ class Bench(Command):
     repeats = (5, 2)  # rounds, slowly and quickly; None: no devices are timed
     parts = ()
     scene = "built-in scene"
-    chart_files = ()  # patterns of those of an earlier run
-    keys = {}  # of the result, beside those that all have
+    chart_files = ()  # patterns of an earlier run's files
+    keys = {}  # keys of the result, besides the common ones
 
     def add_options(self, parser):
         parser.set_defaults(quick=False, repeats=None, device=[])
@@ -96,37 +96,37 @@ class Bench(Command):
                                     measurements=self.plan.jobs, **dict.fromkeys(self.keys))
         files.remove_old(arguments.out, self.chart_files)
 
-    # ---- what a measurement says of itself
+    # ---- for subclasses
 
     def prepare(self):
-        """Puts jobs into the plan, and rows."""
+        """Adds jobs and rows to the plan."""
 
     def measure(self):
-        """False: it could not be."""
+        """Measures; returns False if it could not."""
         self.plan.run_all(self.arguments.repeats)
 
     def fill(self):
         """Fills in the result's own keys, and adds rows to the plan."""
 
     def compared(self):
-        """Whether all made the same pictures."""
+        """Returns whether all made the same pictures."""
         return self.plan.compared()
 
     def tables(self):
-        """[(title, rows, lines below)] beside the rows with targets."""
+        """Returns [(title, rows, lines below)] beside the rows with targets."""
         return []
 
     def charts(self):
-        """{name: chart}"""
+        """Returns {name: chart}."""
         return {}
 
-    # ---- what they share
+    # ---- common to all
 
     def wants(self, *parts):
         return not set(parts).isdisjoint(self.arguments.parts)
 
     def tried(self, what, measure, *arguments, **named):
-        """Returns what `measure` gives, or the reason why it failed."""
+        """Returns the result of `measure`, or the reason why it failed."""
         self.news(what)
         return self.plan.tried(measure, *arguments, **named)
 

@@ -21,7 +21,7 @@ whole_number.__name__ = "number from 1 on"  # argparse's message uses it
 
 
 def part_names(parts):
-    """In the order of the parts."""
+    """Returns the chosen parts in their order."""
     def names_in(text):
         names = text.split(",")
         if not set(names) <= set(parts):
@@ -33,9 +33,9 @@ def part_names(parts):
 class Command:
     """Command line of a measurement or a program."""
     name = ""
-    about = ""  # what it does, for --help
+    about = ""  # its purpose, for --help
     codes = "exit codes: 0 done, 2 wrong usage or input"
-    own_options = None  # of hedron render, which it sets itself; None: it renders nothing
+    own_options = None  # options of hedron render that it sets itself; None: it renders nothing
 
     def title(self):
         return f"bench/{self.name}" if (ROOT / "bench" / self.name).is_file() else f"bench/study {self.name}"
@@ -82,7 +82,7 @@ class Command:
 
     def main(self, words):
         arguments = self.parse(words)
-        for number in (signal.SIGTERM, signal.SIGHUP):  # like Ctrl-C: no hedron is left running
+        for number in (signal.SIGTERM, signal.SIGHUP):  # like Ctrl-C: leaves no hedron running
             signal.signal(number, signal.default_int_handler)
         try:
             return self.run(arguments)

@@ -19,11 +19,11 @@ FOLDER = Path(__file__).resolve().parent.parent / "measurements"
 MEASUREMENTS = {file.stem: importlib.import_module(f"harness.measurements.{file.stem}") for file in FOLDER.glob("[a-z]*.py")}
 PARTS = dict(sorted(((name, module.PART) for name, module in MEASUREMENTS.items() if hasattr(module, "PART")),
                     key=lambda each: each[1].place))
-# What the first word may name; frames and compare are programs of their own.
+# Words that may come first; frames and compare are programs of their own.
 NAMES = sorted(name for name, module in MEASUREMENTS.items()
                if hasattr(module, "BENCH") and not (ROOT / "bench" / name).is_file())
 LIMIT = 10  # default of --others, in per cent of all processors' time
-SLOW_SECONDS, SLOW_ROUNDS = 6, 2  # rounds of a run that takes longer
+SLOW_SECONDS, SLOW_ROUNDS = 6, 2  # rounds of slow jobs
 
 
 def percent(text):
@@ -152,15 +152,15 @@ class Study(Bench):
         self.save()
         found = [{**each, "same_kernels": self.is_same(each)} for each in (result, *others(self.arguments.results, result))]
         drawn = sections(PARTS, found)
-        files.remove_old(out, ["study_*"])  # charts of sections that are gone go too
+        files.remove_old(out, ["study_*"])  # removes the charts of removed sections too
         charts = {name: chart for section in drawn for name, (chart, _) in section.charts.items()}
         files.draw(charts, out)
-        wrong, told = [[f"{each['machine']['name']}: {each['pictures']['sentence']}" for each in found
+        wrong, remarks = [[f"{each['machine']['name']}: {each['pictures']['sentence']}" for each in found
                         if (each["pictures"]["same"] is False) is differ] for differ in (True, False)]
         failed = [f"FAILED: {words}" for words in result["failures"]]
-        results.write_text(out / "report.html", html.page(found, drawn, answer.opening(PARTS, found), [*wrong, *failed], told))
+        results.write_text(out / "report.html", html.page(found, drawn, answer.opening(PARTS, found), [*wrong, *failed], remarks))
         results.write_text(out / "study.csv", html.csv_text(found))
-        print(*summary_lines(result), "", *failed, *wrong, *told, sep="\n")
+        print(*summary_lines(result), "", *failed, *wrong, *remarks, sep="\n")
         if results.is_unfinished(result):
             print("Interrupted: the same call continues.")
         print(f"The page: {out / 'report.html'}; all figures: {self.file} and study.csv")
@@ -180,7 +180,7 @@ def failures(result):
 
 
 def others(folder, own):
-    """Returns the results of other machines, sorted by name, without copies of the own one."""
+    """Returns other machines' results, sorted by name, without copies of this one's."""
     found = [results.read_study(file) for file in sorted(folder.glob("*.json"))]
     return sorted(({**result, "pictures": compare(result)} for result in found
                    if (result["date"], result["machine"]["name"]) != (own["date"], own["machine"]["name"])),

@@ -1,27 +1,27 @@
 # SPDX-License-Identifier: MIT
-"""A job: runs of hedron that differ in nothing but the time of day, as it is written. What follows from its runs, and
-whether jobs made the same pictures."""
+"""A job: runs of hedron that differ in nothing but the time of day, as stored; its figures, and whether jobs made the
+same pictures."""
 from statistics import mean
 
 from harness.measure.numbers import spread
 
 PICTURES = "#######.data"
 FRAME_KEYS = ("frame", "width", "height", "samples", "depth", "seconds", "began", "rays", "shadow_tests", "missing")
-CLASSIC_STAGES = ("prepare", "trace", "copy")  # which the classic mode prints as the time of a frame
-FREE = ("--threads", "--pipeline", "--accel", "--lanes", "--block", "--grid")  # they change no byte of a picture
+CLASSIC_STAGES = ("prepare", "trace", "copy")  # printed by the classic mode as a frame's time
+FREE = ("--threads", "--pipeline", "--accel", "--lanes", "--block", "--grid")  # options that change no byte of a picture
 
 
 def job(device, scene, frames, options=(), *, output=PICTURES, warm_up=True, scale=1, cold=False, **more):
-    """`warm_up`: the first of several frames does not count; `scale`: times are multiplied by it; `cold`: hedron finds no
-    compiled kernels. `more` may have `slow` (once is enough) and `few_cores` (on no more cores than the target is for)."""
+    """Returns a job. `warm_up`: the first of several frames does not count; `scale`: a factor of its times; `cold`: hedron
+    finds no compiled kernels. `more` may have `slow` (once is enough) and `few_cores` (on at most the target's cores)."""
     return {**more, "device": device, "scene": scene, "options": list(options), "frames": frames, "output": output,
             "warm_up": warm_up, "scale": scale, "cold": cold, "renderer": None, "reason": None, "failed": False,
             "summary": None, "runs": [], "rejected": []}
 
 
 def kept_run(entry, repeat, run):
-    """As it is written."""
-    several = len(run["frames"]) > 1 or run["code"] is None  # an interrupted run would have had more
+    """Returns the job as stored."""
+    several = len(run["frames"]) > 1 or run["code"] is None  # a completed run has all frames
     frames = [{**{key: frame[key] for key in FRAME_KEYS if key in frame},
                "warm_up": entry["warm_up"] and place == 0 and several,
                "picture": run["digests"].get(frame["frame"])} for place, frame in enumerate(run["frames"])]
@@ -46,12 +46,12 @@ def chosen_runs(entry):
 
 
 def run_ms(entry, run, stages=("trace",)):
-    """The mean of its frames."""
+    """Returns the mean of its frames."""
     return 1e3 * entry["scale"] * mean(sum(frame["seconds"][stage] for stage in stages) for frame in counted(run))
 
 
 def summarize(entries):
-    """Fills in what follows from the runs."""
+    """Fills in the figures that follow from the runs."""
     for entry in entries:
         runs = chosen_runs(entry)
         entry["summary"] = runs and {
@@ -69,8 +69,8 @@ def failures(entries):
 # ---- pictures
 
 def picture_groups(entries, devices):
-    """{what promises one picture: {digest: [job]}}: how rays are shared among threads, lanes and kernels
-    changes no byte, nor does how triangles are searched. `devices` by their labels."""
+    """Returns {reason for equal pictures: {digest: [job]}}. Neither threads, lanes and kernels nor the search of
+    triangles may change a byte. `devices` by their labels."""
     groups = {}
     for entry in entries:
         words = list(entry["options"])
@@ -87,7 +87,7 @@ def picture_groups(entries, devices):
 
 
 def compare_pictures(entries, devices):
-    """{"same": true, false or null, "compared": how many frames, "sentence"}"""
+    """Returns {"same": true, false or null, "compared": number of frames, "sentence"}."""
     groups = picture_groups(entries, devices)
     several = [makers for makers in groups.values() if len({maker for who in makers.values() for maker in who}) > 1]
     for (scene, _, number), makers in groups.items():

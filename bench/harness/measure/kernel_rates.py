@@ -13,17 +13,16 @@ MOVES = ("vmov", "vbroadcast", "vpbroadcast", "vextract", "vinsert", "vperm", "v
 
 
 def lanes_of(name, operands):
-    """Numbers of 32 bits that the instruction works on."""
+    """Returns the count of 32-bit numbers that the instruction works on."""
     if name.endswith(("ss", "sd", "si")):
         return 1
     return next((lanes for register, lanes in (("zmm", 16), ("ymm", 8), ("xmm", 4)) if register in operands), 0)
 
 
 def weigh(name, operands):
-    """(operations, issue slots) of an instruction. An operation is one lane of an addition, multiplication,
-    division, root, comparison, selection, conversion or bitwise function of a vector register; a fused
-    multiply-add is two. Loads, moves, masks in mask registers and what the integer unit does are none; the
-    mask registers' instructions take slots of the vector units all the same."""
+    """Returns (operations, issue slots) of an instruction. An operation is one lane of an addition, multiplication, division,
+    root, comparison, selection, conversion or bitwise function of a vector register; a fused multiply-add is two. Loads,
+    moves, mask registers and the integer unit count as none; mask instructions still take slots of the vector units."""
     if name.startswith("k"):
         return 0, 1
     # A register combined with itself gives zero without being executed.
@@ -35,7 +34,7 @@ def weigh(name, operands):
 
 
 def disassemble(program, symbol):
-    """[(offset, name, operands)] of a function."""
+    """Returns [(offset, name, operands)] of a function."""
     listing = subprocess.run(["objdump", "-d", "--no-show-raw-insn", f"--disassemble={symbol}", program],
                              capture_output=True, text=True, check=True).stdout
     found = [INSTRUCTION.match(line) for line in listing.splitlines()]
@@ -46,7 +45,7 @@ def disassemble(program, symbol):
 
 
 def add_up(code, times):
-    """What was executed, by the offsets' counts."""
+    """Returns the executed operations, by the offsets' counts."""
     total = dict.fromkeys(("instructions", "operations", "slots", "divisions"), 0)
     for offset, name, operands in code:
         for key, each in zip(total, (1, *weigh(name, operands), name.startswith(("vdiv", "vsqrt")))):
@@ -55,8 +54,8 @@ def add_up(code, times):
 
 
 def parse(program, text):
-    """{"instruction_set", "lanes", "rates": {name: [...]}, "counted": {name: what was executed for each unit of it},
-    "uncounted": [...]}"""
+    """Returns {"instruction_set", "lanes", "rates": {name: [...]}, "counted": {name: operations for each unit of it},
+    "uncounted": [...]}."""
     result = {"instruction_set": None, "lanes": None, "rates": {}, "counted": {}, "uncounted": []}
     times, works = {}, {}
     for what, name, *rest in map(str.split, text.splitlines()):
@@ -78,8 +77,8 @@ def parse(program, text):
 
 
 def run(program, scenes, seconds, rounds, counts=False, limit=None):
-    """Raises Problem with the reason if it fails or takes more than `limit` seconds: counting steps through instructions,
-    slowly on a busy machine."""
+    """Returns the program's output. Raises Problem with the reason if it fails or takes more than `limit` seconds: counting
+    steps through instructions, slowly on a busy machine."""
     rates_program = program.beside("bench/hedron_kernel_rates")
     if counts and shutil.which("objdump") is None:
         raise Problem(3, "objdump is not installed; its package is binutils")
@@ -89,5 +88,5 @@ def run(program, scenes, seconds, rounds, counts=False, limit=None):
 
 
 def peaks(found):
-    """Vector instructions a second that the machine was seen to do in independent chains, of either kind."""
+    """Returns the machine's vector instructions a second in independent chains, of either kind."""
     return [max(both) for both in zip(found["rates"]["peak:fma"], found["rates"]["peak:mul_add"])]

@@ -5,8 +5,8 @@ from statistics import quantiles
 
 
 def quartiles(values):
-    """First quartile, median, third: at a quarter, a half and three quarters of the way from the
-    smallest to the largest, linearly between neighbours."""
+    """Returns first quartile, median, third quartile: at a quarter, a half and three quarters of the way from smallest
+    to largest, linear between neighbours."""
     values = list(values)
     return quantiles(values if len(values) > 1 else 2 * values, n=4, method="inclusive")
 
@@ -17,7 +17,7 @@ def spread(values):
 
 
 def number(value, digits=4):
-    """So many significant digits, without an exponent."""
+    """Returns so many significant digits, without an exponent."""
     if value is None:
         return "-"
     before = 1 + math.floor(math.log10(value)) if value > 0 else 1
@@ -29,7 +29,7 @@ def spread_text(values, dots=".."):
 
 
 def count_words(count):
-    """1 k, 80 k, 1 M: as people say it."""
+    """Returns a count as people say it: 1 k, 80 k, 1 M."""
     for unit, size in (("M", 1000000), ("k", 1000)):
         if count >= size:
             return f"{count / size:g} {unit}"

@@ -9,20 +9,20 @@ from harness.measure.jobs import run_of
 from harness.measure.rows import Missing, Rows, known
 from harness.run.program import Interrupted, Problem
 
-AGAIN = 2  # times that a disturbed run is measured again, at most
-MOST_REJECTED = 0.5  # of all runs that were planned: then the machine is simply busy
+AGAIN = 2  # repetitions of a disturbed run, at most
+MOST_REJECTED = 0.5  # share of all planned runs: beyond it the machine is simply busy
 CACHES = ("HEDRON_CACHE", "POCL_CACHE_DIR", "CUDA_CACHE_PATH")
 
 DEFAULT, OFFICIAL = "default", "official"
-# For CPUs or not: a GPU's frame of the CPUs' size is too short to be timed; times are multiplied by what CPUs do less.
+# View for CPUs or others, and the factor of its times: a GPU's frame of the CPUs' size is too short to be timed.
 VIEWS = {True: (("--size", "320x180", "--samples", "2"), 16), False: (("--size", "1280x720", "--samples", "2"), 1)}
 
 
 class Plan(Rows):
-    """`devices` are entries by their labels, `runnable` those of them that can run. `scenes` maps names to files (None: the
-    built-in scene), or to the reason why one could not be made. `save` is called after every run, `news` with what is done.
-    Every job has the `options` behind its own. One whose whole run takes more than `slow_seconds` is done in `slow_rounds`
-    rounds only, one whose frames take more than `once_seconds` in one."""
+    """Jobs and rows. `devices` are entries by their labels, `runnable` those that can run. `scenes` maps names to
+    files (None: the built-in scene), or to the reason why one could not be made. `save` is called after every run,
+    `news` with the progress. `options` come before each job's own. A job whose run takes more than `slow_seconds` runs
+    in `slow_rounds` rounds only; one whose frames take more than `once_seconds` in one."""
 
     def __init__(self, devices, scenes, program=None, folder=None, news=None, save=lambda: None, *, quick=False, options=()):
         super().__init__()
@@ -31,15 +31,15 @@ class Plan(Rows):
         self.quick, self.options = quick, tuple(options)
         self.runnable = {label: device for label, device in devices.items() if device.get("reason") is None}
         self.jobs, self.made, self.failures = [], {}, set()
-        self.part, self.left_out = None, {}  # the part that adds its points now; by part: why there is nothing, or not all
-        self.cores = None  # those of jobs on few cores; None: of all
-        self.keeps_parts = False  # of a run that was interrupted
+        self.part, self.left_out = None, {}  # the part that adds points; by part: why it has no points, or not all
+        self.cores = None  # processors of jobs on few cores; None: all
+        self.keeps_parts = False  # whether it keeps parts of an interrupted run
         self.slow_seconds, self.slow_rounds, self.once_seconds = float("inf"), 1, None
 
-    # ---- what is measured
+    # ---- jobs
 
     def job(self, device, scene, frames, options=(), **named):
-        """Returns the same one if it was requested before."""
+        """Returns the job, the same one if it was requested before."""
         wanted = jobs.job(device, scene, frames, (*options, *self.options), **named)
         made = self.made.setdefault(repr(wanted), wanted)
         if made is wanted:
@@ -47,29 +47,29 @@ class Plan(Rows):
         return made
 
     def point(self, series, x, device, scene, options, *, frames=None, **named):
-        """A point of a chart of the part: one job on one device."""
+        """Adds a point of a chart of the part: one job on one device."""
         if isinstance(self.scenes[scene], str):
             self.left_out[self.part] = self.scenes[scene]
             return
         self.job(device, scene, frames or ("0-2" if self.quick else "0-3"), options, part=self.part, series=series, x=x, **named)
 
     def each(self, views=None):
-        """(label, device, options of its view, what times are multiplied by)"""
+        """Returns [(label, device, options of its view, factor of its times)]."""
         return [(label, device, *(views or VIEWS)[device["is_cpu"]]) for label, device in self.runnable.items()]
 
     def sweep(self, option, values, wanted=lambda device: True, views=None, series="", none=None):
-        """Points of one option, on the devices that are wanted; `none` says that there is no such device."""
+        """Adds points of one option on the requested devices; `none` says that there is no such device."""
         if not any(map(wanted, self.runnable.values())):
             self.left_out[self.part] = none
         for label, device, view, scale in self.each(views):
             for value in values if wanted(device) else ():
                 self.point(series, value, label, DEFAULT, (*view, option, str(value)), scale=scale)
 
-    # ---- what rows ask for
+    # ---- figures for rows
 
     @staticmethod
     def done(job):
-        """Its runs."""
+        """Returns the job's runs."""
         return known(job["reason"] or job["runs"] or "it was not run")
 
     def each_frame(self, job, value):
@@ -79,15 +79,15 @@ class Plan(Rows):
         return self.each_frame(job, lambda frame: 1e3 * job["scale"] * frame["seconds"]["trace"])
 
     def medians(self, job):
-        """The median time of tracing of each round."""
+        """Returns the median tracing time of each round."""
         return [median(frame["seconds"]["trace"] for frame in jobs.counted(run)) for run in self.done(job)]
 
     def ratios(self, job, base):
-        """Of the times of two jobs, round by round, so that a slow minute meets both."""
+        """Returns ratios of two jobs' times, round by round, so that a slow minute meets both."""
         return [one / other for one, other in zip(self.medians(job), self.medians(base)) if other > 0]
 
     def seconds_a_frame(self, short, long):
-        """Steady state, from two lengths of a run: neither its start nor its end is in it."""
+        """Returns the steady-state time from two lengths of a run: it contains neither the start nor the end."""
         pairs = zip(self.done(short), self.done(long))
         seconds = [(two["wall"] - one["wall"]) / (len(two["frames"]) - len(one["frames"])) for one, two in pairs]
         if seconds and min(seconds) <= 0:
@@ -101,7 +101,7 @@ class Plan(Rows):
         return self.failures | jobs.failures(self.jobs)
 
     def tried(self, measure, *arguments, **named):
-        """Returns what it gives, or the reason why it failed; that counts as a failure unless something is missing."""
+        """Returns the call's result, or the reason why it failed; a failure counts unless something is missing."""
         try:
             return measure(*arguments, **named)
         except Problem as problem:
@@ -119,7 +119,7 @@ class Plan(Rows):
                                        cores=self.cores if job.get("few_cores") else None)
 
     def measure(self, job, repeat):
-        """Of several tries the least disturbed one counts."""
+        """Runs a job; of several tries the least disturbed one counts."""
         try:
             run = self.render(job)
         except Interrupted as interrupted:
@@ -147,7 +147,7 @@ class Plan(Rows):
         job["runs"][job["runs"].index(before)] = better
         job["rejected"].append({**{key: worse[key] for key in ("repeat", "others", "load")}, "trace_ms": jobs.run_ms(job, worse)})
 
-    # ---- turns
+    # ---- rounds
 
     def is_wanted(self, job, repeat):
         if job["reason"] or run_of(job, repeat):
@@ -166,14 +166,14 @@ class Plan(Rows):
                 self.measure(job, repeat)
 
     def is_disturbed(self, job, repeat, repeats, tries):
-        """Whether its run of that round is, after so many tries, and may be done again."""
+        """Returns whether its run of that round is still disturbed and may be repeated."""
         rejected, run = sum(len(each["rejected"]) for each in self.jobs), run_of(job, repeat)
         return (rejected < MOST_REJECTED * len(self.jobs) * repeats and run is not None and run["noisy"]
                 and sum(each["repeat"] == repeat for each in (*job["runs"], *job["rejected"])) == tries)
 
     def run_all(self, repeats, is_good=lambda: True):
-        """Runs every job once a round, so that a slow minute of the machine meets all of them, and disturbed jobs again at
-        the end of the round. Stops if the rounds so far are not good; returns whether all are."""
+        """Runs every job once a round, so that a slow minute meets all of them, and repeats disturbed jobs at the end
+        of the round. Stops if the rounds so far are not good; returns whether all are."""
         for repeat in range(repeats):
             words = f"round {repeat + 1} of {repeats}"
             self.turn(repeat, repeats, words, lambda job: self.is_wanted(job, repeat))
@@ -185,7 +185,7 @@ class Plan(Rows):
         return True
 
     def seconds_left(self, now, repeats):
-        """By what runs took so far; None: nothing is known yet."""
+        """Returns the seconds left, by the runs so far; None: unknown."""
         walls = {id(job): min(run["wall"] for run in job["runs"]) for job in self.jobs if job["runs"]}
         if not walls:
             return None

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Rows: figures with their targets, computed when all is measured."""
+"""Rows: figures with their targets, computed after all measurements."""
 from dataclasses import dataclass
 
 from harness.measure.numbers import quartiles
 
 
 class Missing(Exception):
-    """Why a row has no figure."""
+    """The reason why a row has no figure."""
 
 
 @dataclass(frozen=True)
@@ -16,21 +16,21 @@ class Target:
     more_is_better: bool = True
 
 
-NONE = Target(0, 0, False)  # of what must not be at all
+NONE = Target(0, 0, False)  # target of a forbidden count
 
 
 def known(measured, reason="it was not measured"):
-    """Returns what was measured; raises Missing if it is nothing or a sentence."""
+    """Returns the measured value; raises Missing if it is nothing or a sentence."""
     if measured is None or isinstance(measured, str):
         raise Missing(measured or reason)
     return measured
 
 
 def judge(target, value):
-    """(ratio to least, ratio to aim, verdict); a ratio of 1 or more says that the target is met."""
+    """Returns (ratio to least, ratio to aim, verdict); a ratio of 1 or more meets the target."""
     if target is None:
         return None, None, None
-    if target.least == 0:  # of what must not be at all, nothing is so many times as good
+    if target.least == 0:  # a forbidden count has no ratio
         return None, None, "aim" if value == 0 else "missed"
     if value == 0 and not target.more_is_better:
         return None, None, "aim"
@@ -43,16 +43,16 @@ class Rows:
         self.rows = []
 
     def row(self, key, what, unit, figure, *, device=None, target=None, note=None):
-        """`figure` is called when all is measured: it gives a list of values, or raises Missing."""
+        """Adds a row. `figure` is called after all measurements: it returns a list of values, or raises Missing."""
         self.rows.append({"key": key, "what": what, "device": device, "unit": unit, "target": target,
                           "note": note, "figure": figure})
 
     def absent(self, key, what, unit, target, reason):
-        """A row that has no figure here."""
+        """Adds a row without a figure."""
         self.row(key, what, unit, lambda: known(reason), target=target)
 
     def finished(self, judged=True):
-        """As they are written. Where `judged` is false the figures are no answers to the targets."""
+        """Returns the rows as stored. If `judged` is false the figures do not answer the targets."""
         return [finish(judged=judged, **row) for row in self.rows]
 
 

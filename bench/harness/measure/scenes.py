@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Scene files: read and written, the default scene under any number of point lights without falloff, one object of as many
-triangles as wanted, and what a scene holds."""
+"""Scene files: reads and writes them, makes the default scene under any number of point lights without falloff and
+objects of any number of triangles, and counts a scene's contents."""
 import json
 import math
 import re
@@ -16,7 +16,7 @@ FACES = {"tetrahedron": 4, "cube": 6, "octahedron": 8, "dodecahedron": 12, "icos
 EDGES = {"tetrahedron": 6, "cube": 12, "octahedron": 12, "dodecahedron": 30, "icosahedron": 30}
 FLOOR_PLANES = 5
 SAID = re.compile(r": (\d+) triangles;")
-TRIANGLE_TICKS = {count_words(10 ** power): 10 ** power for power in range(1, 8)}  # of an axis
+TRIANGLE_TICKS = {count_words(10 ** power): 10 ** power for power in range(1, 8)}  # coordinates of an axis
 
 
 def read_scene(file):
@@ -34,7 +34,7 @@ def write_scene(scene, file):
 # ---- lights
 
 def position(place, count):
-    """Evenly over the upper part of a spheroid around the solids, so that most floor points have
+    """Returns positions spread evenly over the upper part of a spheroid around the solids. Most floor points have
     solids between them and some of the lights."""
     height = (place + 0.5) / count
     ring = math.sqrt(1 - height * height)
@@ -48,7 +48,7 @@ def lights(count):
 
 
 def write_lights(folder, count):
-    """The path of the default scene under so many lights; its edge lights stay bright spots that light nothing."""
+    """Returns the path of the default scene under so many lights; its edge lights stay bright spots that light nothing."""
     scene = read_scene(DEFAULT)
     for solid in scene["solids"]:
         solid["edge_lights"]["intensity"] = 0
@@ -58,7 +58,7 @@ def write_lights(folder, count):
 # ---- triangles
 
 def make_object(program, folder, count):
-    """(file, triangles): the object, which has about as many as asked for."""
+    """Returns (file, triangles) of the object with about the requested number."""
     file = folder / f"sphere-{count}.obj"
     run_tool(program.beside("hedron_model"), "sphere", count, "-o", file)
     with open(file, encoding="utf-8") as lines:
@@ -66,14 +66,14 @@ def make_object(program, folder, count):
 
 
 def write_object_scene(kind, file, folder, count):
-    """The path of a scene file with the object: `whole` has all that a mesh can ask for, mirrored and transmitted rays, and
-    coloured shadows of two lights; in `near` every primary ray meets the object, and there are no others."""
+    """Returns the path of a scene file with the object. `whole` has everything that a mesh can have: mirrored and transmitted
+    rays, coloured shadows of two lights. In `near` every primary ray meets the object, and there are no others."""
     scene = read_scene(ROOT / f"bench/scenes/templates/{kind}.json")
     scene["meshes"][0]["file"] = str(file)
     return write_scene(scene, folder / f"{kind}-{count}.json")
 
 
-# ---- what the cost of a frame depends on
+# ---- costs of a frame
 
 def lights_on_edges(solid):
     lights = solid.get("edge_lights", {})
@@ -81,7 +81,7 @@ def lights_on_edges(solid):
 
 
 def facts(file):
-    """{"solids", "meshes", "planes", "lights"}; lights that light nothing are left out."""
+    """Returns {"solids", "meshes", "planes", "lights"}; lights that light nothing are left out."""
     scene = read_scene(file)
     solids = scene.get("solids", [])
     return {"solids": len(solids), "meshes": len(scene.get("meshes", [])),

@@ -21,7 +21,7 @@ EQUAL_ERROR = Target(1 / 3, 1 / 10, False)
 # GPUs have all of the scene's pixels; smaller frames are too short to be timed there.
 SIZE, SIZE_OF_GPUS = {False: (128, 96), True: (64, 48)}, (640, 360)
 ON_ALL_SCENES = ("arithmetic", "truncation", "adaptive")
-# With the built-in one; of several frames each, because the neighbours of the first give the time.
+# Scenes besides the built-in one; of several frames each, because the neighbours of the first give the time.
 FRONT_SCENES, FRONT_FAMILIES = ("five", "official", "starter"), ("grid", "adaptive", "fine", "deep", "promise")
 HEAD = ["setting", "device", "ms [q1..q3]", "RMSE", "largest", "M rays", "front", "recommended"]
 
@@ -108,7 +108,7 @@ class Accuracy(Bench):
             study.measure(self.arguments.repeats)
         return True
 
-    # ---- what came of it
+    # ---- results
 
     def add_equal_error(self, label, key, what, *families, **named):
         self.plan.row(key, what, "times", lambda: [each for _, each in equal_error(self.memory["points"], label, *families)],
@@ -180,12 +180,13 @@ BENCH = Accuracy
 
 # ---- the study's part
 
-ROUNDS = {True: 1, False: 3}  # at most
+ROUNDS = {True: 1, False: 3}  # rounds, at most
 SIZES = {"cpu": {True: (48, 36), False: (64, 48)}, "gpu": {True: (320, 180), False: (640, 360)}}
 
 
 def measure(study):
-    """Fills `cpu` and `gpu`, which render pictures of different sizes; an interrupted study continues."""
+    """Returns the reason if there is no reference. Fills `cpu` and `gpu`, which render pictures of different sizes; an
+    interrupted study continues."""
     arguments, judge = study.arguments, devices.judge(study.runnable.values())
     if judge is None:
         return "No device that is strict has double precision, so there is no reference."
@@ -203,7 +204,7 @@ def measure(study):
 
 
 LIMITS = (20, 10, 5, 2, 1)  # errors for which the page names a setting
-GUIDE = 5  # the error that the chart marks and the first screen has
+GUIDE = 5  # the error that the chart marks and the first screen shows
 
 
 def panels(device, memory):
@@ -272,10 +273,10 @@ def time_words(best, size):
 
 def best_words(found):
     """Returns a sentence about the device that needs the least time for a pixel."""
-    told = [(best, size, device.name) for device in found for size, best in filter(None, [at_guide(device)]) if best]
-    if not told:
+    candidates = [(best, size, device.name) for device in found for size, best in filter(None, [at_guide(device)]) if best]
+    if not candidates:
         return f"No setting comes to an RMSE of {GUIDE}. "
-    best, size, name = min(told, key=lambda each: each[0]["ms"] / (each[1][0] * each[1][1]))
+    best, size, name = min(candidates, key=lambda each: each[0]["ms"] / (each[1][0] * each[1][1]))
     return f"An RMSE of {GUIDE} takes {time_words(best, size)} on {name}, by {' '.join(best['options'])}. "
 
 

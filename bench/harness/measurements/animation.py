@@ -7,7 +7,7 @@ from harness.measure.numbers import spread
 from harness.measure.plan import DEFAULT
 from harness.page.section import TIME_AXIS, WHOLE_FRAME, Part, ratio
 
-BETWEEN = {True: 24, False: 8}  # frames between those that are timed, quickly and not so quickly: they are 240
+BETWEEN = {True: 24, False: 8}  # frames between timed ones, quickly and not so quickly, of 240
 
 
 def add(plan):
@@ -16,7 +16,7 @@ def add(plan):
 
 
 def by_frame(entry):
-    """[(frame, spread)]"""
+    """Returns [(frame, spread)]."""
     times = {}
     for frame in (frame for run in chosen_runs(entry) for frame in counted(run)):
         times.setdefault(frame["frame"], []).append(1e3 * entry["scale"] * frame["seconds"]["trace"])

@@ -16,7 +16,7 @@ def add(plan):
 
 
 def fill(section):
-    drawn, told = [], []
+    drawn, sentences = [], []
     for device in section.devices:
         found = {ARITHMETIC[int(entry["x"])]: entry for entry in device.entries()}
         base = found.get(("float", "strict"))
@@ -25,8 +25,8 @@ def fill(section):
         others = [f"{words} takes {ratio(middle(found[kind]) / middle(base))} as long" for kind, words in
                   ((("float", "fast"), "fast arithmetic"), (("double", "strict"), "double")) if base and kind in found]
         if others:
-            told.append(f"on {device.name} {' and '.join(others)} as strict float")
-    caption = few(told) or TOO_LITTLE
+            sentences.append(f"on {device.name} {' and '.join(others)} as strict float")
+    caption = few(sentences) or TOO_LITTLE
     if drawn:
         section.draw(rows, WHOLE_FRAME, "Strict and fast, float and double", caption, "times the time in float, strict", drawn)
     section.tabulate(lambda entry: ", ".join(ARITHMETIC[int(entry["x"])]))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""What a frame of the official example cannot be faster than: its shadow tests alone, at the arithmetic peak, the mark in its
-charts. The operations of one test are counted in the machine code, as bench/study speed does; those of a GPU are an estimate,
-for they are counted in the CPU's code of one lane."""
+"""A lower bound of the official example's frame time: its shadow tests alone, at the arithmetic peak; charts mark it. The
+operations of one test are counted in the machine code, as bench/study speed does. Those of a GPU are an estimate, counted in
+the CPU's code of one lane."""
 from statistics import mean, median
 
 from harness.measure import jobs, kernel_rates
@@ -31,7 +31,7 @@ def measure(study):
 
 
 def milliseconds(result, device, entry):
-    """Returns the bound of the frames that count, scaled as their times are, or None if not known."""
+    """Returns the bound of the frames that count, scaled as their times are, or None if unknown."""
     bounds = result.get("bounds")
     if not bounds:
         return None

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""Reports of hedron selftest of every device, also of those that it finds wrong."""
+"""Reports of hedron selftest of every device, including those that it finds wrong."""
 import json
 
 from harness.page.section import Part
 from harness.run.program import run_tool
 
-FOUND = (0, 1, 3)  # exit codes: all are right, one is wrong, none is there
+FOUND = (0, 1, 3)  # exit codes: all are right, one is wrong, there is none
 
 
 def measure(study):
-    """Raises Problem if the program fails."""
+    """Returns the reports; raises Problem if the program fails."""
     quick = ["--quick"] if study.arguments.quick else []
     study.news("selftest of every device")
     done = run_tool(study.program.path, "selftest", "--json", *quick, accepted=FOUND)

@@ -10,8 +10,8 @@ from harness.page import tables
 from harness.run.program import Problem
 from harness.store import result as results
 
-LEAST = 0.03  # less of a difference is none, however quiet the machine was
-ERRORS = 3.0  # standard errors of a difference that count as beyond the noise
+LEAST = 0.03  # share below which a difference counts as none, however quiet the machine was
+ERRORS = 3.0  # standard errors beyond which a difference is no noise
 QUARTILES = 1.349  # standard deviations between the quartiles of a normal distribution
 MEDIAN = 1.2533  # standard error of a median by that of a mean
 SLOWER, FASTER, SAME = "slower", "faster", "within the noise"
@@ -19,7 +19,7 @@ HEAD = ["measurement", "device", "old ms", "new ms", "change", "noise", "verdict
 
 
 def deviation(entry):
-    """Relative standard deviation of the runs, from the quartiles."""
+    """Returns the relative standard deviation of the runs, from the quartiles."""
     spread = entry["summary"]["trace_ms"]
     return (spread["q3"] - spread["q1"]) / QUARTILES / spread["median"] if spread["median"] > 0 else 0
 
@@ -32,8 +32,8 @@ def measured(result):
 
 
 def compare(old, new):
-    """[{"entry", "old_ms", "new_ms", "change": share, "limit": share, "verdict", "disturbed"}] of what both, as `measured`
-    gives it, have in common; the most slowed first."""
+    """Returns [{"entry", "old_ms", "new_ms", "change": share, "limit": share, "verdict", "disturbed"}] of the entries that
+    both, as `measured` gives them, have in common; the most slowed first."""
     common = [key for key in old if key in new]
     if not common:
         raise Problem(2, "the two have no measurement in common: their devices differ, or only one of them is quick")

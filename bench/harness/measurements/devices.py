@@ -12,9 +12,8 @@ HEAD = ["devices", "frames/s", "least", "most", "times one"]
 
 
 def steady_rate(frames):
-    """Returns frames a second, as the sum of what each device does between the end of its first frame and that of its last:
-    it includes neither the compiling of kernels nor the wait of the last device for the others. 0 if a device made
-    fewer than two frames."""
+    """Returns frames a second: the sum of each device's rate from the end of its first frame to that of its last. It includes
+    neither the compiling of kernels nor the last device's wait for the others. 0 if a device made fewer than two frames."""
     ends = {}
     for frame in frames:
         ends.setdefault((frame["backend"], frame["index"]), []).append(frame["began"]["trace"] + frame["seconds"]["trace"])
@@ -24,7 +23,7 @@ def steady_rate(frames):
 
 
 def counts(total):
-    """1, 2, 4, ... and all of them."""
+    """Returns 1, 2, 4, ... and the number of all."""
     found = [1]
     while found[-1] * 2 <= total:
         found.append(found[-1] * 2)

@@ -23,7 +23,7 @@ OF_SCENE = ("width", "height", "samples", "depth")
 
 
 def rate(count, seconds):
-    """A second that the clock could not see makes no rate."""
+    """Returns a rate, or None for a time too short for the clock."""
     return count / seconds if seconds > 0 else None
 
 
@@ -33,7 +33,7 @@ def median_rate(frames, count):
 
 
 def summary(frames):
-    """None where no frame counts. Rates are those of the median frame."""
+    """Returns the summary, or None if no frame counts. Rates are those of the median frame."""
     if not frames:
         return None
     whole = median(sum(frame["seconds"].values()) for frame in frames)
@@ -65,7 +65,7 @@ class Frames(Bench):
         if scene and not scene.is_file():
             raise Problem(2, f"there is no scene file {scene}")
         plan.scenes["scene"] = scene and scene.resolve()
-        plan.keeps_parts, plan.save = True, self.check  # what is known is written after every run: nothing of it can be lost
+        plan.keeps_parts, plan.save = True, self.check  # the result is written after every run: an interruption loses nothing
         for label in self.runnable:
             plan.job(label, "scene", self.arguments.frames)
         self.result.update(frames=self.arguments.frames, scene={"name": scene.stem if scene else self.scene,
@@ -107,7 +107,7 @@ class Frames(Bench):
     def device(self, job):
         return self.plan.devices[job["device"]]
 
-    # ---- what came of it
+    # ---- results
 
     def cells(self, job):
         each, device = job["summary"], self.device(job)
@@ -117,14 +117,14 @@ class Frames(Bench):
                 number(each["ratio_to_fastest"], 3)]
 
     def tell(self):
-        told = [f"hedron {self.program.version}, {scene_words(self.result)}", machine_words(self.result), ""]
+        printed = [f"hedron {self.program.version}, {scene_words(self.result)}", machine_words(self.result), ""]
         if self.measured:
-            told += [*tables.lines([HEAD, *map(self.cells, self.measured)]), ""]
-        told += [f"{each.get('label') or each['device']} {'failed' if each.get('failed') else 'cannot run'}: {each['reason']}"
+            printed += [*tables.lines([HEAD, *map(self.cells, self.measured)]), ""]
+        printed += [f"{each.get('label') or each['device']} {'failed' if each.get('failed') else 'cannot run'}: {each['reason']}"
                  for each in [*self.result["devices"], *self.plan.jobs] if each["reason"] is not None]
         if not self.result["complete"]:
-            told.append("Interrupted: figures are of what was measured until then.")
-        print(*told, self.result["pictures"]["sentence"], *files.draw(self.charts(), self.arguments.out),
+            printed.append("Interrupted: figures are of what was measured until then.")
+        print(*printed, self.result["pictures"]["sentence"], *files.draw(self.charts(), self.arguments.out),
               f"All times: {self.file}", sep="\n")
 
     def charts(self):

@@ -16,9 +16,9 @@ def sets_words(entries):
         for name in ("avx512", "avx2", "generic"):
             if entry["renderer"] and f" {name}" in entry["renderer"]:
                 found.setdefault(name, set()).add(int(entry["x"]))
-    told = [f"{', '.join(map(str, sorted(each)))} by {name}" for name, each in found.items()]
+    sentences = [f"{', '.join(map(str, sorted(each)))} by {name}" for name, each in found.items()]
     words = "Hedron takes the best instruction set that the CPU has for a number of lanes"
-    return f"{words}: {'; '.join(told)}." if told else f"{words}."
+    return f"{words}: {'; '.join(sentences)}." if sentences else f"{words}."
 
 
 def fill(section):

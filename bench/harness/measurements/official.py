@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The official example beside the figures of the report that defines it, and what the first screen of the page says of speed."""
+"""The official example beside the figures of the report that defines it, and the first screen's sentences about speed."""
 import html
 from statistics import median
 
@@ -44,14 +44,14 @@ def fill(section):
     section.tabulate(lambda entry: f"frames {entry['frames']}")
 
 
-# ---- what it says first
+# ---- the first screen
 
-# Parts in which every device does the same work as it does by default.
+# Parts in which every device does its default work.
 ALIKE = ("official", "animation", "triangles", "lights", "samples", "depth")
 
 
 def times(result, label):
-    """{what: median milliseconds} of what all devices do alike; of triangles by the hierarchy."""
+    """Returns {part: median milliseconds} of work that all devices share; of triangles by the hierarchy."""
     return {(entry["part"], entry["x"]): middle(entry) for entry in result["measurements"]
             if entry["device"] == label and entry["part"] in ALIKE and entry["series"] in ("", "bvh") and entry["summary"]}
 

@@ -10,7 +10,7 @@ ONE_LANE, ONE_THREAD, ALL = "one thread, one ray at a time", "one thread", "all 
 
 
 def add(plan):
-    """A quick one counts as many times as it has less samples."""
+    """Adds the jobs; a quick one's times are multiplied, because it has fewer samples."""
     options, scale = (("--samples", "2"), 4) if plan.quick else (("--samples", "4"), 1)
     for label, device in plan.runnable.items():
         ways = {ALL: ()}

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Pictures of the built-in scene: a reference, and two settings with maps of their errors; and maps of where backends, precisions
-and arithmetics differ."""
+"""Pictures of the built-in scene: a reference, and two settings with maps of their errors; and maps of where backends,
+precisions and arithmetics differ."""
 import base64
 
 from harness.measure.numbers import number
@@ -9,7 +9,7 @@ from harness.run import devices, pfm
 from harness.run.program import Problem, run_tool
 
 SIZES, REFERENCE_SIDES = {True: (192, 108), False: (320, 180)}, {True: 4, False: 8}
-MISSING = "4"  # steps of 255 that may be left out of the reference
+MISSING = "4"  # truncation error of the reference, in steps of 255
 DRAFT, FINE = ("--samples", "2"), ("--samples", "8", "--aa", "adaptive")
 SETTINGS = {"A draft": DRAFT, "Fine": FINE}
 REFERENCE = "Reference"
@@ -23,7 +23,7 @@ class Gallery:
         self.entries, self.files = [], {}
 
     def render(self, name, label, *options):
-        """Returns the name, under which the picture is then known."""
+        """Returns the picture's name."""
         study = self.study
         study.news(f"pictures: {name}")
         self.files[name] = study.folder / f"gallery-{len(self.files)}.png"
@@ -69,7 +69,7 @@ class Gallery:
 
 
 def measure(study):
-    """Raises Problem if a run fails."""
+    """Returns the pictures; raises Problem if a run fails."""
     judge = devices.judge(study.runnable.values())
     if judge is None:
         return "No device that is strict has double precision, so there is no reference."
@@ -87,7 +87,7 @@ def words(each):
 
 
 def fill(section):
-    """Shows those of the first machine that has them, because all render the same; names maps that are black."""
+    """Shows the first machine's pictures, because all render the same; names maps that are black."""
     found = next((result for result in section.results if result.get("gallery")), None)
     if found is None:
         return
@@ -96,8 +96,8 @@ def fill(section):
     section.pictures = [(each["name"], words(each), each["png"]) for each in entries if each["name"] not in black]
     section.notes.append(LEGEND)
     if black:
-        told = [f"{name}, {f'at most {number(most, 3)} of 255' if most else 'no pixel'}" for name, most in black.items()]
-        section.notes.append(f"Maps that are all black are not shown: {'; '.join(told)}.")
+        unseen = [f"{name}, {f'at most {number(most, 3)} of 255' if most else 'no pixel'}" for name, most in black.items()]
+        section.notes.append(f"Maps that are all black are not shown: {'; '.join(unseen)}.")
     section.notes.append(f"Made on {found['machine']['name']}{dagger(found)}, {' x '.join(map(str, found['gallery']['size']))}.")
 
 

@@ -12,7 +12,7 @@ from harness.run.program import ROOT
 
 PIPELINES = ("mega", "wavefront", "wavefront-uncompacted")
 SCENES = {"headline": "bench/scenes/headline.json", "fullhd": "bench/scenes/fullhd.json", "default": "scenes/default.json"}
-FEWER = {"fullhd": (("--size", "480x270", "--samples", "2"), 64)}  # for CPUs, and by what that has less to do
+FEWER = {"fullhd": (("--size", "480x270", "--samples", "2"), 64)}  # view for CPUs, and the factor of its times
 HEAD = ["device", "scene", "pipeline", "trace ms [q1..q3]", "to mega", "processor time to mega"]
 
 
@@ -34,7 +34,7 @@ class Pipelines(Bench):
 
     def prepare(self):
         self.plan.scenes = {name: ROOT / file for name, file in SCENES.items()}
-        self.jobs = []  # (pipeline, job, that of the megakernel)
+        self.jobs = []  # (pipeline, job, the megakernel's job)
         for label, device in self.runnable.items():
             for scene in SCENES:
                 added, scale = FEWER.get(scene, ((), 1)) if device["is_cpu"] else ((), 1)

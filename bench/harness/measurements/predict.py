@@ -23,8 +23,8 @@ from harness.measurements.speed import MODEL_OPTIONS
 from harness.store.result import read
 
 TERMS = ("fixed", "rays x planes", "rays x lights", "shadow tests")
-LEAST_SAMPLES = 1 << 17  # of a frame
-BYTES_A_PIXEL = 12 + 4  # written as floats, and read once more as a picture
+LEAST_SAMPLES = 1 << 17  # counts of a frame
+BYTES_A_PIXEL = 12 + 4  # bytes a pixel: written as floats, and read once more as a picture
 GTX_1050 = {"name": "GTX 1050", "lane_rate": 5 * 128 * 1.455e9, "bytes_a_second": 112e9,
             "slowest": 1.354 / 1.455, "fastest": 1.5 / 1.455}
 # Student's t for 90 % of the values, two-sided, by degrees of freedom.
@@ -42,7 +42,7 @@ def dot(one, other):
 
 
 def non_negative_fit(rows, wanted, rounds=20000):
-    """Coefficients that make the sum of squares of rows x coefficients - wanted least, none below zero; by
+    """Returns the coefficients, none below zero, that minimise the sum of squares of rows x coefficients - wanted; by
     coordinate descent on scaled columns."""
     scale = [math.hypot(*column) or 1.0 for column in zip(*rows)]
     columns = [[value / each for value in column] for column, each in zip(zip(*rows), scale)]
@@ -57,14 +57,14 @@ def non_negative_fit(rows, wanted, rounds=20000):
 
 
 def predict(coefficients, point, speed=1.0, bytes_a_second=None):
-    """Seconds on a device with `speed` times the lane rate."""
+    """Returns seconds on a device with `speed` times the lane rate."""
     fixed, *work = [coefficient * value for coefficient, value in zip(coefficients, features(point))]
     seconds = fixed + sum(work) / speed
     return seconds if bytes_a_second is None else max(seconds, point["pixels"] * BYTES_A_PIXEL / bytes_a_second)
 
 
 def points_of(result, device):
-    """One for each scene that was run as it stands."""
+    """Returns a point for each scene that was run unchanged."""
     points = []
     for job in sorted(result["measurements"], key=lambda job: job["scene"]):
         frames = counted_frames(job)
@@ -76,17 +76,17 @@ def points_of(result, device):
     return [point for point in points if point["seconds"] > 0 and not point.get("meshes") and point["samples"] >= LEAST_SAMPLES]
 
 
-def choose_device(result, wish):
+def choose_device(result, selection):
     peaks = {label: rate for label, rate in (result.get("peaks") or {}).items() if rate}
-    label = wish or next(iter(peaks), None)
+    label = selection or next(iter(peaks), None)
     if label not in peaks:
-        raise Problem(3, "the file has no GPU whose lanes are known" if wish is None else
-                      f"--device is '{wish}', expected one of {', '.join(peaks) or 'none'}")
+        raise Problem(3, "the file has no GPU whose lanes are known" if selection is None else
+                      f"--device is '{selection}', expected one of {', '.join(peaks) or 'none'}")
     return label, peaks[label]
 
 
 def evaluate(points):
-    """{"coefficients", "errors": of the scenes left out, as ln(measured / predicted), "spread"}"""
+    """Returns {"coefficients", "errors": of the scenes left out, as ln(measured / predicted), "spread"}."""
     if len(points) < 2 * len(TERMS):
         raise Problem(3, f"the file has {len(points)} scenes for the model, expected at least {2 * len(TERMS)}: "
                          "bench/study speed makes them on a GPU")
@@ -103,7 +103,7 @@ def evaluate(points):
 
 
 def table(points, model, lane_rate, target):
-    """[{"scene", "measured", "predicted", "error", "target", "low", "high"}], in seconds."""
+    """Returns [{"scene", "measured", "predicted", "error", "target", "low", "high"}], in seconds."""
     speed = target["lane_rate"] / lane_rate
     rows = []
     for point in points:
@@ -122,7 +122,7 @@ def cells(row):
 
 
 def beside_report(row):
-    """A sentence: the model's time of the official example, and its range, beside what the report's program took."""
+    """Returns a sentence: the model's time of the official example, and its range, beside the time of the report's program."""
     report = REPORT[GPU] / 1e3
     usual, low, high = [number(row[key] / report, 2) for key in ("target", "low", "high")]
     slower = row["low"] > report, row["target"] > report, row["high"] > report

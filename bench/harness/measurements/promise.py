@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Whether --max-error ever promises too much: random scenes, the bound that is stated of each against a deep truth."""
+"""Checks the bound of --max-error: the stated error of random scenes against a deep truth."""
 import json
 import math
 import random
@@ -17,7 +17,7 @@ from harness.run.program import Problem, message_in
 CUBE = """v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1
 f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"""
 KINDS = ("tetrahedron", "cube", "octahedron", "dodecahedron", "icosahedron")
-# The truth leaves out as much as it takes to come to an end; so it shows too little, never too much.
+# The truth omits its own truncation; so it shows too little error, never too much.
 TRUTHS = ((1000, 1e-5), (1000, 1e-4), (20, 1e-3), (12, 0))
 LIMIT, TRUTH_LIMIT = 20, 8  # seconds
 ROUNDING = 1e-3  # steps of 255: float radiance
@@ -26,7 +26,7 @@ HEAD = ["scenes", "judged in time", "more missing than stated", "missing / state
 
 
 class Maker:
-    """A random scene, and the options to render it with."""
+    """Makes a random scene, and the options to render it with."""
 
     def __init__(self, seed):
         self.random = random.Random(seed)
@@ -91,7 +91,7 @@ class Maker:
         return scene
 
     def bright_in_few_samples(self, samples):
-        """A mirror about as large as a sample, bright enough to show in its pixel, that sees something as bright."""
+        """Returns a mirror about as large as a sample, bright enough to show in its pixel, that sees something as bright."""
         value, away, view = self.power(-1.5, 0.3) * samples ** 2, self.random.uniform(3, 8), self.random.uniform(1, 20)
         step = 2 * away * math.tan(math.radians(view / 2)) / 3 / samples
         share = self.random.choice((1, 0.9, 0.5))
@@ -105,7 +105,7 @@ class Maker:
                 "lights": [{"position": [0, -away - 0.01, 0], "intensity": value * self.power(-1, 1)}]}
 
     def make(self):
-        """(scene, options of both pictures, options of the bounded one)"""
+        """Returns (scene, options of both pictures, options of the bounded one)."""
         choose = self.random.choice
         is_thin, samples = self.random.random() < 0.4, choose((1, 2, 4, 8))
         if is_thin:
@@ -127,7 +127,7 @@ def displayed(value, curve):
 
 
 def render(program, folder, output, options, limit):
-    """Returns False if it takes too long."""
+    """Renders a picture; returns False if it takes too long."""
     words = ["render", "scene.json", "--quiet", "--backend", "c", "--frames", "0", *map(str, options), "-o", output]
     try:
         done = subprocess.run([program.path, *words], cwd=folder, capture_output=True, text=True, stdin=subprocess.DEVNULL,
@@ -221,7 +221,7 @@ BENCH = Promise
 # ---- the study's part
 
 def measure(study):
-    """Raises Problem if a run fails."""
+    """Measures what is missing from the result; raises Problem if a run fails."""
     found = study.result["promise"] = study.result.get("promise") or []
     for seed in range(len(found) + 1, COUNTS[study.arguments.quick] + 1):
         study.news(f"promise, scene {seed}")
@@ -231,7 +231,7 @@ def measure(study):
 
 
 def fill(section):
-    """Shows the first machine's that has it, because all give the same numbers."""
+    """Shows the first machine's result, because all give the same numbers."""
     found = next((result for result in section.results if result.get("promise")), None)
     if found is not None:
         lies = len(failures_of(found["promise"]))

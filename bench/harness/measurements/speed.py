@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Every target of speed on every device, and a timeline: what is run for each row, and how its figure follows."""
+"""Every target of speed on every device, and a timeline: the runs of each row, and its figure."""
 import os
 from statistics import median
 
@@ -12,10 +12,10 @@ from harness.run.devices import H200, is_h200, lane_rate
 from harness.run.program import ROOT
 from harness.speed import film, timeline
 
-CORES = 2  # that the targets for two cores are measured on
-MODEL_OPTIONS = ["--set", "camera.frames=5"]  # of the runs that the rows of the model make
-# Views that give a like number of pairs: the middle of one picture, always as fine as the whole of it
-# in 640 x 360 with one sample, so that the rays of a packet are as near to each other.
+CORES = 2  # cores that the targets for two cores are measured on
+MODEL_OPTIONS = ["--set", "camera.frames=5"]  # frames of the runs for the rows of the model
+# Views that give a similar number of pairs: the middle of one picture, as fine as the whole of it in 640 x 360 with
+# one sample, so that the rays of a packet are equally close.
 LIGHT_VIEWS = {200: ("160x90", 62), 1000: ("72x40", 30.3), 10000: ("24x14", 10.3)}
 COUNTED_LIGHTS = 32
 
@@ -29,8 +29,8 @@ COMPARED = {"headline": (), "default": ("--samples", "1"), "official": ("--sampl
 
 
 class Speed(Bench):
-    """`rates` and `counts` are what kernel_rates gives, or the reason why there is nothing; `film` what film.alone gives, for
-    CPU devices or not."""
+    """Rows of speed. `rates` and `counts` are results of kernel_rates, or the reason why there are none; `film` that of
+    film.alone, for CPU devices or not."""
     name = "speed"
     about = "Measure every target of speed on every device."
     quick = "few frames and repeats; large pictures on CPUs are smaller, and their times scaled"
@@ -52,7 +52,7 @@ class Speed(Bench):
             getattr(self, name)()
 
     def job(self, device, scene, frames, *options, few_cores=False, **named):
-        """`few_cores` is for targets of two cores, and nothing on a machine that has no more."""
+        """Returns a job. `few_cores` is for targets of two cores; it changes nothing on a machine with no more."""
         if few_cores and self.plan.cores:
             named["few_cores"] = True
         return self.plan.job(device, scene, frames, options, **named)
@@ -65,7 +65,7 @@ class Speed(Bench):
                      if device["backend"] == backend and device["is_cpu"]), None)
 
     def demand_c(self, *row):
-        """The CPU with the C backend, or None and a row that says so."""
+        """Returns the CPU with the C backend, or None after adding a row that says so."""
         if not self.cpu("c"):
             self.plan.absent(*row, "the C backend is left out")
         return self.cpu("c")
@@ -86,7 +86,7 @@ class Speed(Bench):
         return (3, 15) if self.arguments.quick else (7, 55)
 
     def tracing(self, key, scene, what, options, target_gpu, target_cpu=None, frames="0-4", unit="ms", fewer=None):
-        """A row for each device. `fewer` are options for CPUs in a quick run, and by what that has less to do."""
+        """Adds a row for each device. `fewer` are options for CPUs in a quick run, and the factor of their times."""
         for label, device in self.runnable.items():
             note, scale, added, once = None, 1e-3 if unit == "s" else 1, (), {}
             slow = device["is_cpu"] and fewer is not None
@@ -119,7 +119,7 @@ class Speed(Bench):
     # ---- rates of the hot loops
 
     def pairs(self):
-        """Of whole runs, by the processor's time, so that a busy machine changes little."""
+        """Adds rows of whole runs, by the processor's time, so that a busy machine changes little."""
         what, target = "unculled (point, light) pairs a CPU-second", Target(200, 500)
         device = self.demand_c("pairs", what, "M/s", target)
         for count in LIGHT_VIEWS if device else ():
@@ -151,8 +151,8 @@ class Speed(Bench):
         return self.counts["counted"][name]
 
     def cpu_share(self, name, key):
-        """Of the vector instructions that the machine was seen to do in independent chains of them in the
-        same run, were they fused multiply-adds."""
+        """Returns the loop's rates in per cent of the arithmetic peak of the same run: all of its independent chains' vector
+        instructions, as if they were fused multiply-adds."""
         each = self.counted(name)[f"{key}_each"] / (self.counts["lanes"] * 2 if key == "operations" else 1)
         return [100 * each * rate / peak for rate, peak in zip(self.counts["rates"][name], kernel_rates.peaks(self.counts))]
 
@@ -186,7 +186,7 @@ class Speed(Bench):
     # ---- one against the other
 
     def against(self, key, what, label, base, target, more=(), base_more=()):
-        """A row for each scene: one device by another, or with more options by itself with others."""
+        """Adds a row for each scene: one device against another, or more options against the device alone."""
         for scene, options in COMPARED.items():
             job, other = self.job(label, scene, "0-3", *options, *more), self.job(base, scene, "0-3", *options, *base_more)
             self.plan.row(key, f"{what}, {scene}", "times", lambda job=job, other=other: self.plan.ratios(job, other),
@@ -201,7 +201,7 @@ class Speed(Bench):
             self.against("pocl", what, pocl, plain, target)
 
     def math(self):
-        for label in (label for label, device in self.runnable.items() if device["backend"] != "c"):  # it has one
+        for label in (label for label, device in self.runnable.items() if device["backend"] != "c"):  # the device has one
             self.against("math", "time of strict against fast arithmetic", label, label, Target(1.15, 1.02, False),
                          base_more=("--math", "fast"))
 
@@ -213,14 +213,14 @@ class Speed(Bench):
     # ---- whole runs
 
     def stage(self):
-        """A run, frame by frame in steady state, against its slowest stage alone: tracing without
-        pictures to encode, or encoding without tracing."""
+        """Adds a run, frame by frame in steady state, against its slowest stage alone: tracing without pictures to encode, or
+        encoding without tracing."""
         for label in [device for device in (self.cpu("c"), *self.gpus()) if device]:
             counts, is_cpu = self.film_lengths(), self.runnable[label]["is_cpu"]
             trace = self.job(label, "headline", f"0-{counts[0]}", few_cores=is_cpu)
             for kind, output in (("PNG", "#######.png"), ("film", "film.mp4")):
                 lengths = [self.job(label, "headline", f"0-{count}", output=output, few_cores=is_cpu) for count in counts]
-                alone = [self.job(label, "headline", str(number), output=output, few_cores=is_cpu)  # nothing else is at work
+                alone = [self.job(label, "headline", str(number), output=output, few_cores=is_cpu)  # nothing else is running
                          for number in (0, 5) if kind == "PNG"]
 
                 def figure(lengths=lengths, trace=trace, alone=alone, is_cpu=is_cpu):
@@ -240,7 +240,7 @@ class Speed(Bench):
                 job = self.job(label, scene, "0-2", *MODEL_OPTIONS, slow=True)
                 self.plan.row("model", f"{scene}, as it stands", "ms", lambda job=job: self.plan.trace_ms(job), device=label)
 
-    # ---- the work
+    # ---- running
 
     def measure_loops(self, what, scenes, counts=False):
         seconds, rounds = (0.1, 3) if self.arguments.quick else (0.5, 5)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Where methods of geometry and arithmetic fail, hedron's among them. All of it runs on the CPU, with the same numbers each time;
-an interrupted study can be continued."""
+"""Failures of geometry and arithmetic methods, hedron's among them. All of it runs on the CPU, with the same numbers each
+time; an interrupted study can be continued."""
 from pathlib import Path
 
 from harness.command.bench import Bench
@@ -124,11 +124,11 @@ BENCH = Stability
 
 # ---- the study's part
 
-FEWER = {True: QUICK_PART, False: 4}  # by what it counts less
+FEWER = {True: QUICK_PART, False: 4}  # divisor of the counts
 
 
 def measure(study):
-    """Raises Problem if a run fails."""
+    """Measures what is missing from the result; raises Problem if a run fails."""
     memory = study.result["stability"] = study.result["stability"] or {"steps": [], "counts": [], "precision": [], "odd": None}
     options = (*SIZES[True], *study.arguments.options)
     steps = {each: ("counts", methods.run, study.program, each, methods.COUNTS[each] // FEWER[study.arguments.quick])
@@ -144,7 +144,7 @@ def measure(study):
 
 
 def fill(section):
-    """Shows the first machine's that has it, because all give the same numbers."""
+    """Shows the first machine's result, because all give the same numbers."""
     found = next((result for result in section.results if result["stability"]), None)
     if found is None:
         return
@@ -155,11 +155,11 @@ def fill(section):
     section.table = [table.HEAD, *[list(row.values()) for row in table.rows(about)]]
 
 
-NEVER = {"crossings": "crossings", "misplaced": "crossings", "lost": "paths", "shadows": "shadows"}  # in which study
+NEVER = {"crossings": "crossings", "misplaced": "crossings", "lost": "paths", "shadows": "shadows"}  # study that it belongs to
 
 
 def answers(results):
-    """Yields a sentence about the first machine that has it."""
+    """Yields a sentence about the first machine that has the result."""
     found = next((result["stability"] for result in results if result["stability"] and result["stability"]["counts"]), None)
     if found is None:
         yield "Stability was measured on no machine here."

@@ -21,7 +21,7 @@ def add(plan):
 
 
 def stage_seconds(run):
-    """Seconds of the stages of a run of one frame; None: of the building of kernels a warm run has nothing."""
+    """Returns seconds of the stages of a run of one frame; None: a warm run builds no kernels."""
     frame = run["frames"][0]
     seconds, began = frame["seconds"], {stage: value for stage, value in frame["began"].items() if value is not None}
     end = max(value + seconds[stage] for stage, value in began.items())
@@ -30,7 +30,7 @@ def stage_seconds(run):
 
 
 def stage_spreads(device):
-    """{stage: spread in milliseconds}"""
+    """Returns {stage: spread in milliseconds}."""
     warm, cold = [[run for entry in device.entries(series=series) for run in chosen_runs(entry)] for series in (WARM, COLD)]
     if not warm:
         return {}
@@ -43,17 +43,17 @@ def stage_spreads(device):
 
 
 def fill(section):
-    drawn, told = [], []
+    drawn, sentences = [], []
     for device in section.devices:
         found = stage_spreads(device)
         drawn += [Row(name, found[name], ms(found[name]["median"]), device.place, group=device.name) for name in STAGES
                   if name in found]
         if found:
             longest = max(found, key=lambda name: found[name]["median"])
-            told.append(f"on {device.name} the longest stage is {longest}: {ms(found[longest]['median'])}")
+            sentences.append(f"on {device.name} the longest stage is {longest}: {ms(found[longest]['median'])}")
     if drawn:
         section.draw(rows, "one frame of the built-in scene to PNG, 640 x 360, 3 x 3 samples",
-                     "Start-up and stages of a run of one frame", few(told), "milliseconds", drawn)
+                     "Start-up and stages of a run of one frame", few(sentences), "milliseconds", drawn)
         section.tabulate(lambda entry: entry["series"])
 
 

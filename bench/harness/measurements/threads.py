@@ -6,7 +6,7 @@ from harness.run import machine
 
 
 def counts(cores):
-    """All, and half of them, down to one."""
+    """Returns all threads, half of them, and so on down to one."""
     found = [cores]
     while found[0] > 1:
         found.insert(0, found[0] // 2)

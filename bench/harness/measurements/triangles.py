@@ -45,7 +45,7 @@ class Triangles(Bench):
     def prepare(self):
         self.result["most"] = self.arguments.most
         self.hunts, self.unmade = {}, {}
-        self.jobs, self.triangles = {}, None  # (device, way, asked): job of the sweep; asked: true number
+        self.jobs, self.triangles = {}, None  # (device, method, requested): job of the sweep; requested: true number
 
     def hunt(self):
         for backend in dict.fromkeys(device["backend"] for device in self.runnable.values()):
@@ -53,7 +53,7 @@ class Triangles(Bench):
                                              self.arguments.leak_rays)
 
     def make_scenes(self):
-        """{count: triangles} of the objects there are now."""
+        """Returns {count: triangles} of the objects."""
         made = {}
         wanted = {*(sweep.COUNTS if self.wants("sweep") else ()), *(primary.TARGETS if self.wants("primary") else ())}
         for count in sorted(number for number in wanted if number <= self.arguments.most):
@@ -115,7 +115,7 @@ class Triangles(Bench):
                       + ("" if is_whole else f"; the target is for {count_words(sweep.MOST)}"))
 
     def add_sweep(self):
-        """Its rows, and what was measured, as it is written."""
+        """Adds the sweep's rows, and its measurements as stored."""
         for label in self.runnable:
             self.add_growth(label)
         places = [list(self.runnable), list(sweep.WAYS)]
@@ -127,7 +127,7 @@ class Triangles(Bench):
                                  "reason": job["reason"] or (None if job["runs"] else "it was not run")}
                                 for (label, way, count), job in self.jobs.items()]
 
-    # ---- what came of it
+    # ---- results
 
     def fill(self):
         primary_rows, self.plan.rows = self.plan.rows, []
@@ -137,7 +137,7 @@ class Triangles(Bench):
         for reason in dict.fromkeys(self.unmade.values()):
             self.plan.absent("scenes", "scenes of the sweep and of primary rays", "", None, reason)
         leaks.add_rows(self.plan, self.hunts)
-        # As they are written: what was measured, or the reason why it was not.
+        # Measurements as stored, or the reason why there are none.
         self.result["leaks"] = [{"backend": backend, **({"reason": total} if isinstance(total, str) else total)}
                                 for backend, total in self.hunts.items()] or None
 

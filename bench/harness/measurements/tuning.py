@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The fastest settings of each device by hedron tune. It runs last, because later runs use what it finds."""
+"""The fastest settings of each device by hedron tune. It runs last, because later runs use its choice."""
 import json
 
 from harness.measure.numbers import number
@@ -11,7 +11,7 @@ HOW = ("pipeline", "lanes", "block", "registers")
 
 
 def measure(study):
-    """Raises Problem if a run fails."""
+    """Tunes the devices that the result lacks; raises Problem if a run fails."""
     found = study.result["tuning"] = study.result.get("tuning") or {}
     for label in study.runnable:
         if label not in found:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The first screen of the page: a table of all devices, and a few sentences; all of it in numbers of the results."""
+"""The first screen of the page: a table of all devices, and a few sentences, all in numbers of the results."""
 import html
 
 from harness.chart.rows import ms
@@ -10,7 +10,7 @@ FAILS, ABSENT, NONE = "what fails", "not measured", "-"
 
 
 def figure(name, value, words=None):
-    """Returns HTML of a number, which says by its name what it is."""
+    """Returns HTML of a number; its class names the kind."""
     words = words or (number(value, 3) if value else "0")
     return f"<strong data-figure=\"{html.escape(name)}\" data-value=\"{value!r}\">{html.escape(words)}</strong>"
 

@@ -97,14 +97,14 @@ def machines(results, pictures):
                for result in results if result["hedron"]["options"]]
     absent = [f"{result['machine']['name']}: nothing was measured of {', '.join(parts)}."
               for result in results if (parts := parts_without_figures(result))]
-    told = [*changed, *map(noise_words, results), *absent, *pictures]
+    sentences = [*changed, *map(noise_words, results), *absent, *pictures]
     return ["<details id=\"machines\"><summary>Machines, programs and method</summary>", table(machine_rows(results)), "<ul>",
-            *(f"<li>{text(each)}</li>" for each in told), f"<li>{METHOD}</li>", "</ul></details>"]
+            *(f"<li>{text(each)}</li>" for each in sentences), f"<li>{METHOD}</li>", "</ul></details>"]
 
 
 def warnings(results, failures):
     words = [f"<p class=\"wrong\">{text(each)}</p>" for each in failures]
-    if is_unfinished(results[0]):  # the one that a call would go on with
+    if is_unfinished(results[0]):  # the result that a call would continue
         words.append("<p class=\"wrong\">A study here is unfinished: bench/study continues it.</p>")
     quick = [result["machine"]["name"] for result in results if result["quick"]]
     if quick:
@@ -132,7 +132,7 @@ def section_words(section):
 
 
 def page(results, sections, opening, failures, pictures):
-    """`opening` is HTML, the first screen."""
+    """Returns the page. `opening` is HTML, the first screen."""
     links = "\n".join(f"<a href=\"#{section.part}\">{text(section.title)}</a>" for section in sections)
     words = ["<!DOCTYPE html>", "<html lang=\"en\"><head><meta charset=\"utf-8\">",
              "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">",

@@ -19,31 +19,31 @@ WHOLE_FRAME = "one frame of the built-in scene, 1280 x 720, 2 x 2 samples"
 
 @dataclass(frozen=True)
 class Part:
-    """What a file of harness/measurements declares for bench/study. Either `add` puts points into the plan, or `measure` does
-    something else and returns why it did not, if so."""
+    """A part: what a file of harness/measurements declares for bench/study. Either `add` puts points into the plan, or
+    `measure` does something else and returns the reason if it did not."""
     place: int  # in the order of the parts
     title: str
-    about: str  # what was measured, in a sentence or two
+    about: str  # purpose, in a sentence or two
     add: Callable = None
-    scenes: Callable = None  # {name: file, or the reason why there is none} of those that it makes
+    scenes: Callable = None  # {name: file, or the reason why there is none} of its scenes
     measure: Callable = None
     fill: Callable = None  # fills its section, from the results
     failures: Callable = lambda result: []
     cells: Callable = None  # cells of a device in the page's first table (page/answer.py)
     answer: Callable = None  # sentences of HTML below that table, from the results
-    lead: int = 9  # place among those that answer, at the top of the page; the others follow in their order
+    lead: int = 9  # place among the answers at the top of the page; the others follow in their order
 
 
 @dataclass(frozen=True)
 class Device:
-    """Device of a machine, and what it measured of a part; `place` counts the different devices and gives the colour."""
+    """Device of a machine, and its results of a part; `place` counts the different devices and gives the colour."""
     result: dict
     entry: dict
     place: int
     part: str
     label: str
     name: str  # short, and different from all others
-    machine: str  # name of its machine; empty if there is one only
+    machine: str  # name of its machine; empty if there is only one
 
     def entries(self, **wanted):
         """Returns the measured ones."""
@@ -64,7 +64,7 @@ def short_name(result, device):
 
 
 def all_devices(results, part=""):
-    """`results` are in the order of the page; this machine's, if any, comes first."""
+    """Returns all devices. `results` are in the order of the page; this machine's, if any, comes first."""
     runnable = [(result, entry) for result in results for entry in result["devices"] if entry["reason"] is None]
     names = [short_name(*each) for each in runnable]
     found, places = [], {}
@@ -88,9 +88,9 @@ def dagger(result):
 class Section:
     part: str
     title: str
-    about: str  # what was measured, in a sentence or two
+    about: str  # purpose, in a sentence or two
     results: list
-    devices: list = field(default_factory=list)  # that measured it
+    devices: list = field(default_factory=list)  # machines that measured it
     charts: dict = field(default_factory=dict)  # (chart, caption) by their names
     table: list = field(default_factory=list)  # rows of cells, the first is the head
     notes: list = field(default_factory=list)
@@ -158,7 +158,7 @@ def sections(parts, results):
     return sorted(found, key=lambda section: parts[section.part].lead)
 
 
-# ---- what the sentences of all have in common
+# ---- common parts of sentences
 
 def ratio(value):
     return f"{number(value, 3)} times"
@@ -191,17 +191,17 @@ def growth(line):
     return x, first["median"], last_x, last["median"]
 
 
-def few(told):
+def few(sentences):
     """Returns a sentence for each of the first few."""
-    more = len(told) - MOST_SENTENCES
-    return " ".join(f"{sentence(each)}." for each in told[:MOST_SENTENCES]) + (
+    more = len(sentences) - MOST_SENTENCES
+    return " ".join(f"{sentence(each)}." for each in sentences[:MOST_SENTENCES]) + (
         f" The figures below have {more} more." if more > 0 else "")
 
 
-def range_words(told):
+def range_words(pairs):
     """Returns the least and the most of [(value, name of device)]."""
-    words = [f"{number(value, 3)} on {name}" for value, name in (min(told), max(told))]
-    return " up to ".join(words[:len(told)])
+    words = [f"{number(value, 3)} on {name}" for value, name in (min(pairs), max(pairs))]
+    return " up to ".join(words[:len(pairs)])
 
 
 def growth_words(drawn, what="", words=axis_number):
@@ -210,19 +210,19 @@ def growth_words(drawn, what="", words=axis_number):
     if not grown:
         return "There is one point only."
     _, x, _, last_x, _ = grown[0]
-    told = range_words([(last / first, line.short) for line, _, first, _, last in grown])
+    factors = range_words([(last / first, line.short) for line, _, first, _, last in grown])
     ends = f"From {words(x)} to {words(last_x)} {what}".rstrip()
-    return f"{ends} the time of a frame grows by a factor of {told}."
+    return f"{ends} the time of a frame grows by a factor of {factors}."
 
 
 def best_words(drawn, words=axis_number):
     """Returns the fastest point of each line, in sentences."""
-    told = []
+    sentences = []
     for line in drawn:
         x, spread = min(line.points, key=lambda point: point[1]["median"])
         worst = max(each["median"] for _, each in line.points)
-        told.append(f"{words(x)} is fastest on {line.short}: {ratio(worst / spread['median'])} as fast as the slowest")
-    return few(told)
+        sentences.append(f"{words(x)} is fastest on {line.short}: {ratio(worst / spread['median'])} as fast as the slowest")
+    return few(sentences)
 
 
 def proportional(drawn):

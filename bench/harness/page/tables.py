@@ -40,7 +40,7 @@ def remarks(rows):
     return [f"{', '.join(who)}: {words}" for words, who in said.items()]
 
 
-# ---- the whole
+# ---- all tables
 
 def head_lines(result):
     load = result["machine"]
@@ -57,7 +57,7 @@ def head_lines(result):
 
 
 def all_tables(result, tables):
-    """With that of the rows."""
+    """Returns all tables, including that of the rows."""
     unfinished = [] if result["complete"] else ["Interrupted: figures are of what was measured until then."]
     below = [*remarks(result["rows"]), *unfinished, result["pictures"]["sentence"]]
     return [("", [HEAD, *map(cells, result["rows"])] if result["rows"] else [], below), *tables]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the machine is, and how busy."""
+"""The machine and its load."""
 import os
 import platform
 
@@ -17,14 +17,14 @@ def cpu_name():
 
 
 def cores():
-    """Those that this process may use."""
+    """Returns the processors that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count()
 
 
 def load():
-    """Mean number of runnable processes over 1, 5 and 15 minutes."""
+    """Returns the mean number of runnable processes over 1, 5 and 15 minutes."""
     return [round(mean, 2) for mean in os.getloadavg()]
 
 
@@ -34,7 +34,7 @@ def busy_seconds():
         usable = {f"cpu{number}" for number in os.sched_getaffinity(0)}
         with open("/proc/stat", encoding="ascii", errors="replace") as file:
             lines = [words for words in map(str.split, file) if words and words[0] in usable]
-        # user, nice and system; interrupts, and what another guest of the host took
+        # user, nice and system; interrupts, and time stolen by other guests of the host
         ticks = [sum(map(int, words[1:4])) + sum(map(int, words[6:9])) for words in lines]
     except (OSError, ValueError, AttributeError):
         return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Pictures in the PFM format, read and compared without any library, and `hedron compare`."""
+"""PFM pictures, read and compared without any library, and `hedron compare`."""
 import array
 import json
 import math
@@ -13,7 +13,7 @@ ROUNDING = 1e-9  # of the curve
 
 
 def read(file):
-    """(width, height, array of all channels in the file's order)"""
+    """Returns (width, height, array of all channels in the file's order)."""
     with open(file, "rb") as stream:
         head = [stream.readline() for _ in range(3)]
         width, height = map(int, head[1].split())
@@ -27,7 +27,7 @@ def read(file):
 
 
 def odd_numbers(picture):
-    """Pixels that have a NaN or an infinity."""
+    """Returns the number of pixels that have a NaN or an infinity."""
     numbers = picture[2]
     if all(map(math.isfinite, numbers)):
         return 0
@@ -35,13 +35,13 @@ def odd_numbers(picture):
 
 
 def not_finite(file):
-    """How many numbers of a file are NaN or infinite."""
+    """Returns how many numbers of a file are NaN or infinite."""
     numbers = read(file)[2]
     return 0 if math.isfinite(sum(numbers)) else sum(not math.isfinite(value) for value in numbers)
 
 
 def displayed(value):
-    """In steps of 255, on the sRGB curve."""
+    """Returns values in steps of 255, on the sRGB curve."""
     value = min(max(value, 0.0), 1.0)
     return 255 * (12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055)
 
@@ -51,7 +51,7 @@ def is_near(a, b, steps=STEP):
 
 
 def near_pixels(one, *others, steps=STEP):
-    """How many pixels are within so many steps of 255 of those of one of the others, in every channel, on the
+    """Returns how many pixels are within so many steps of 255 of the same pixel of another picture, in every channel, on the
     sRGB curve."""
     if any(other[:2] != one[:2] for other in others):
         raise Problem(1, "pictures of different sizes cannot be compared")
@@ -61,13 +61,13 @@ def near_pixels(one, *others, steps=STEP):
 
 
 def share_within(first, second, steps):
-    """Of the pixels of two files, with no channel off by more than so many steps of 255."""
+    """Returns the share of pixels of two files with no channel off by more than so many steps of 255."""
     one, other = read(first), read(second)
     return near_pixels(one, other, steps=steps) / (one[0] * one[1])
 
 
 def compare(program, first, second):
-    """What `hedron compare --json` prints. The first is held to the second."""
+    """Returns the output of `hedron compare --json`. The first picture is compared with the second."""
     done = subprocess.run([program.path, "compare", "--json", first, second], capture_output=True, text=True)
     if done.returncode not in (0, 1) or not done.stdout:  # 1: there are NaNs
         raise Problem(1, f"hedron compare: {message_in(done.stderr)}")
@@ -75,6 +75,6 @@ def compare(program, first, second):
 
 
 def errors(program, picture, truth):
-    """{"rmse", "largest", "p999", "above_1"} in steps of 255 on the display's curve."""
+    """Returns {"rmse", "largest", "p999", "above_1"} in steps of 255 on the display's curve."""
     found = compare(program, picture, truth)
     return {**{key: found["display"][key] for key in ("rmse", "largest", "p999")}, "above_1": found["above_1"]}

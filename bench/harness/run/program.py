@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Runs hedron, and the programs beside it. Hedron's statistics are the source of times: no start of a program, no compiling of
-kernels is in them. What a whole run takes is beside them, as `wall`, and what other programs took of the processors meanwhile."""
+"""Runs hedron and its companion programs. Hedron's statistics are the source of times: they contain neither the start of a
+program nor the compiling of kernels. Beside them are the time of the whole run, as `wall`, and the share of the processors
+that other programs took meanwhile."""
 import functools
 import hashlib
 import json
@@ -15,8 +16,8 @@ from pathlib import Path
 from harness.run import machine
 
 ROOT = Path(__file__).resolve().parents[3]
-NEVER = 1.0  # a limit that no run is beyond
-LEAST_SECONDS = 0.04  # of a disturbance; the system counts in hundredths
+NEVER = 1.0  # a limit that no run exceeds
+LEAST_SECONDS = 0.04  # seconds of a disturbance; the system counts in hundredths
 
 
 class Problem(Exception):
@@ -28,7 +29,7 @@ class Problem(Exception):
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C during a run; `run` has the frames that were done."""
+    """Ctrl-C during a run; `run` has the finished frames."""
 
     def __init__(self, run):
         super().__init__()
@@ -75,13 +76,12 @@ class Program:
 
     def render(self, device, scene, frames, options, folder, output="#######.data", cores=None, path=None,
                look=None, variables=None):
-        """Runs hedron in a new folder, where no name in the path counts as a pattern; `cores`, `path` (for PATH) and `variables` of
-        the environment are optional. Returns a dictionary: the exit "code" (None if the run was interrupted); the first line of
-        the error output as "message", all of it as "said"; "frames", the lines of the statistics; "digests" of frames that are
-        files of their own; "wall" seconds of the program, "cpu" seconds of it and its children; the "load"; "others", the share
-        of all usable processors' time that other programs took (None if the system does not report it); "noisy", whether that
-        is too much. `look` is called with the folder before its removal, and gives "seen".
-        """
+        """Runs hedron in a new folder, where no name in the path counts as a pattern. `cores`, `path` (for PATH) and
+        `variables` of the environment are optional. `look` is called with the folder before its removal, and gives "seen".
+        Returns a dictionary: the exit "code" (None if the run was interrupted); the first line of the error output as "message",
+        all of it as "said"; "frames", the lines of the statistics. "digests" are of frames that are files of their own. "wall" are
+        seconds of the program, "cpu" seconds of it and its children, "load" is the machine's. "others" is the share of all usable
+        processors' time that other programs took (None if the system does not report it); "noisy", whether that is too much."""
         place = Path(folder, "run")
         place.mkdir()
         command = [self.path, "render", "--quiet", *options, "--backend", device["backend"],
@@ -105,13 +105,13 @@ class Program:
 
 
 def processor_seconds(who):
-    """Of this process, or of all its children that have ended."""
+    """Returns the seconds of this process, or of all its ended children."""
     used = resource.getrusage(who)
     return used.ru_utime + used.ru_stime
 
 
 class Clock:
-    """What a run takes, from when this is made."""
+    """The cost of a run, from its construction on."""
 
     def __init__(self):
         self.before = self.now()
@@ -134,7 +134,7 @@ class Clock:
 
 
 def stop(child):
-    """Hedron ends after the frame that it is at; a device that hangs is not waited for."""
+    """Asks hedron to end after its current frame; does not wait for a device that hangs."""
     child.send_signal(signal.SIGINT)
     try:
         child.communicate(timeout=30)
@@ -162,8 +162,8 @@ def message_in(text):
 
 
 def run_tool(program, *words, accepted=(0,), limit=None):
-    """Runs a program beside hedron, or a compiler, and returns the finished process, with its `stdout`. Raises Problem: 3 if the
-    program does not exist or takes more than `limit` seconds, 1 if its exit code is not accepted."""
+    """Runs a program beside hedron, or a compiler, and returns the finished process, with its `stdout`. Raises Problem: 3 if
+    the program does not exist or takes more than `limit` seconds, 1 if its exit code is not accepted."""
     if not program.is_file():
         raise Problem(3, f"there is no {program}: ./dev build builds it")
     try:

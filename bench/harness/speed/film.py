@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""How long FFmpeg takes for a film alone: its arguments and frames are recorded in a run of hedron, and
-given to it again with nothing else running."""
+"""FFmpeg's time for a film alone: its arguments and frames are recorded in a run of hedron, and given to it again with nothing
+else running."""
 import os
 import shutil
 import subprocess
@@ -30,12 +30,12 @@ class Recording:
         return (self.folder / "arguments").read_text(encoding="utf-8").splitlines()
 
     def setting(self, option):
-        """What an option of FFmpeg was, such as -preset."""
+        """Returns the value of an option of FFmpeg, such as -preset."""
         words = self.arguments()
         return words[words.index(option) + 1] if option in words else None
 
     def replay(self, cores):
-        """Seconds of FFmpeg with the recorded frames, on `cores` as the run that was recorded."""
+        """Returns FFmpeg's seconds for the recorded frames, on `cores` as in the recorded run."""
         command = [self.ffmpeg, *self.arguments()[:-1], f"file:{self.folder / 'film.mp4'}"]
         with open(self.folder / "frames", "rb") as frames:
             start = time.monotonic()
@@ -45,7 +45,7 @@ class Recording:
 
 
 def alone(plan, device, scene, lengths, cores):
-    """(seconds of FFmpeg alone for a frame in steady state, its settings), or the reason why there is nothing."""
+    """Returns (seconds of FFmpeg alone for a frame in steady state, its settings), or the reason why there are none."""
     if shutil.which("ffmpeg") is None:
         return "there is no ffmpeg"
     with tempfile.TemporaryDirectory(dir=plan.folder) as place:

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Which stage of a run was busy when, from the statistics' `seconds` and `began`."""
+"""The busy times of a run's stages, from the statistics' `seconds` and `began`."""
 from harness.chart.rows import Row, rows
 from harness.measure.rows import Missing
 
 
 def intervals(frames):
-    """{stage: [(begin, end, frame)]}; stages that took no time at all are left out."""
+    """Returns {stage: [(begin, end, frame)]}; stages that took no time at all are left out."""
     stages = {}
     for frame in frames:
         for stage, begin in frame.get("began", {}).items():
@@ -15,7 +15,7 @@ def intervals(frames):
 
 
 def busy_seconds(boxes):
-    """How long at least one of them was at work."""
+    """Returns how long at least one of them was at work."""
     busy, until = 0.0, float("-inf")
     for begin, end, _ in sorted(boxes):
         busy += max(0.0, end - max(begin, until))
@@ -24,8 +24,8 @@ def busy_seconds(boxes):
 
 
 def measure(frames):
-    """{"seconds", "stages": {stage: {"busy_seconds", "busy_share", "work_seconds"}}, "slowest",
-    "ratio_to_slowest"}: the run goes from the first begin of a stage to the last end."""
+    """Returns {"seconds", "stages": {stage: {"busy_seconds", "busy_share", "work_seconds"}}, "slowest", "ratio_to_slowest"}.
+    The run lasts from the first begin of a stage to the last end."""
     stages = intervals(frames)
     if not stages:
         raise Missing("the statistics of this hedron do not have the times at which stages began")
@@ -40,7 +40,7 @@ def measure(frames):
 
 
 def table(timeline):
-    """(title, rows, lines below)"""
+    """Returns (title, rows, lines below)."""
     rows = [[stage, f"{100 * each['busy_share']:.1f} %", f"{1e3 * each['busy_seconds']:.1f}"]
             for stage, each in sorted(timeline["stages"].items(), key=lambda entry: -entry[1]["busy_share"])]
     return ("Stages of a run", [["stage", "busy", "ms"], *rows], [
@@ -49,7 +49,7 @@ def table(timeline):
 
 
 def chart(result):
-    """A row for each stage, a box for each frame."""
+    """Returns a chart with a row for each stage and a box for each frame."""
     timeline = result["timeline"]
     first = min(box[0] for stage in timeline["boxes"].values() for box in stage)
     caption = (f"{timeline['slowest'].capitalize()} limits the run, which takes {timeline['ratio_to_slowest']:.2f} times as "

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The charts of bench/study stability: where methods fail, by the size of things and by their distance."""
+"""The charts of bench/study stability: failures of methods by the size of things and by their distance."""
 import math
 
 from harness.chart.dots import Block, Dots, dots
@@ -27,7 +27,7 @@ def places_of(counts, key):
     return sorted({each[key] for each in counts})
 
 
-def blocks(result, study, cases, what, title, words, told):
+def blocks(result, study, cases, what, title, words, named):
     """Returns a chart: a row for each method, columns for sizes at the origin and for distances at size 1."""
     counts = methods.select(result["counts"], study, cases)
     sides = [("scale", [each for each in counts if methods.is_at_origin(each)]),
@@ -38,20 +38,20 @@ def blocks(result, study, cases, what, title, words, told):
         found = [shares(methods.select(these, study, method=method), what, key, at) for (key, these), at in zip(sides, places)]
         drawn.append(Dots(methods.NAMES[method], found, method in methods.OURS))
     names = [list(map(power, at)) for at in places]
-    return dots(result, title, f"{words_of(result['counts'], study, cases, what, told)} {words}".strip(),
+    return dots(result, title, f"{words_of(result['counts'], study, cases, what, named)} {words}".strip(),
                 [Block("size of things, at the origin", names[0]), Block("distance from the origin, in sizes", names[1])], drawn)
 
 
-def words_of(counts, study, cases, what, told):
+def words_of(counts, study, cases, what, named):
     """Returns sentences: which methods never fail, and how often others do at their worst place."""
-    worst = {method: methods.worst(methods.select(counts, study, cases, method), what) for method in told}
+    worst = {method: methods.worst(methods.select(counts, study, cases, method), what) for method in named}
     never = [methods.NAMES[method] for method, found in worst.items() if found and not found[0]]
     most = [f"{100 * found[0]:.3g} % with {methods.NAMES[method]}" for method, found in worst.items() if found and found[0]]
     said = [f"No failures occur with {' and '.join(never)}."] * bool(never) + [f"Failures reach {'; '.join(most)}."] * bool(most)
     return " ".join(said)
 
 
-# Of each chart: study, cases, what counts as wrong, title, end of the caption, methods that the caption names.
+# For each chart: study, cases, failure, title, end of the caption, methods that the caption names.
 PANELS = {
     "stability_crossings": (
         "crossings", EDGES, "crossings", "Rays at edges and corners of closed solids",
@@ -89,7 +89,7 @@ def precision(result):
 
 
 def charts(result):
-    """{name: chart}"""
+    """Returns {name: chart}."""
     studies = {each["study"] for each in result["counts"] or []}
     found = {name: blocks(result, *panel) for name, panel in PANELS.items() if panel[0] in studies}
     if result["precision"]:

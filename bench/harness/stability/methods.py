@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs hedron_stability_methods and adds up what it counts."""
+"""Runs hedron_stability_methods and adds up its counts."""
 from harness.run.program import run_tool
 
 # Rays, paths or segments of each case, method and place.
@@ -35,7 +35,7 @@ NAMES = {
     CHECK: "hedron in double",
 }
 
-# What counts as wrong, and of how many.
+# What counts as a failure, and the number of tries.
 WRONG = {
     "crossings": [("wrong", "tried")],
     "misplaced": [("misplaced", "tried")],
@@ -47,7 +47,7 @@ WRONG = {
 
 
 def parse(text):
-    """[{"study", "case", "method", "scale", "offset", and what was counted}]"""
+    """Returns [{"study", "case", "method", "scale", "offset", and the counts}]."""
     found = []
     for line in text.splitlines():
         study, case, method, scale, offset, *counts = line.split()
@@ -63,7 +63,7 @@ def parse(text):
 
 
 def run(program, study, count):
-    """Raises Problem with the reason if it fails."""
+    """Returns the counts; raises Problem with the reason if the program fails."""
     return parse(run_tool(program.beside("bench/hedron_stability_methods"), study, count).stdout)
 
 
@@ -106,11 +106,11 @@ def methods(counts, study):
     return [each for each in found if each not in (*OURS, CHECK)] + [each for each in found if each in OURS]
 
 
-# What hedron's methods never may do.
+# Failures that hedron's methods must never have.
 NEVER = {"crossings": ("missed", "twice", "misplaced"), "paths": ("lost",), "shadows": ("blocked", "opened", "nan")}
 # In double, rounding puts a light on a face to one side of it.
 DOUBLE_MAY = ("face_lights",)
-CRACKS = ("t_junctions",)  # the corners, as they are rounded, leave gaps, which nobody promises to close
+CRACKS = ("t_junctions",)  # the corners, as rounded, leave gaps, which no method promises to close
 
 
 def failures(counts):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Pictures of one scene in float and in double; and of odd scenes, each of which must come to
-its end or be refused with an error that says why."""
+"""Pictures of one scene in float and in double; and of odd scenes, which must either finish or be refused with a clear
+error."""
 from harness.measure.scenes import read_scene, write_scene
 from harness.run import pfm
 from harness.run.program import Problem
@@ -14,7 +14,8 @@ FLOAT = "float against double"
 
 
 def render(program, scene, frames, options, folder):
-    """{"code", "message": None or why there are no pictures, "said", "pictures": {frame: picture}, "clamps"}"""
+    """Renders frames; returns {"code", "message": None or why there are no pictures, "said", "pictures": {frame: picture},
+    "clamps"}."""
     run = program.render(DEVICE, scene, frames, list(options), folder, output=PICTURES, look=lambda place: {
         int(file.stem): pfm.read(file) for file in sorted(place.glob("*.pfm"))})
     failed = run["code"] != 0
@@ -24,7 +25,7 @@ def render(program, scene, frames, options, folder):
 
 
 def compare(one, other):
-    """{"pixels", "near"} of the frames that both have."""
+    """Returns {"pixels", "near"} of the frames that both have."""
     frames = one["pictures"].keys() & other["pictures"].keys()
     sizes = [one["pictures"][frame] for frame in frames]
     return {"pixels": sum(width * height for width, height, _ in sizes),
@@ -36,7 +37,7 @@ def odd_numbers(runs):
 
 
 def study_scene(program, file, options, folder):
-    """An entry for each geometry and comparison, of the first frame and the middle one."""
+    """Returns an entry for each geometry and comparison, of the first frame and the middle one."""
     entries, name = [], file.stem
     count = read_scene(file)["camera"].get("frames", 1)
     frames = "0" if count < 2 else f"0,{count // 2}"
@@ -52,7 +53,7 @@ def study_scene(program, file, options, folder):
 
 
 def total(entries, what, geometry=None):
-    """(near, pixels)"""
+    """Returns (near, pixels)."""
     these = [each for each in entries if each["what"] == what and geometry in (None, each["geometry"])]
     return sum(each["near"] for each in these), sum(each["pixels"] for each in these)
 
@@ -65,7 +66,7 @@ def share(entries):
 # ---- odd scenes
 
 def outcome(odd, runs):
-    """(words, whether it is as it should be)"""
+    """Returns (words, whether the outcome is correct)."""
     codes = {run["code"] for run in runs}
     if codes == {0}:
         return "rendered", not odd.refused
@@ -77,7 +78,7 @@ def outcome(odd, runs):
 
 
 class OddScenes:
-    """In float and in double, of solids and of triangles."""
+    """Renders the scene in float and in double, of solids and of triangles."""
 
     def __init__(self, program, folder, options):
         self.program, self.folder, self.options = program, folder, options
@@ -89,7 +90,7 @@ class OddScenes:
         return render(self.program, file, "0", ("--geometry", geometry, *KINDS[kind], *self.options), self.folder)
 
     def near_beside(self, odd, geometry, picture):
-        """Pixels like those with the odd thing a hair to the one or the other side; None: it has none."""
+        """Returns the number of pixels near those with the odd thing a hair to either side; None: it has none."""
         beside = [self.render(scene, geometry, "double")["pictures"] for scene in odd.beside]
         if not beside or not picture or not all(beside):
             return None

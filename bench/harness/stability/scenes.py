@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Scenes in which something is odd: what the eye, a light or a number must not be put on lightly."""
+"""Odd scenes: an eye, a light or a number at a place that invites failure."""
 import copy
 import itertools
 import math
@@ -10,27 +10,27 @@ from harness.measure.scenes import read_scene
 from harness.run.program import ROOT
 
 FACE = 3 ** -0.5  # half the side of a cube of circumradius 1
-LIMIT = 1e12  # of the numbers of a scene
+LIMIT = 1e12  # range of the numbers of a scene
 SCALES = (1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6)
 HAIR = 1e-9
 GAP = 1e-6
 OFFSETS = (0.0, 1.0, 1e2, 1e4, 1e6, 1e9)
-SIZE = 10.0  # of the default scene, in its own unit
+SIZE = 10.0  # coordinates of the default scene, in its own unit
 
 
 @dataclass
 class Odd:
-    """Scene that is compared in double with the scene `like`, or with itself if that is None. `beside` are the same scenes with
-    the odd thing a hair to either side, if that decides what is seen."""
+    """A scene that is compared in double with the scene `like`, or with itself if that is None. `beside` are the same scenes
+    with the odd thing a hair to either side, if that decides what is visible."""
     name: str
     scene: dict
     like: str | None = None
-    refused: bool = False  # whether an error is what is wanted
+    refused: bool = False  # whether an error is expected
     beside: tuple = ()
 
 
 def base(**changes):
-    """A cube of glass with lit edges and an octahedron over a floor."""
+    """Returns a cube of glass with lit edges and an octahedron over a floor."""
     return {**read_scene(ROOT / "bench/scenes/templates/odd.json"), **changes}
 
 
@@ -110,7 +110,7 @@ def colours():
 
 
 def write_texture(file, width, height):
-    """A chequered one, in the data format."""
+    """Writes a chequered texture in the data format."""
     pixels = bytes([255] * 4), bytes([10, 40, 90, 255])
     rows = [(pixels[y] + pixels[1 - y]) * (width // 2) + pixels[y] * (width % 2) for y in (0, 1)]
     file.write_bytes(struct.pack("<2i", width, height) + b"".join(rows[y % 2] for y in range(height)))
@@ -130,7 +130,7 @@ def textures(folder):
 # ---- the default scene, larger and smaller, and elsewhere
 
 def point(place):
-    """Position, or begin of a path."""
+    """Returns a position, or the begin of a path."""
     if isinstance(place, list):
         return place
     radius, height = [place.get(f"{name}0", 0) + place.get(f"{name}_amplitude", 0) * math.sin(place.get(f"{name}_phase", 0))
@@ -140,7 +140,7 @@ def point(place):
 
 
 def moved(scene, scale, offset):
-    """The scene's first frame so many times as large, `offset` sizes away from the origin."""
+    """Returns the scene's first frame so many times as large, `offset` sizes away from the origin."""
     scene = copy.deepcopy(scene)
     way = [SIZE * offset * part for part in (0.6297, -0.5421, 0.5562)]
 
@@ -168,7 +168,7 @@ def moved(scene, scale, offset):
 
 
 def moves(scene, quick):
-    """That which the others are to look like is the first."""
+    """Yields the scenes; the first one is the model of the others."""
     def name(scale, offset):
         return f"scale_{scale:g}_offset_{offset:g}"
     for scale, offset in sorted(itertools.product(SCALES, OFFSETS), key=lambda place: place != (1.0, 0.0)):

@@ -7,7 +7,7 @@ HEAD = ["place", "method", "fails", "worst", "where", "hedron", "tested by"]
 HERE = "cli_bench_stability"
 MESHES = "unit_kernels, leak_hunt_c, leak_hunt_opencl, leak_hunt_cuda"
 SOLIDS = "conformance_c (edges-and-corners; faces crossed in pairs)"
-# study, case: what happens there, and the tests that keep ours so
+# study, case: the reason, and the tests that keep hedron correct there
 PLACES = {
     ("crossings", "edges"): ("rays at edges miss or count twice", f"{MESHES}, {SOLIDS}"),
     ("crossings", "corners"): ("rays at corners miss or count twice", f"{MESHES}, {SOLIDS}"),
@@ -25,7 +25,7 @@ PLACES = {
     ("shadows", "face_lights"): ("lights on faces are blocked, or shine through", HERE),
     ("shadows", "light_at_the_point"): ("a light at the lit point gives no number", HERE),
 }
-# Further ways to fail of the same places.
+# Further failures at the same places.
 MORE = {
     "misplaced": ("crossings", ("edges", "corners", "interior"), "hits are off by more than 1/1000 of the size",
                   f"conformance_c (far-from-origin), {HERE}"),

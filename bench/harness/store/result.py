@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The result that every measurement writes: one shape, one file of JSON. That of bench/study is also what an interrupted study
-goes on from: it is saved after every measurement, and what the same program measured before is kept."""
+"""The result that every measurement writes: one shape, one JSON file. An interrupted bench/study continues from its own
+result: it is saved after every measurement, and earlier measurements by the same program are kept."""
 import datetime
 import json
 import os
@@ -22,7 +22,7 @@ def begin(bench, program, arguments, devices, **more):
 
 
 def write_text(file, text):
-    """Replaces the file at once, so that it is the old one or the new one."""
+    """Replaces the file atomically, so that it is the old one or the new one."""
     part = Path(f"{file}.tmp-{os.getpid()}")
     try:
         part.write_text(text, encoding="utf-8")
@@ -54,7 +54,7 @@ def read(file, bench):
 
 KEYS = ("complete", "date", "quick", "hedron", "machine", "devices", "parts", "done", "left_out", "failed", "measurements",
         "bounds", "accuracy", "stability")
-# What goes on with the measurements.
+# Keys that later measurements extend.
 KEPT = ("date", "bounds", "accuracy", "stability", "promise", "certificates", "tuning", "gallery")
 SAME_OF_DEVICES = ("label", "name", "driver", "reason")
 SAME_OF_HEDRON = ("options", "sha256")
@@ -88,7 +88,7 @@ def missing_parts(result, parts):
 
 
 def question(result):
-    """Returns what must be equal for a study to continue another."""
+    """Returns the values that must be equal for a study to continue another."""
     return [result["bench"], result["quick"], result["machine"]["cpu"], *(result["hedron"][key] for key in SAME_OF_HEDRON),
             *(device[key] for device in result["devices"] for key in SAME_OF_DEVICES)]
 
@@ -98,8 +98,8 @@ def identity(entry):
 
 
 def merge(old, new, entries, parts, order):
-    """Fills `new` with these measurements, of which `old`, if any, may have some. Parts that are not asked for stay as they
-    were. `order` has all parts."""
+    """Fills `new` with these measurements; `old`, if any, may already have some. Parts that were not requested stay unchanged.
+    `order` has all parts."""
     if old is not None:
         known = {identity(entry): entry for entry in old["measurements"]}
         entries = [known.get(identity(entry), entry) for entry in entries]

@@ -17,7 +17,7 @@ def parse(text):
 
 
 def run(program, backend, rays):
-    """Raises Problem with the reason if it fails."""
+    """Returns the counts; raises Problem with the reason if the hunt fails."""
     done = run_tool(program.beside("tests/leak_hunt/hedron_leak_hunt"), rays, "--backend", backend,
                     accepted=(0, SOME_LEAK, NOTHING_OPENS))
     if done.returncode == NOTHING_OPENS:
@@ -29,7 +29,7 @@ def run(program, backend, rays):
 
 
 def add_rows(plan, hunts):
-    """Rows and failures; `hunts` has for each backend what `run` gave, or the reason why there is nothing."""
+    """Adds rows and failures; `hunts` has for each backend the result of `run`, or the reason why there is none."""
     for backend, total in hunts.items():
         aimed = ""
         if not isinstance(total, str):

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Primary rays alone, of an object that fills the picture, by the time of whole frames."""
+"""Primary rays of an object that fills the picture, by the time of whole frames."""
 from harness.measure.numbers import count_words
 from harness.measure.rows import Target
 from harness.run.devices import H200, is_h200
 
 TARGETS = {1000: Target(5, 20), 1000000: Target(2, 8)}
-FEWER = ("--size", "480x270")  # for CPUs
+FEWER = ("--size", "480x270")  # options for CPUs
 
 
 def scene_name(count):
@@ -13,7 +13,7 @@ def scene_name(count):
 
 
 def add(plan):
-    """Jobs of the scenes that the plan has, and their rows."""
+    """Adds jobs of the plan's scenes, and their rows."""
     what = {count: f"primary rays of whole frames, {count_words(count)} triangles" for count in TARGETS}
     for label, device in plan.runnable.items():
         for count in filter(lambda count: scene_name(count) in plan.scenes, TARGETS):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The time of a frame against the number of triangles, by the hierarchy and by brute force: what is compared, and the chart."""
+"""The time of a frame against the number of triangles, by the hierarchy and by brute force: the comparison and the chart."""
 import math
 
 from harness.chart.axes import Axis
@@ -10,7 +10,7 @@ from harness.measure.rows import Target
 from harness.measure.scenes import TRIANGLE_TICKS
 from harness.page.section import MS
 
-# The smallest are there for brute force, which is the faster one for a handful.
+# The smallest are there for brute force, which is faster for a handful.
 COUNTS = (12, 48, *(10 ** power for power in range(2, 8)))
 BASE, MOST, TARGET = 1000, COUNTS[-1], Target(6, 3, False)
 WAYS = {"bvh": "hierarchy", "brute": "brute force"}
@@ -26,7 +26,7 @@ def scene_name(count):
 
 
 def spreads(points, label, way):
-    """[(triangles, spread of milliseconds)]"""
+    """Returns [(triangles, spread of milliseconds)]."""
     return sorted((each["triangles"], each["trace_ms"]) for each in points if (each["device"], each["way"]) == (label, way))
 
 
@@ -63,7 +63,7 @@ def caption(points, labels):
 
 
 def charts(result):
-    """{name: chart}"""
+    """Returns {name: chart}."""
     measured = [each for each in result["sweep"] or [] if each["trace_ms"]]
     labels = list(dict.fromkeys(each["device"] for each in measured))
     known = {device["label"]: device for device in result["devices"]}

@@ -29,7 +29,7 @@ TEST(test_one_is_one_line_and_several_are_a_list) {
 }
 
 /* Many, or a few that are long. */
-TEST(test_more_than_there_is_room_for) {
+TEST(test_more_than_fits) {
     static char text[8192];
     memset(text, 'x', sizeof text - 1);
     for (int k = 0; k < 2; k++) {

@@ -13,7 +13,7 @@ TEST(test_controls_and_what_is_not_utf8_are_escaped) {
         {"-\xe2\x80\xae-\xe2\x80\xa8\xe2\x81\xa6\xe2\x81\xa9", "-\\u202e-\\u2028\\u2066\\u2069"},
         {"\xe2\x80\xa7\xe2\x80\xaf\xe2\x81\xa5\xe2\x81\xaa",
          "\xe2\x80\xa7\xe2\x80\xaf\xe2\x81\xa5\xe2\x81\xaa"},
-        {"\x9b[2J", "\\x9b[2J"}, /* an escape sequence where there are 8 bits */
+        {"\x9b[2J", "\\x9b[2J"}, /* an escape sequence if bytes have 8 bits */
         {"\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80", "\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80"},
         {"\xc3", "\\xc3"},
         {"\xe2\x82", "\\xe2\\x82"},
@@ -22,7 +22,7 @@ TEST(test_controls_and_what_is_not_utf8_are_escaped) {
         {"\xed\xa0\x80", "\\xed\\xa0\\x80"},
         {"\xf4\x90\x80\x80\xff", "\\xf4\\x90\\x80\\x80\\xff"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        for (int k = 0; k < 2; k++) { /* what is escaped stays */
+        for (int k = 0; k < 2; k++) { /* escaped text stays unchanged */
             char out[80];
             assert_int_equal(hd_escape(rows[i][k], out, sizeof out), strlen(rows[i][k]));
             assert_string_equal(out, rows[i][1]);

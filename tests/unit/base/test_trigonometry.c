@@ -6,7 +6,7 @@
 
 static const double tolerance = 2.0 * DBL_EPSILON;
 
-/* Against the system's library, which is right to the last bit or nearly so. */
+/* Compares with the system's library, which is exact or nearly so. */
 static void compare(double x, double library_argument) {
     double sine, cosine, mirrored_sine, mirrored_cosine;
     hd_sine_cosine(x, &sine, &cosine);

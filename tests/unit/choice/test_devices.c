@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Which devices are taken, among those of a registry of this test's own: "near" and "far", whose
-   devices are plain C under other names, and "c". */
+/* The choice of devices from a registry of the test's own: "near" and "far", whose devices are
+   plain C under other names, and "c". */
 #define _XOPEN_SOURCE 700
 #include "choice/devices.h"
 
@@ -16,7 +16,7 @@ static HdJob job;
 static HdDeviceTeam team;
 static HdCandidates candidates;
 
-/* Each look at the clock takes a millisecond. */
+/* Reads the clock; each reading takes a millisecond. */
 static double read_clock(void) {
     static double now;
     return now += 1e-3;
@@ -27,7 +27,7 @@ REPLACE(hd_monotonic_seconds, read_clock)
 
 enum { NEAR, FAR, C, MOST = 40 };
 
-static bool is_missing; /* what is there cannot be opened */
+static bool is_missing; /* its devices cannot be opened */
 static struct {
     HdDevice list[MOST];
     int count, asked;
@@ -124,9 +124,9 @@ static int end(void **state) {
     return 0;
 }
 
-/* ---- what comes of it ---- */
+/* ---- the result ---- */
 
-/* Of what came last: "near:0 far:1"; or the message. */
+/* Returns the last result: "near:0 far:1"; or the message. */
 static char names[1024];
 
 static void add_name(int number, const HdDevice *device) {
@@ -135,7 +135,7 @@ static void add_name(int number, const HdDevice *device) {
              device->backend->name, device->index);
 }
 
-static const char *told(HdStatus status, HdStatus expected) {
+static const char *result_text(HdStatus status, HdStatus expected) {
     assert_int_equal(status, expected);
     return status == HD_OK ? names : error.message;
 }
@@ -150,7 +150,7 @@ static const char *opened_by(HdDeviceSelection selection, HdStatus expected) {
         assert_non_null(team.list[i].renderer);
         add_name(i, &team.list[i].device);
     }
-    return told(status, expected);
+    return result_text(status, expected);
 }
 
 static const char *found_by(HdDeviceSelection selection, HdStatus expected) {
@@ -159,7 +159,7 @@ static const char *found_by(HdDeviceSelection selection, HdStatus expected) {
     const HdStatus status = hd_candidates_find(&candidates, &selection, &error);
     for (int i = 0; i < candidates.count; i++)
         add_name(i, &candidates.list[i].device);
-    return told(status, expected);
+    return result_text(status, expected);
 }
 
 static const char *named(const char *backend, const char *device, HdStatus expected) {
@@ -168,7 +168,7 @@ static const char *named(const char *backend, const char *device, HdStatus expec
     const HdStatus status = hd_devices_named(backend, device, devices, &count, &error);
     for (int i = 0; i < count; i++)
         add_name(i, &devices[i]);
-    return told(status, expected);
+    return result_text(status, expected);
 }
 
 #define expect_opened(expected, ...)                                                               \
@@ -240,7 +240,7 @@ TEST(a_small_job_asks_no_driver_and_a_large_one_compares_devices) {
     assert_false(candidates.is_free);
 }
 
-TEST(a_gpu_that_is_passed_over_is_told) {
+TEST(a_skipped_gpu_is_reported) {
     static const char unused_gpus[] =
         "near:0 (Broken) is not used: no compiler is here; far:0 (Wrong) is not used: it "
         "computes wrongly: 1 + 1; --math fast would take it, for other bytes";
@@ -258,7 +258,7 @@ TEST(a_gpu_that_is_passed_over_is_told) {
     assert_string_equal(team.note + sizeof unused_gpus - 1,
                         "; no suitable GPU was found; tracing with c on Processor");
     expect_contains(team.why, "no GPU can do this; not used: Broken: no compiler is here; ");
-    /* Whose own wish rules them out need not be told. */
+    /* A device that the user's own selection excludes need not be reported. */
     options.lanes = 4;
     expect_found("c:0", .kind = HD_WANT_ANY);
     assert_string_equal(candidates.unused_gpus, "");
@@ -296,9 +296,9 @@ TEST(a_list_names_each_once) {
                        .is_for_one = true);
 }
 
-TEST(more_devices_than_there_is_room_for) {
+TEST(more_devices_than_the_list_holds) {
     char list[8 * HD_MAX_WORKERS + 8] = "near:0";
-    near.needs_no_driver = far.needs_no_driver = true; /* there is no verdict to read */
+    near.needs_no_driver = far.needs_no_driver = true; /* there is no result to read */
     for (int i = 0; i < MOST; i++)
         add(NEAR, "Card", 1 + i % 20), add(FAR, "Chip", 1);
     found_by((HdDeviceSelection){.backend = "near"}, HD_OK);
@@ -315,7 +315,7 @@ TEST(more_devices_than_there_is_room_for) {
     assert_int_equal(team.count, HD_MAX_WORKERS);
 }
 
-TEST(all_are_those_that_can_do_it) {
+TEST(all_means_the_devices_that_can_render_it) {
     add(NEAR, "Turbo", 9)->nvidia_arch = 61;
     add(NEAR, "Turbo", 9)->nvidia_arch = 61;
     add(FAR, "Turbo", 9)->nvidia_arch = 61;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Which jobs a measurement serves. */
+/* The jobs that a measurement applies to. */
 #define _XOPEN_SOURCE 700
 #include "choice/measure.h"
 
@@ -49,8 +49,8 @@ static void expect_alike(bool is_alike) {
     assert_int_equal(hd_measured_get(&found, 1, &options, &scene), is_alike);
 }
 
-/* Remembered under one number, recalled under another: the powers of two that they are rounded up
-   to decide. */
+/* Remembered under one number, recalled under another: both must round up to the same power of
+   two. */
 TEST(numbers_count_by_powers_of_two) {
     int *const numbers[] = {&scene.width,          &scene.height,      &scene.depth,
                             &scene.instance_count, &scene.light_count, &mesh.triangle_count};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What is measured and remembered: the fastest device and the best launch of one. The clock is made
-   up: each look at it takes `clock_step`, and each frame of the fake device with a number
-   `frame_seconds` of that number. */
+/* Measured and remembered choices: the fastest device and its best launch. The clock is simulated:
+   each reading takes `clock_step`, and each frame of the fake device takes `frame_seconds` of its
+   number. */
 #define _XOPEN_SOURCE 700
 #include "choice/devices.h"
 #include "fake_backend.h"
@@ -25,7 +25,7 @@ static double read_clock(void) {
 }
 REPLACE(hd_monotonic_seconds, read_clock)
 
-static HdStatus take_time(FakePoint point, int index, HdError *failure) {
+static HdStatus advance_time(FakePoint point, int index, HdError *failure) {
     (void)failure;
     now += point == FAKE_COLLECT ? frame_seconds[index] : 0.0;
     return HD_OK;
@@ -38,7 +38,7 @@ static int begin(void **state) {
     (void)state;
     int count;
     memset(&fake, 0, sizeof fake);
-    fake.event = take_time;
+    fake.event = advance_time;
     clock_step = 0.0;
     frame_seconds[0] = 0.4;
     frame_seconds[1] = 0.0;
@@ -132,12 +132,12 @@ TEST(a_job_too_short_is_not_measured) {
     job.frame_count = 1;
     expect_chosen(&hd_backend_c, "it needs about 1 s, too little to measure");
     assert_int_equal(fake.opened, 0);
-    candidates.compared = 1; /* only GPUs are wanted */
+    candidates.compared = 1; /* only GPUs are requested */
     expect_chosen(&fake_backend, "");
 }
 
-/* Only what fails at work is tried again. */
-TEST(what_cannot_be_used_is_passed_over) {
+/* Only a device that fails at work is tried again. */
+TEST(unusable_devices_are_skipped) {
     static const char *const notes[] = {"fake: Fake 1000 (driver 7) computes wrongly",
                                         "fake: it is missing", "fake: it fails"};
     for (int i = 0; i < 3; i++) {
@@ -161,8 +161,8 @@ TEST(what_cannot_be_used_is_passed_over) {
     expect_contains(error.message, "fake: it is missing");
 }
 
-/* Of 4096 samples where they take long enough to be believed; else of more, until a job of so many
-   frames surely takes less than is enough, or the picture is whole. */
+/* Measures 4096 samples if they take long enough; else more, until a job of so many frames surely
+   takes less than the limit, or the picture is whole. */
 TEST(the_estimate_scales_with_the_picture) {
     static const struct {
         double step, enough, expected;
@@ -186,7 +186,7 @@ TEST(the_estimate_scales_with_the_picture) {
 
 /* ---- tuning ---- */
 
-/* By what a frame's tracing is said to take; NULL: what it takes. */
+/* Sets the reported tracing times of frames; NULL: the real ones. */
 static void tune(double (*seconds)(const HdRenderOptions *asked)) {
     fake.trace_seconds = seconds;
     assert_int_equal(hd_tune(&tuning, &device, &options, &job, &error), HD_OK);
@@ -197,7 +197,7 @@ static HdRenderOptions best(void) {
     return tuning.candidates[tuning.best].options;
 }
 
-/* The GPU that likes the wavefront, 96 registers, groups of 256, 320 of them. */
+/* Prefers the wavefront, 96 registers, groups of 256, 320 of them, as some GPU may. */
 static double picky(const HdRenderOptions *asked) {
     double seconds = asked->pipeline == HD_PIPELINE_WAVEFRONT ? 1.0 : 1.2;
     seconds *= asked->registers == 96 ? 0.9 : 1.0;
@@ -235,7 +235,7 @@ TEST(a_gpu_has_its_candidates_and_a_cpu_pipelines_and_lanes) {
     }
 }
 
-TEST(what_the_options_fix_stays) {
+TEST(values_fixed_by_options_stay) {
     device.nvidia_arch = 90;
     options.pipeline = HD_PIPELINE_MEGA;
     options.block = 128;
@@ -254,14 +254,14 @@ static double nearly_alike(const HdRenderOptions *asked) {
     return asked->pipeline == HD_PIPELINE_WAVEFRONT ? 0.99 : asked->block > 0 ? 0.985 : 1.0;
 }
 
-/* The first time that it is measured, somebody else uses the machine. */
+/* At its first measurement another program uses the machine. */
 static double unlucky_once(const HdRenderOptions *asked) {
     if (asked->pipeline != HD_PIPELINE_WAVEFRONT)
         return 1.0;
     return fake.opened == 2 ? 1.4 : 0.5;
 }
 
-TEST(noise_decides_nothing) {
+TEST(noise_does_not_decide) {
     tune(nearly_alike);
     assert_int_equal(tuning.best, 0);
     fake.opened = 0;
@@ -274,8 +274,8 @@ static bool refuses_wavefronts_and_256(const HdRenderOptions *asked) {
     return asked->pipeline == HD_PIPELINE_WAVEFRONT || asked->block == 256;
 }
 
-/* Nor is this a device of NVIDIA's, which alone have limits of registers. */
-TEST(what_cannot_be_used_is_told) {
+/* This device is not NVIDIA's, which alone have limits of registers. */
+TEST(unusable_devices_are_reported) {
     fake.refuses = refuses_wavefronts_and_256;
     tune(picky);
     assert_int_equal(tuning.count, 7);
@@ -297,7 +297,7 @@ static double likes_mega(const HdRenderOptions *asked) {
     return asked->pipeline == HD_PIPELINE_WAVEFRONT ? 2.0 : 1.0;
 }
 
-TEST(a_display_is_not_kept_by_deep_trees) {
+TEST(deep_trees_do_not_freeze_a_display) {
     device.has_timeout = true;
     tune(likes_mega);
     assert_int_equal(best().pipeline, HD_PIPELINE_MEGA);
@@ -310,7 +310,7 @@ TEST(a_display_is_not_kept_by_deep_trees) {
     assert_int_equal(best().pipeline, HD_PIPELINE_MEGA);
 }
 
-/* Of one candidate, which is measured once, and twice more after each of three stages. */
+/* Runs of one candidate, which is measured once, and twice more after each of three stages. */
 TEST(pictures_are_as_large_as_time_allows) {
     static const struct {
         double seconds;
@@ -346,7 +346,7 @@ static void remember(void) {
 
 static HdTeamDevice opened;
 
-/* The device is opened, or refuses to be. */
+/* Returns whether the record was used: the device opens, or refuses to. */
 static bool is_recalled(void) {
     opened = (HdTeamDevice){.device = device};
     HdStatus status = hd_team_device_open(&opened, &options, &job, false, &error);
@@ -355,7 +355,7 @@ static bool is_recalled(void) {
     return opened.is_tuned;
 }
 
-/* It is meant for a device of the same name and driver, and for a like job. */
+/* A record applies to a device of the same name and driver, and to a similar job. */
 TEST(a_choice_is_remembered) {
     fake.refuses = refuses_wavefronts_and_256;
     assert_false(is_recalled());
@@ -385,7 +385,7 @@ TEST(the_best_of_a_tuning_is_remembered) {
                 opened.options.grid == 320 && opened.options.registers == 96);
 }
 
-/* Nor does a record that says otherwise change what they say. */
+/* Nor does a record with another choice change theirs. */
 TEST(options_of_a_run_win) {
     static const HdRenderOptions fixed[] = {
         {.pipeline = HD_PIPELINE_MEGA}, {.block = 128}, {.grid = 2}, {.registers = 64}};
@@ -438,7 +438,7 @@ static HdStatus measure(HdRenderer *renderer, double share, int times, HdTrial *
     return hd_trial(renderer, &job, &selection, trial, &error);
 }
 
-TEST(the_least_of_several_counts) {
+TEST(the_smallest_of_several_counts) {
     HdRenderer *renderer;
     HdTrial trial;
     measured = 0;

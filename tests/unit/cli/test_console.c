@@ -2,7 +2,7 @@
 #include "cli/console.h"
 #include "unit_test.h"
 
-TEST(lines_tell_rate_and_time_left) {
+TEST(lines_have_rate_and_time_left) {
     static const struct {
         HdProgress progress;
         const char *text;
@@ -11,7 +11,7 @@ TEST(lines_tell_rate_and_time_left) {
         {{0, 120, 0.0, 8.5, 0.0}, "0/120 frames"},
         {{1, 10001, 0.0, 1.0, 0.0}, "1/10001 frames, 1.00 frames/s, 2:46:40 left"},
         {{1, 2, 0.0, 0.0, 0.0}, "1/2 frames, 0.00 frames/s, 0:00 left"},
-        /* the last line tells the whole time */
+        /* the last line has the total time */
         {{120, 120, 0.0, 85.0, 0.0}, "120/120 frames, 1.41 frames/s, 1:25 in all"},
         {{1, 1, 0.0, 59.6, 0.0}, "1/1 frames, 0.02 frames/s, 1:00 in all"},
         {{1, 1, 0.0, 3599.4, 0.0}, "1/1 frames, 0.00 frames/s, 59:59 in all"},

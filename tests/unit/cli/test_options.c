@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What each option takes, which command takes which option, and where the values go. */
+/* Values of each option, the commands that have it, and the members that it sets. */
 #include <stdio.h>
 
 #include "cli/options.h"
@@ -9,7 +9,7 @@
 static HdOptions options;
 static HdError error;
 
-/* Parses words that are separated by spaces and, unless it is NULL, one more as it is; the texts
+/* Parses words that are separated by spaces and, unless it is NULL, one more unchanged; the texts
    live until the next call. */
 static HdStatus parse(const char *line, const char *last) {
     static char text[4096], whole[60000];
@@ -38,7 +38,7 @@ static void check_refused(const char *line, const char *last, const char *part) 
         fail_msg("'%s' is no sentence", error.message);
 }
 
-/* What is right and wrong, separated by "|". */
+/* Right and wrong values, separated by "|". */
 static const struct {
     const char *option, *right, *wrong;
 } cases[] = {
@@ -71,7 +71,7 @@ static const struct {
     {"--output", "a.png|%d.data|a.mp4", "|a|a.jpg|film.avi|out/%d.jpg|folder/"},
 };
 
-/* The `number`th text of a list; false: there is none. */
+/* Returns the text number `number` of a list; false: there is none. */
 static bool take(const char *list, int number, char text[64]) {
     for (; number > 0; number--) {
         list = strchr(list, '|');
@@ -102,7 +102,7 @@ TEST(each_option_takes_its_values_and_no_others) {
     }
 }
 
-/* An option that is there twice, with other words for another command, belongs to both. */
+/* An option with two entries, with other words for another command, belongs to both. */
 static unsigned commands_of(const char *name) {
     unsigned commands = 0;
     for (const HdOptionSpec *spec = hd_option_specs; spec->name != NULL; spec++)
@@ -111,7 +111,7 @@ static unsigned commands_of(const char *name) {
     return commands;
 }
 
-/* What is missing or too much is told, and so is a command that does not have the option. */
+/* Reports missing and surplus values, and a command that does not have the option. */
 TEST(options_belong_to_their_commands_and_have_values_or_none) {
     for (const HdOptionSpec *spec = hd_option_specs; spec->name != NULL; spec++)
         for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++) {
@@ -134,7 +134,7 @@ TEST(options_belong_to_their_commands_and_have_values_or_none) {
         }
 }
 
-TEST(what_is_no_option_is_refused) {
+TEST(unknown_options_are_refused) {
     static const char *const commands[] = {"hedron", "hedron devices", "hedron render"};
     static const char *const wrong[] = {"--nonsense=1", "-x",    "--sizes=1x1", "-gpu",     "--GPU",
                                         "-oh",          "",      "--=1",        "-o=a.png", "-",
@@ -165,7 +165,7 @@ TEST(wrong_lines_are_refused) {
         {"render --quiet --verbose", "only one of --verbose and --quiet"},
         {"--verbose --quiet", "only one of --verbose and --quiet"},
         {"--cpu --gpu", "only one of --gpu, --cpu and --default"},
-        /* the nearest word, of which options of other commands are none */
+        /* the nearest word, never an option of another command */
         {"rendr", "did you mean 'hedron render'?"},
         {"xyzzy", "see 'hedron help'"},
         {"foo.json", "did you mean 'hedron render foo.json'?"},
@@ -228,7 +228,7 @@ TEST(comparisons_take_two_pictures) {
     expect_parsed("hedron compare a b --curve srgb --fail-above 255");
 }
 
-/* Behind "--" there are names only; "-oNAME" is one word; the last of several values counts. */
+/* After "--" there are names only; "-oNAME" is one word; the last of several values counts. */
 TEST(operands_and_options_mix) {
     expect_parsed("hedron check --schema");
     expect_parsed("hedron check a.json b.json -- --schema");
@@ -254,7 +254,7 @@ TEST(operands_and_options_mix) {
     }
 }
 
-/* A line with so many repetitions of an option. */
+/* Returns a line with so many repetitions of an option. */
 static const char *repeated(const char *option, int count) {
     static char line[4096];
     strcpy(line, "hedron render");
@@ -333,8 +333,8 @@ TEST(values_reach_their_members) {
     assert_int_equal(options.scene.variant, 7);
 }
 
-/* What follows from several options, or from the command, is settled once they are read; what was
-   given is told as it was given. */
+/* Values that follow from several options, or from the command, are set after parsing; messages
+   have the options as given. */
 TEST(the_plan_is_complete) {
     const HdScenePlan *scene = &options.scene;
     expect_parsed("hedron render a.json --reference --size 6x7 --set a=b");

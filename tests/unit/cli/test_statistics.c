@@ -38,9 +38,9 @@ static HdStatus open_statistics(HdStatistics *statistics, const char *path, HdEr
     return hd_statistics_open(statistics, error);
 }
 
-/* Writes one line about a device of this name, and reads it back: it is what is expected, but for
-   the name and the longest launch. */
-static void expect_line(const char *name, const char *told, const char *longest_ms) {
+/* Writes one line about a device of this name, and reads it back: it matches except for the name
+   and the longest launch. */
+static void expect_line(const char *name, const char *expected_name, const char *longest_ms) {
     HdStatistics statistics;
     HdError error;
     HdDevice device = {.backend = &hd_backend_c, .index = 3};
@@ -67,7 +67,7 @@ static void expect_line(const char *name, const char *told, const char *longest_
              "\"store\": 2.5, \"film\": null},\n"
              "\"longest_launch_ms\": %s, \"shadow_tests\": 1152921504606846976, \"clamps\": 7,\n"
              "\"rays\": {\"primary\": 2764800, \"mirrored\": 5, \"transmitted\": 6}}",
-             told, longest_ms);
+             expected_name, longest_ms);
     json_t *read = json_loads(line, 0, NULL), *right = json_loads(expected, 0, NULL);
     assert_non_null(right);
     if (!json_equal(read, right))
@@ -76,7 +76,7 @@ static void expect_line(const char *name, const char *told, const char *longest_
     json_decref(right);
 }
 
-TEST(a_line_has_everything) {
+TEST(a_line_has_every_value) {
     expect_line("A \"quoted\" \\ name\twith a tab", "A \\\"quoted\\\" \\\\ name\\twith a tab",
                 "62.5");
     expect_line("Intel\xae Xeon", "Intel? Xeon", "62.5"); /* another encoding stays JSON */
@@ -86,7 +86,7 @@ TEST(a_line_has_everything) {
     stored.times.longest_launch = 0.0625;
 }
 
-TEST(files_that_take_nothing_are_told) {
+TEST(files_that_accept_nothing_are_reported) {
     HdStatistics statistics;
     HdError error;
     HdDevice device = {.backend = &hd_backend_c};

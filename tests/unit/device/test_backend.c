@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What suits a device, what it lacks, and what any device may be asked for. */
+/* Defaults for a device, its unsupported requests, and requests that any device supports. */
 #include "device/backend.h"
 
 #include "device/options.h"
@@ -18,7 +18,7 @@ static const HdDevice devices[] = {
     [CPU] = {.is_cpu = true, .has_double = true, .max_lanes = {16, 8}},
 };
 
-/* A display must not stand still for as long as a tree of hundreds of levels takes. */
+/* A display must not freeze for as long as a tree of hundreds of levels takes. */
 TEST(pipelines_suit_devices_and_scenes) {
     static const struct {
         int device, endless_lights;
@@ -102,7 +102,7 @@ TEST(launches_last_as_long_as_they_may) {
     assert_true(hd_longest_launch(&devices[GPU], &options) == 5e-4);
 }
 
-TEST(what_a_device_can_have_is_possible) {
+TEST(supported_requests_are_possible) {
     static const HdRenderOptions possible[] = {
         {.lanes = 1},
         {.lanes = 4},

@@ -12,7 +12,7 @@
 static HdError error;
 static HdRenderOptions options;
 static HdDevice device;
-static const char *kind; /* the golden frame whose scene it is */
+static const char *kind; /* the golden frame with its scene */
 static char note[1024];
 static uint64_t hash;
 
@@ -33,7 +33,7 @@ static int end(void **state) {
     return 0;
 }
 
-/* Renders a frame by a renderer that is opened for it; `note` is then what became of the kernels,
+/* Renders a frame on a renderer that is opened for it. `note` becomes the report about the kernels,
    and `hash` that of the frame. */
 static HdStatus render_frame(void) {
     HdRenderer *renderer;
@@ -54,7 +54,7 @@ static HdStatus render_frame(void) {
     return status;
 }
 
-/* Renders, for which so many kernels are compiled, and loaded from the cache. */
+/* Renders; so many kernels are compiled, and loaded from the cache. */
 static void expect_rendered(HdStatus status, int compiled, int loaded) {
     fake.compiled = fake.loaded = 0;
     assert_int_equal(render_frame(), status);
@@ -62,7 +62,7 @@ static void expect_rendered(HdStatus status, int compiled, int loaded) {
     assert_int_equal(fake.loaded, loaded);
 }
 
-/* Each kind of kernels renders the golden frames that it can and that are for proof. */
+/* Each kind of kernels renders its golden frames for the self-test. */
 TEST(a_warm_start_compiles_and_tests_nothing) {
     static const struct {
         const char *kind;
@@ -86,7 +86,7 @@ TEST(a_warm_start_compiles_and_tests_nothing) {
     }
 }
 
-TEST(whatever_kernels_depend_on_counts) {
+TEST(everything_that_kernels_depend_on_counts) {
     expect_rendered(HD_OK, 1, 0);
     snprintf(device.name, sizeof device.name, "Fake 2000");
     expect_rendered(HD_OK, 1, 0);
@@ -100,7 +100,7 @@ TEST(whatever_kernels_depend_on_counts) {
     expect_rendered(HD_OK, 0, 1);
 }
 
-/* These entries tell of no test, or of nothing at all. */
+/* These entries report no test, or nothing at all. */
 TEST(damaged_kernels_are_compiled_anew) {
     static const char *const entries[] = {"", "\n\n", "passed\nnobody\nfake", "fake"};
     expect_rendered(HD_OK, 1, 0);
@@ -112,7 +112,7 @@ TEST(damaged_kernels_are_compiled_anew) {
     }
 }
 
-TEST(what_a_driver_hides_is_not_cached) {
+TEST(kernels_that_a_driver_hides_are_not_cached) {
     fake.hides_binary = true;
     expect_rendered(HD_OK, 1, 0);
     expect_contains(note, "not cached; the driver does not provide them");
@@ -128,14 +128,14 @@ TEST(the_wavefront_takes_over_unless_it_is_wrong_too) {
     expect_contains(error.message, "the golden frame 'hexahedron' with the hash ");
     assert_int_equal(fake.rendered, 2);
     fake.is_right_in_waves = true;
-    expect_rendered(HD_OK, 2, 0); /* they were not kept */
+    expect_rendered(HD_OK, 2, 0); /* they were not cached */
     expect_contains(note, "; passed");
     assert_true(hd_fallback_take(text));
     expect_contains(text, "the wavefront takes over: ");
     expect_contains(text, "computes wrongly: ");
 }
 
-TEST(what_is_wrong_is_refused_and_frames_under_way_are_dropped) {
+TEST(errors_are_refused_and_frames_in_flight_are_dropped) {
     static const HdFrameRequest radiance = {.radiance = true};
     static const HdRenderOptions impossible = {.block = 33};
     HdFrame small = {.width = 1, .height = 1, .floats = HD_RADIANCE_FLOATS};
@@ -199,7 +199,7 @@ TEST(wrong_kernels_render_nothing) {
     hd_scene_free(&scene);
 }
 
-/* What was not tested is not taken for strict arithmetic, even under the same options. */
+/* Untested kernels do not count as strict arithmetic, even under the same options. */
 TEST(fast_arithmetic_is_not_tested) {
     options.math = HD_MATH_FAST;
     fake.renders_wrongly = true;
@@ -212,7 +212,7 @@ TEST(fast_arithmetic_is_not_tested) {
     expect_rendered(HD_UNAVAILABLE, 2, 0);
 }
 
-/* What came of the probe is remembered with all that it depends on, good or bad. */
+/* The probe's result is remembered with all that it depends on, good or bad. */
 TEST(arithmetic_is_probed_once) {
     expect_rendered(HD_OK, 1, 0);
     expect_rendered(HD_OK, 0, 1);
@@ -234,7 +234,7 @@ TEST(arithmetic_is_probed_once) {
     assert_false(hd_arithmetic_recall("Fake 2000", "driver 7", HD_PRECISION_FLOAT, &known));
 }
 
-TEST(division_that_was_healed_stays_so) {
+TEST(corrected_division_stays_corrected) {
     fake.divides_wrongly = true;
     expect_rendered(HD_OK, 1, 0);
     assert_true(fake.divides_by_fma);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What kernels are called and specialised by. */
+/* Names and definitions that specialise kernels. */
 #include "device/kernel_source.h"
 
 #include <limits.h>
@@ -25,7 +25,7 @@ TEST(registers_suit_the_card_the_block_and_the_scene) {
          0,
          128},
         {{.precision = HD_PRECISION_DOUBLE, .group_size = 1024}, 61, 0, 64},
-        /* All threads of a block must find room. */
+        /* All threads of a block must fit. */
         {{.group_size = 512}, 90, 0, 128},
         {{.group_size = 544}, 90, 0, 120},
         {{.group_size = 1024}, 90, 0, 64},
@@ -89,7 +89,7 @@ TEST(scenes_of_similar_size_need_the_same) {
     }
 }
 
-TEST(needs_are_told_in_words) {
+TEST(needs_are_printed_in_words) {
     char text[200];
     HdKernelNeeds needs = {.plane_bound = 8, .depth_bound = 16};
     hd_kernel_needs_describe(&needs, text, sizeof text);
@@ -103,7 +103,7 @@ TEST(needs_are_told_in_words) {
 }
 
 /* Neighbours in the list have other values. */
-TEST(whatever_a_shape_has_is_defined) {
+TEST(all_features_of_a_shape_are_defined) {
     char text[HD_KERNEL_DEFINES_SIZE];
     const HdKernelShape shape = {.lanes = 4,
                                  .precision = HD_PRECISION_DOUBLE,

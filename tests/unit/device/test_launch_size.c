@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Sizes of launches, with devices whose speed is made up. */
+/* Sizes of launches, with devices of simulated speed. */
 #include "device/launch_plan.h"
 
 #include "unit_test.h"
 
-/* The seconds that a launch of `count` pieces of work takes, of a frame's from number `first` on.
- */
+/* Seconds of a launch of `count` pieces of a frame's work, from number `first` on. */
 typedef double Cost(double first, double count);
 
 typedef struct Frame {
@@ -42,7 +41,7 @@ static double costly(double first, double count) {
     return 2e-6 * count;
 }
 
-/* As a sky above a city of glass, twice. */
+/* Like a sky above a city of glass, twice. */
 static double uneven(double first, double count) {
     double seconds = 0.0;
     for (int i = 0; i < 4; i++) {
@@ -63,7 +62,7 @@ TEST(frames_are_cut_for_the_limit_only) {
     assert_true(frame.launches < 1.3 * frame.seconds / (HD_LAUNCH_AIM * HD_LAUNCH_SECONDS) + 1.0);
 }
 
-/* ---- a few pixels whose threads last, whatever runs beside them ---- */
+/* ---- a few pixels whose threads take long, whatever runs beside them ---- */
 
 enum { PIXELS = 640 * 480, SAMPLES = 256 };
 
@@ -79,8 +78,8 @@ static Frame run_tail_frames(HdLaunchSize *size, int count) {
     return run_frames(count, size, PIXELS, SAMPLES, has_tail);
 }
 
-/* Cutting does not pay there: it soon costs less than the frame, and never more than three times.
- */
+/* Cutting does not pay there: it soon costs less than the frame, and never more than three
+   times. */
 TEST(slow_threads_are_not_cut_for) {
     static const int units[] = {5, 132};
     static const double seconds_of_sample[] = {1e-8, 1.0 / 3e9};
@@ -94,7 +93,7 @@ TEST(slow_threads_are_not_cut_for) {
         }
 }
 
-/* When they are gone, launches are cut as before. Launches of a device that may last ten times as
+/* After they disappear, launches are cut as before. Launches of a device that may take ten times as
    long are not cut for them. */
 TEST(slow_threads_are_forgotten) {
     HdLaunchSize size = hd_launch_size_start(5, HD_LAUNCH_SECONDS);
@@ -109,7 +108,7 @@ TEST(slow_threads_are_forgotten) {
     assert_int_equal(run_tail_frames(&size, 12).launches, 1);
 }
 
-/* After the first frame, which cannot know what is below the sky. */
+/* After the first frame, which cannot know the part below the sky. */
 TEST(costly_parts_are_remembered) {
     HdLaunchSize size = hd_launch_size_start(10, HD_LAUNCH_SECONDS);
     Frame frame = run_frames(1, &size, 4000000, 1, uneven);
@@ -144,7 +143,7 @@ TEST(after_a_slow_launch_sizes_rise_by_a_quarter_a_frame) {
     assert_int_equal(size.limit, 77);
 }
 
-TEST(small_launches_tell_little) {
+TEST(small_launches_are_weak_evidence) {
     HdLaunchSize size = hd_launch_size_start(100, HD_LAUNCH_SECONDS);
     const HdLaunchSize before = size;
     hd_launch_size_note(&size, before.least / 4.0, 10.0); /* one slow thread */

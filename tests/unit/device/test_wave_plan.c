@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The order in which a wavefront's rays are traced, with a device that only keeps account of them.
- */
+/* The order of tracing a wavefront's rays, on a device that only counts them. */
 #include <signal.h>
 #include <stdlib.h>
 
@@ -9,9 +8,9 @@
 #include "system/interrupt.h"
 #include "unit_test.h"
 
-/* Every ray has `children` rays that go on, which a launch appends with those of its group: places
-   of rays that do not live are filled too. Negative: as trees of a scene with a bound, which widen
-   at first and then get thinner for hundreds of levels. */
+/* Every ray has `children` continuing rays, which a launch appends with those of its group: places
+   of dead rays are filled too. Negative: trees of a scene with an error bound, which widen at first
+   and then thin out for hundreds of levels. */
 typedef struct Account {
     const HdWavePlan *plan;
     const HdWaveRun *frame;
@@ -20,7 +19,7 @@ typedef struct Account {
     int64_t traced, steps;
     unsigned taken;
     int next_item;   /* the first one that is not stored */
-    int batch_first; /* item of the batch that is being traced */
+    int batch_first; /* current item of the batch */
     int batch_samples;
 } Account;
 
@@ -46,7 +45,7 @@ static void trace(Account *account, const HdWaveStep *step) {
     int going_on = rays_going_on(account, step);
     assert_true(step->chunk.to + going_on <= account->plan->queue_stride);
     for (int i = step->chunk.to; i < step->chunk.to + going_on; i++) {
-        assert_false(account->waits[i]); /* nor is it one of those that are being read */
+        assert_false(account->waits[i]); /* nor is it being read */
         account->waits[i] = 1;
     }
     for (int i = step->chunk.first;
@@ -68,7 +67,7 @@ static void store(Account *account, const HdWaveStep *step) {
     account->next_item += step->item_count;
 }
 
-/* What one launch may have. */
+/* Limit of one launch. */
 static int launch_rays = HD_MAX_LAUNCH_WORK;
 
 static int64_t steps; /* of the last frame */
@@ -100,8 +99,8 @@ static int64_t run(size_t bytes, const HdWaveRun *frame, int children) {
     return account.traced;
 }
 
-/* The account tells rays that overlap; it rounds up to groups only where they are split, so that
-   it counts those of whole groups on each level. */
+/* The account detects rays that overlap. It rounds up to groups only if they are split, so that it
+   counts those of whole groups on each level. */
 TEST(all_rays_are_traced_in_any_memory_by_launches_of_any_size) {
     static const int sizes[] = {1, 5, 32, 40, 150, HD_MAX_LAUNCH_WORK};
     static const size_t budgets[] = {1, 3000, 5000, 20000, 50000, 100000, 1 << 20, 1 << 28};
@@ -119,9 +118,9 @@ TEST(all_rays_are_traced_in_any_memory_by_launches_of_any_size) {
     }
 }
 
-/* In launches of at most their size, and enough memory, each level is a step for each. Of a deep
-   tree a level's rest would make all levels below it again, so that levels are taken whole. */
-TEST(room_decides_how_many_steps_there_are) {
+/* With launches of at most their size, and enough memory, each level is a step for each. The rest
+   of a deep tree's level would repeat all levels below it, so levels run whole. */
+TEST(capacity_decides_the_number_of_steps) {
     const HdWaveRun frame = {.items = 64, .samples_per_item = 4, .depth = 5, .grain = 32};
     run(1 << 24, &frame, 1);
     assert_int_equal(steps, 6);
@@ -138,8 +137,8 @@ TEST(room_decides_how_many_steps_there_are) {
     assert_in_range(steps, 9 * 100, 9 * 110); /* nine batches, which live for 103 levels */
 }
 
-/* The places of a level that is done serve the next one. */
-TEST(rays_go_below_those_that_made_them) {
+/* The places of a finished level serve the next one. */
+TEST(rays_are_placed_below_their_parents) {
     WaveSegment stack[] = {{.level = 0},
                            {.level = 1, .first = 0, .waiting = 8},
                            {.level = 2, .first = 100, .waiting = 8}};
@@ -150,7 +149,7 @@ TEST(rays_go_below_those_that_made_them) {
     assert_int_equal(top, 1);
 }
 
-TEST(plans_keep_to_their_budget) {
+TEST(plans_stay_within_their_budget) {
     const HdWaveNeeds few = {
         .bytes = 1 << 28, .depth = 4, .grain = 32, .samples = 1000, .samples_at_once = 10};
     assert_int_equal(hd_wave_plan(&few).sum_stride, 1000);
@@ -177,7 +176,7 @@ TEST(plans_keep_to_their_budget) {
         }
 }
 
-/* A device that refuses memory is asked for less, until it is as little as the least. */
+/* A device that refuses memory is asked for less, down to the minimum. */
 TEST(a_refused_queue_is_halved) {
     HdWaveNeeds needs = {.bytes = 9 << 20};
     static const size_t expected[] = {9 << 19, 9 << 18, 9 << 17, HD_WAVE_MIN_BYTES};

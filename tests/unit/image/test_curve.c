@@ -14,7 +14,7 @@ static uint16_t encode16(HdCurve curve, float value) {
     return code;
 }
 
-/* The formula of IEC 61966-2-1. */
+/* Computes the formula of IEC 61966-2-1. */
 static double to_linear(double value) {
     return value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4);
 }
@@ -30,7 +30,7 @@ static int encode(int top, float value) {
 }
 
 /* Each code begins at the float above its threshold, and another system's arithmetic must not give
-   other pictures: the hash is that of where they begin, and of what they are decoded to. */
+   other pictures. The hash covers the thresholds and the decoded values. */
 TEST(codes_are_rounded_to_the_nearest) {
     static const int tops[] = {255, 65535};
     static uint16_t decoded[65536];

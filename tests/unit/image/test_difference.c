@@ -53,7 +53,7 @@ TEST(figures_are_those_of_the_formulas) {
     assert_false(figures.identical);
 }
 
-/* One step of 8 bits is exact where there are 16, and not more than one. */
+/* One step of 8 bits is exact in 16, and not more than one. */
 TEST(the_first_of_equal_errors_is_named) {
     const HdPictureValue first[] = {GREY(0, 0), GREY(7, 0), GREY(7, 0), GREY(7, 0)};
     const HdPictureValue second[] = {GREY(0, 0), GREY(8, 0.5), GREY(8, 0.5), GREY(8, 0.5)};
@@ -65,7 +65,7 @@ TEST(the_first_of_equal_errors_is_named) {
     assert_int_equal(figures.linear.x, 1);
 }
 
-/* Alike on the screen, but not in light. */
+/* Equal on the screen, but not in light. */
 TEST(clamping_is_a_choice) {
     const HdPictureValue first[] = {GREY(255, 1), GREY(0, 0)};
     const HdPictureValue second[] = {GREY(255, 5), GREY(0, -2)};
@@ -100,7 +100,7 @@ TEST(values_that_are_no_numbers_are_counted_and_left_out) {
     assert_int_equal(figures.display.x, -1);
 }
 
-/* Of the values, or if there are none, of the multiples of `step`. */
+/* Compares quantiles of the values, or if there are none, of the multiples of `step`. */
 static double quantile_of(int count, const double *values, double step, uint64_t out_of) {
     HdError error = {0};
     HdQuantile quantile;
@@ -114,7 +114,7 @@ static double quantile_of(int count, const double *values, double step, uint64_t
 
 TEST(quantiles_leave_one_in_so_many_above) {
     const double extreme[] = {0.0, 1e-300, 1e-30, 1.0, 1e30, 1e300};
-    assert_true(quantile_of(1000, NULL, 1.0, 1000) == 998.0); /* 999 alone is above */
+    assert_true(quantile_of(1000, NULL, 1.0, 1000) == 998.0); /* only 999 is above */
     assert_true(quantile_of(999, NULL, 1.0, 1000) == 998.0);  /* none may be above */
     assert_true(quantile_of(2048, NULL, 1.0, 4) == 1535.0);
     assert_true(isnan(quantile_of(0, NULL, 1.0, 1000)));

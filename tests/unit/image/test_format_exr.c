@@ -28,7 +28,7 @@ static void read_back(HdPictureValue values[VALUES], int bits) {
     assert_int_equal(facts.curve, HD_CURVE_LINEAR);
 }
 
-TEST(floats_come_back) {
+TEST(floats_read_back_equal) {
     float values[VALUES];
     HdPictureValue read[VALUES];
     for (int i = 0; i < VALUES; i++)
@@ -78,12 +78,12 @@ TEST(halves_are_the_nearest) {
     assert_true(isnan(read[count].linear));
 }
 
-/* A number that half has not: of a layer's channel, by the place of its name. */
+/* Returns a number that half does not have: of a layer's channel, by the place of its name. */
 static float number_at(int pixel, int which) {
     return (float)(70001 + 16 * pixel + which);
 }
 
-/* Those of the first hit stand in the order of the names. */
+/* Channels of the first hit are in the order of the names. */
 TEST(layers_become_channels) {
     enum { COUNT = 8, BOUND = 2 };
     static const char *const names[COUNT] = {"A",        "Z",        "bound",  "normal.X",
@@ -102,7 +102,7 @@ TEST(layers_become_channels) {
         frame.effort[i * HD_EFFORT_FLOATS] = number_at(i, COUNT - 1);
         frame.effort[i * HD_EFFORT_FLOATS + 1] = number_at(i, BOUND);
     }
-    /* nothing is met in the first pixel */
+    /* the first pixel hits nothing */
     frame.first[HD_FIRST_DEPTH] = frame.first[HD_FIRST_OBJECT] = 0.0F;
     write_frame(&frame, &hd_format_exr, &HALF, &LABEL, "a.exr");
     assert_int_equal(hd_picture_reader_open(&reader, "a.exr", &error), HD_OK);
@@ -132,7 +132,7 @@ TEST(layers_become_channels) {
 static unsigned char bytes[65536];
 static size_t size;
 
-/* Of a written picture. */
+/* Bytes of a written picture. */
 static void get_bytes(void) {
     float values[VALUES];
     for (int i = 0; i < VALUES; i++)
@@ -160,7 +160,7 @@ TEST(cut_files_are_refused_quietly) {
     expect_contains(error.message, "cannot read bad.exr as OpenEXR: ");
 }
 
-/* Where the first `text` stands. */
+/* Returns the offset of the first `text`. */
 static unsigned char *find(const char *text) {
     for (size_t i = 0; i + strlen(text) <= size; i++)
         if (memcmp(bytes + i, text, strlen(text)) == 0)
@@ -173,8 +173,8 @@ TEST(other_kinds_are_refused) {
     get_bytes();
     find("a.json"); /* the label */
     find("--depth 3");
-    /* Behind a channel's name and its zero byte: the type, four bytes, and 8 more to the sampling;
-       behind the name of the data window's type: its size and four numbers. */
+    /* After a channel's name and its zero byte come the type, four bytes, and 8 more to the
+       sampling. After the name of the data window's type come its size and four numbers. */
     unsigned char *green = find("chlist") + 7 + 4 + 18;
     unsigned char *window = find("dataWindow") + 11 + 6 + 4;
     const struct {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Beside what is read of each kind of JPEG (test_picture.c). */
+/* Errors of JPEG files; test_picture.c reads each kind of JPEG. */
 #define _XOPEN_SOURCE 700
 
 #include <stdio.h>
@@ -13,7 +13,7 @@ enum { SIDE = 24 };
 static HdError error;
 static unsigned char bytes[65536];
 
-/* A copy of its own size lets the sanitizer see a read past the end. */
+/* Checks a copy of its own size, so that the sanitizer detects a read past the end. */
 static void check_refused(const unsigned char *file, size_t size, const char *part) {
     HdTexture texture;
     unsigned char *copy = malloc(size);
@@ -46,13 +46,13 @@ TEST(cut_files_are_refused) {
         for (size_t size = 3; size < whole; size++)
             check_refused(bytes, size, "");
         check_refused(bytes, whole - 20, "cannot read a.jpg as JPEG: Premature end of JPEG");
-        /* The end is there, but pixels are not. */
+        /* The end is there, but pixels are missing. */
         memcpy(bytes + whole - 20, "\xff\xd9", 2);
         check_refused(bytes, whole - 18, "premature end of data segment");
     }
 }
 
-TEST(hostile_files_are_refused) {
+TEST(malicious_files_are_refused) {
     const size_t size = load_texture_file("jpeg_444", bytes, sizeof bytes);
     unsigned char *frame = bytes; /* its head, then its length, bits, height and width */
     while (frame[0] != 0xff || frame[1] != 0xc0)
@@ -70,7 +70,7 @@ TEST(hostile_files_are_refused) {
     check_refused(bytes, size, "Empty JPEG image");
 }
 
-/* A picture of SIDE x SIDE pixels, into `bytes`; returns its size. One that is grey has two scans,
+/* Writes a picture of SIDE x SIDE pixels into `bytes`; returns its size. A grey one has two scans,
    each with all bits of its coefficients. */
 static unsigned long encode(J_COLOR_SPACE space, int channels) {
     static const jpeg_scan_info whole_bits[] = {{1, {0}, 0, 0, 0, 0}, {1, {0}, 1, 63, 0, 0}};
@@ -107,8 +107,8 @@ TEST(print_colours_are_refused) {
                   "is a JPEG of 4 colours (4 are those of print, CMYK), expected 1 or 3");
 }
 
-/* The last scan of a progressive file over and over: each costs the time of the whole picture.
-   Those that bring no bits of their own are errors without a limit. */
+/* Repeats the last scan of a progressive file: each costs the time of the whole picture. Scans
+   without new bits are errors without a limit. */
 TEST(endless_scans_are_refused) {
     size_t size = encode(JCS_GRAYSCALE, 1) - 2, last = size;
     while (bytes[last] != 0xff || bytes[last + 1] != 0xda)

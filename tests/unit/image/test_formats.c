@@ -2,7 +2,7 @@
 #include "image/picture.h"
 #include "unit_test.h"
 
-TEST(the_ending_tells_the_format) {
+TEST(the_extension_selects_the_format) {
     const struct {
         const char *path;
         const HdFormat *format;
@@ -24,7 +24,7 @@ TEST(the_ending_tells_the_format) {
     }
 }
 
-TEST(what_a_format_cannot_say_is_refused) {
+TEST(styles_that_a_format_lacks_are_refused) {
     static const struct {
         const char *path;
         HdPictureStyle style;

@@ -11,7 +11,7 @@ static const HdPictureStyle LINEAR_8 = {HD_CURVE_LINEAR, 8};
 static HdError error;
 static unsigned char bytes[65536];
 
-/* Random enough that no compression makes it small. */
+/* Returns numbers so random that no compression makes them small. */
 static uint32_t next_random(uint32_t *seed) {
     *seed = *seed * 1664525u + 1013904223u;
     return *seed >> 16;
@@ -40,8 +40,8 @@ TEST(sizes_are_checked) {
     }
 }
 
-/* Off the curve again, the values are those of the frame but for the rounding. The classic mode's
-   names need no ending. */
+/* Decoded, the values are those of the frame except for rounding. The classic mode's names need no
+   extension. */
 TEST(textures_come_off_the_curve) {
     static const struct {
         const char *path;
@@ -71,8 +71,8 @@ TEST(textures_come_off_the_curve) {
     assert_int_equal(bytes[11], 255);
 }
 
-/* A limit on the size of files stands for a disk that is full: large pictures fail while they are
-   written, small ones when the file is closed. */
+/* A limit on the size of files simulates a full disk: large pictures fail while they are written,
+   small ones when the file is closed. */
 TEST(full_disks_leave_older_files) {
     static const char *const paths[] = {"full/a.data", "full/a.png", "full/a.pfm"};
     struct rlimit old, small;
@@ -182,9 +182,9 @@ TEST(the_largest_side_is_read) {
     expect_contains(error.message, "sparse: it has 5368709120 bytes, expected at most 4294967296");
 }
 
-/* The hashes are of what other programs read, each channel as 16 bits, the lower ones first: of
-   PNG (named by type of colour, bits and whether it is interlaced) a reader in another language, of
-   JPEG `djpeg -nosmooth -dct int`, whichever libjpeg is here. */
+/* The hashes are of other programs' output, each channel as 16 bits, the lower ones first. For PNG
+   (named by colour type, bits and whether it is interlaced) that is a reader in another language,
+   for JPEG `djpeg -nosmooth -dct int`, with whichever libjpeg is here. */
 TEST(every_kind_is_read) {
     static const struct {
         const char *name;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Of PNG files that go on and on no more is read than pixels may need. */
+/* Reading an endless PNG file stops at the bytes that its pixels may need. */
 #define _XOPEN_SOURCE 700
 
 #include <stdio.h>
@@ -27,7 +27,7 @@ static void put_chunk(FILE *file, const char *type, const unsigned char *bytes, 
     put_number(file, size > 0 ? crc32(sum, bytes, size) : sum);
 }
 
-/* A white pixel, and so many chunks of a MiB after it or, by `before`, before it. */
+/* Makes a white pixel, and so many chunks of a MiB after it or, by `before`, before it. */
 static FILE *make_file(int surplus, bool before) {
     static const unsigned char head[13] = {0, 0, 0, 1, 0, 0, 0, 1, 8, 2, 0, 0, 0};
     static const unsigned char row[4] = {0, 255, 255, 255};
@@ -61,7 +61,7 @@ static HdStatus read_pixel(FILE *file, float rgb[3]) {
     return status;
 }
 
-/* Some MiB beside the pixels do, but a file without end is not read to it. */
+/* Some MiB besides the pixels are accepted, but a file without end is not read to it. */
 TEST(surplus_bytes_have_a_limit) {
     float rgb[3] = {0};
     for (int i = 0; i < 3; i++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A picture with a fingerprint is known, and with one byte less, more or other it is not. */
+/* A picture with a fingerprint is recognised, and with one byte less, more or other it is not. */
 #define _GNU_SOURCE /* memmem */
 
 #include <zlib.h>
@@ -22,7 +22,7 @@ static bool is_whole(void) {
     return hd_png_is_whole(bytes, size, FINGERPRINT);
 }
 
-/* Into `bytes`. */
+/* Reads the file into `bytes`. */
 static void write_picture(const HdPictureLabel *label) {
     const HdPictureStyle style = {HD_CURVE_SRGB, 8};
     HdFrame frame;

@@ -52,7 +52,7 @@ TEST(png_has_the_codes_of_the_file) {
     hd_frame_free(&frame);
 }
 
-/* Whatever the style, and what no other format can hold. */
+/* Any style, and values that no other format can hold. */
 TEST(pfm_has_the_values_of_the_frame) {
     const HdPictureStyle style = {HD_CURVE_SRGB, 8};
     HdFrame frame = make_frame();
@@ -123,7 +123,7 @@ TEST(other_files_are_refused) {
     }
 }
 
-/* A PNG that is cut off is refused at the row where it ends, or after the last one. */
+/* A truncated PNG is refused at the row where it ends, or after the last one. */
 TEST(cut_files_are_refused) {
     const HdPictureStyle style = {HD_CURVE_SRGB, 8};
     HdFrame frame = make_frame();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The official example of the classic input: read as it is, with a part changed, and printed. What
-   is wrong is refused, with a message that says where and why. */
+/* The official example of the classic input: read unchanged, with a part changed, and printed.
+   Errors are refused, with a message that says where and why. */
 #define _XOPEN_SOURCE 700
 
 #include <ctype.h>
@@ -46,7 +46,7 @@ enum {
 static HdSceneFile input, again;
 static HdError error;
 
-/* Where the token begins and, by `length`, ends. */
+/* Returns the token's begin and, by `length`, its length. */
 static size_t token_at(int index, size_t *length) {
     static const char spaces[] = " \n";
     size_t start = 0;
@@ -58,7 +58,8 @@ static size_t token_at(int index, size_t *length) {
     return start;
 }
 
-/* Parses a copy with no zero byte behind it, so that a memory checker sees a byte read too many. */
+/* Parses a copy with no zero byte behind it, so that a memory checker detects a byte read too
+   many. */
 static HdStatus parse_bytes(const char *text, size_t size, int variant) {
     char *copy = malloc(size > 0 ? size : 1);
     assert_non_null(copy);
@@ -73,7 +74,7 @@ static void expect_parsed(const char *text, int variant) {
         fail_msg("%s", error.message);
 }
 
-/* The official text with one token replaced; the caller frees it. */
+/* Returns the official text with one token replaced; the caller frees it. */
 static char *with_token(int index, const char *replacement) {
     size_t length;
     const size_t start = token_at(index, &length), size = sizeof official + strlen(replacement);
@@ -162,7 +163,7 @@ TEST(test_official_example) {
     assert_null(input.scene.solids);
 }
 
-TEST(test_what_is_a_number) {
+TEST(test_valid_numbers) {
     static const char *const cases[] = {"90", "+90.", "9E1", ".9e+2", "900.0e-1", "00090"};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         expect_token_accepted(VIEW, cases[i]);
@@ -196,7 +197,7 @@ TEST(test_variants) {
     }
 }
 
-/* Into `text`. */
+/* Prints into `text`. */
 static HdStatus print(char *text, size_t size) {
     memset(text, 0, size);
     FILE *stream = fmemopen(text, size, "w");
@@ -233,7 +234,7 @@ static void expect_not_printed(const char *message) {
     assert_string_equal(text, "");
 }
 
-TEST(test_what_cannot_be_printed) {
+TEST(test_unprintable_scenes) {
     expect_parsed(official, 4);
     input.scene.solid_count = 2;
     expect_not_printed("the scene has 2 solids, expected 3");
@@ -273,7 +274,7 @@ TEST(test_every_truncation) {
     assert_int_equal(hd_classic_parse(&input, NULL, 0, "standard input", 4, &error), HD_BAD_INPUT);
 }
 
-TEST(test_what_is_no_number) {
+TEST(test_invalid_numbers) {
     static const char *const wrong[] = {
         "nan", "-inf", "infinity", "0x10", "1.5.2", "1,5", "--1", "+-1",   "1e",
         "1e+", ".",    "-",        "+.e1", "1.0f",  "1d5", "e5",  "1_000", "\xef\xbb\xbf.5"};
@@ -295,7 +296,7 @@ TEST(test_wrong_values) {
         {TARGET_Z_PHASE, "abc", ":5: target: z phase is 'abc', expected a number"},
         {FLOOR + 5, "abc", ":9: floor: corner 2 z is 'abc', expected a number"},
         {LIGHT_COUNT + 2, "abc", ":11: light 1: position y is 'abc', expected a number"},
-        /* What does not begin as such an input is somebody else's, and not quoted. */
+        /* Text that does not begin like such an input belongs to others, and is not quoted. */
         {FRAMES, "abc", ":1: number of frames is '...', expected a whole number"},
         {VIEW, "1e999", ":3: field of view is '1e999', expected a number within the range"},
         {FRAMES, "16.0",
@@ -316,7 +317,7 @@ TEST(test_wrong_values) {
         {DEPTH, "1001", ":13: recursion depth is '1001'"},
         {SAMPLES, "0", ":13: square root of the number of rays per pixel is '0'"},
         {SAMPLES, "65", ":13: square root of the number of rays per pixel is '65'"},
-        /* shares, and what the scene refuses */
+        /* shares, and values that the scene refuses */
         {SOLID_1 + 3, "1.5", ":6: solid 1: colour's red is 1.5, expected a number from 0 to 1"},
         {SOLID_2 + 8, "-0.1", ":7: solid 2: transparency is -0.1"},
         {TEXTURE + 1, "2", ":9: floor: tint's red is 2, expected a number from 0 to 1"},
@@ -325,7 +326,7 @@ TEST(test_wrong_values) {
         {VIEW, "180", ": field of view is 180"},
         {FLOOR + 2, "4", ": floor: its diagonals"},
         {LIGHT_COUNT + 4, "-1", ": light 1: intensity's red is -1"},
-        /* paths; what patterns are is tested with them */
+        /* paths; patterns have tests of their own */
         {OUTPUT, "img.data", ":2: output path: "},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {

@@ -5,7 +5,7 @@
 
 static HdError error;
 
-/* `begin`, so many times the piece, and `end`: passes where the message is NULL. */
+/* Parses `begin`, so many times the piece, and `end`; succeeds if the message is NULL. */
 static void check(const char *begin, const char *piece, int count, const char *end,
                   const char *message) {
     const size_t size = strlen(piece), before = strlen(begin);
@@ -23,7 +23,7 @@ static void check(const char *begin, const char *piece, int count, const char *e
 }
 
 TEST(test_values) {
-    /* The array, its first element, and one behind each comma. */
+    /* The array, its first element, and one after each comma. */
     const int count = (HD_MAX_JSON_VALUES - 3) / 2;
     check("[{}", ",[]", count, "]", NULL);
     check("[{},\n0,0", ",[]", count, "]",
@@ -37,7 +37,7 @@ TEST(test_depth) {
     expect_refused(text, NULL, "a.json:1:2049: maximum parsing depth reached near '['");
 }
 
-/* What is wrong is told from the begin on, and counted to the end. */
+/* Errors are reported from the begin on, and counted to the end. */
 TEST(test_many_problems) {
     char text[100000];
     size_t used =

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Meshes of scene files: which entries share one, their normals and textures, and what is wrong. */
+/* Meshes of scene files: sharing between entries, their normals and textures, and errors. */
 #define _XOPEN_SOURCE 700
 
 #include "input/files.h"
@@ -45,7 +45,7 @@ static void expect_problems(const char *text, const char *expected) {
     hd_scene_file_free(&file);
 }
 
-/* At the first corner, which both triangles have. */
+/* Returns the normal at the first corner, which both triangles have. */
 static HdVec3 first_normal(const HdMesh *mesh) {
     return hd_normalize(mesh->normals[mesh->corner_normals[0][0]]);
 }
@@ -92,7 +92,7 @@ TEST(test_entries_share_meshes) {
     assert_null(file.mesh_entries);
 }
 
-TEST(test_every_wrong_file_is_told) {
+TEST(test_every_wrong_file_is_reported) {
     write_text("a.obj", corner_text);
     write_text("bad.obj", "v 0 0 0\nv 1 0 x\n");
     write_text("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");

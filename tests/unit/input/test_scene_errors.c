@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Scene files that are wrong: each is refused, with a message that says what and where, in the
-   words of people who are used to other programs, too. */
+/* Wrong scene files: each is refused, with a message that says what and where, also in the terms of
+   other programs. */
 #include "scene_text.h"
 
 static HdSceneFile file;
@@ -10,7 +10,7 @@ static HdError error;
 
 /* ---- one value of the rich scene ---- */
 
-/* The message is "a.json: --set CHANGE: ", what the format makes, and perhaps more. */
+/* Expects the message "a.json: --set CHANGE: ", then the formatted text, and perhaps more. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
@@ -22,12 +22,12 @@ expect_change_refused(HdSceneChange change, const char *format, ...) {
     va_start(arguments, format);
     vsnprintf(message + used, sizeof message - used, format, arguments);
     va_end(arguments);
-    const char *told = expect_refused(rich_text, change, message);
-    assert_ptr_equal(strstr(told, message), told);
-    assert_null(strchr(told, '\n'));
+    const char *got = expect_refused(rich_text, change, message);
+    assert_ptr_equal(strstr(got, message), got);
+    assert_null(strchr(got, '\n'));
 }
 
-/* A field of numbers: both ends of its range, and what lies just outside. */
+/* A field of numbers: both ends of its range, and values just outside. */
 static const struct Range {
     const char *path, *low, *high, *below, *above, *expected;
 } ranges[] = {
@@ -78,11 +78,11 @@ TEST(test_numbers) {
     }
 }
 
-/* What the message says behind the change and its path, or, where that is at fault, its part. */
+/* The message after the change and its path, or, if that is at fault, its part. */
 static const struct {
     const char *path, *value, *rest;
 } wrong[] = {
-    /* types, and what is no choice */
+    /* types, and values that are no choice */
     {"hedron", "2", "is 2, expected 1"},
     {"camera.eye", "3",
      "is 3, expected three numbers, [x, y, z], or an object with the path on a cylinder"},
@@ -107,7 +107,7 @@ static const struct {
     {"floor.corners", "3", "is 3, expected an array of vectors"},
     {"materials", "3", "is 3, expected an object with a material for each name"},
     {"image.width", "12345678901234567890", "is 1.2345678901234567e19, expected an integer from"},
-    /* numbers of elements; keys that are missing or too many */
+    /* numbers of elements; keys that are missing or surplus */
     {"solids[1].edge_lights.colours", "[]", "has 0 elements, expected 1 to 30 elements"},
     {"floor.corners", "[[0,0,0],[1,0,0],[1,1,0]]", "has 3 elements, expected 4 elements"},
     {"floor.texture.x", "1", "is an unknown key, expected \"file\" or \"curve\""},
@@ -115,7 +115,7 @@ static const struct {
      "is given together with \"falloff_distance\", expected only one"},
     {"meshes", "[{}]", "[0].file is missing, expected a string that is not empty"},
     {"image", "{\"$comment\": 1}", "[\"$comment\"] is 1, expected a string"},
-    /* a default that stands in for a wrong value makes nothing else look wrong */
+    /* a default that replaces a wrong value causes no further error */
     {"solids[1].circumradius", "-1", "is -1, expected a number from 1e-12 to 1e12"},
     {"solids[1].centre", "[1,2,\"3\"]", "[2] is a string, \"3\", expected a number from -1e12"},
     {"floor.corners", "[[0,0,0],[0,0,0],[0,0,0],[0,0,null]]", "[3][2] is null, expected a number"},
@@ -168,7 +168,7 @@ TEST(test_changes_that_cannot_be_made) {
         expect_change_refused(changes[i][0], "%s", changes[i][1]);
 }
 
-TEST(test_changes_that_are_not_understood) {
+TEST(test_unknown_changes) {
     char changes[] = "=3 .image=3 image.=3 image..width=3 solids[]=3 solids[x]=3 solids[0=3 "
                      "solids[01]=3 solids[0]x=3 solids[9999999999]=3 [0]=3 solids[0].=3 "
                      "materials.\"my.glass.diffuse=1 materials.\"\".diffuse=1";
@@ -176,8 +176,8 @@ TEST(test_changes_that_are_not_understood) {
         expect_change_refused(change, "the path is not understood, expected one such as ");
 }
 
-TEST(test_keys_that_are_called_otherwise) {
-    /* Of an object: what is said and what is meant, in turn. */
+TEST(test_keys_with_other_names) {
+    /* Pairs of an object's message and the right word. */
     static const char *const words[][2] = {
         {"camera.", "fov field_of_view position eye look_at target"},
         {"solids[0].", "position centre center centre radius circumradius type kind"},
@@ -204,12 +204,12 @@ TEST(test_keys_that_are_called_otherwise) {
     }
 }
 
-/* ---- whole texts, and what values must be to each other ---- */
+/* ---- whole texts, and relations between values ---- */
 
 static const struct {
     const char *text;
     HdSceneChange change;
-    const char *message; /* from its begin on, behind "a.json" */
+    const char *message; /* from its begin on, after "a.json" */
 } refused[] = {
     {"", NULL, " is empty, expected a scene in JSON"},
     {"{\"hedron\": 1,\n \"hedron\": 1}", NULL, ":2:9: duplicate object key"},
@@ -243,7 +243,7 @@ static const struct {
      "expected a number from 0 to 1"},
     {SMALL ", \"materials\": {\"a[0]=b\": {}}}", "materials.\"a[0]=b\".diffuse=-1",
      ": --set materials.\"a[0]=b\".diffuse=-1: materials[\"a[0]=b\"].diffuse is -1"},
-    /* the sum of a material's shares is told once, however many wear it */
+    /* the sum of a material's shares is reported once, however many use it */
     {SMALL ", \"materials\": {\"m\": {\"reflection\": 0.5}}, \"solids\": [\n"
            "{\"kind\": \"cube\", \"material\": \"m\"}, {\"kind\": \"cube\", \"material\": \"m\"}]}",
      "materials.m.transmission=0.75",
@@ -280,11 +280,11 @@ static const struct {
 
 TEST(test_wrong_texts) {
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
-        const char *told = expect_refused(refused[i].text, refused[i].change, refused[i].message);
-        if (strncmp(told, "a.json", 6) != 0 || strstr(told + 6, refused[i].message) != told + 6)
-            fail_msg("'%s', expected 'a.json%s'", told, refused[i].message);
-        if (strchr(told, '\n') != NULL && strchr(refused[i].message, '\n') == NULL)
-            fail_msg("'%s' has more than one line", told);
+        const char *got = expect_refused(refused[i].text, refused[i].change, refused[i].message);
+        if (strncmp(got, "a.json", 6) != 0 || strstr(got + 6, refused[i].message) != got + 6)
+            fail_msg("'%s', expected 'a.json%s'", got, refused[i].message);
+        if (strchr(got, '\n') != NULL && strchr(refused[i].message, '\n') == NULL)
+            fail_msg("'%s' has more than one line", got);
     }
 }
 
@@ -316,7 +316,7 @@ TEST(test_outputs) {
     }
 }
 
-/* What is wrong with the whole and with files is told along with the rest. */
+/* Errors of the whole and of files are reported along with the rest. */
 TEST(test_problems_of_all_kinds) {
     static const HdSceneChange changes[] = {"materials.glass.transmission=0.99", "image.width=0",
                                             "floor.texture.file=no such.png"};
@@ -342,7 +342,8 @@ TEST(test_zero_bytes_and_a_byte_order_mark) {
     hd_scene_file_free(&file);
 }
 
-/* `head`, so many times the element, which may have a number in it, with commas, and `tail`. */
+/* Returns `head`, so many times the element, which may have a number in it, with commas, and
+   `tail`. */
 static char *repeat(const char *head, const char *element, int count, const char *tail) {
     const size_t size = strlen(head) + (size_t)count * (strlen(element) + 8) + strlen(tail) + 1;
     char *text = malloc(size);
@@ -387,9 +388,9 @@ TEST(test_too_many_elements) {
     }
 }
 
-/* ---- what is fine, but seldom meant ---- */
+/* ---- valid but unusual settings ---- */
 
-/* The notes on a scene, a line for each. */
+/* Returns the notes on a scene, a line for each. */
 static const char *notes_on(const char *text, HdSceneChange change) {
     static HdProblems notes;
     notes = (HdProblems){.count = 0};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Scene files are read as they say, and where a change says otherwise. */
+/* Scene files are read as written, and changed by --set. */
 #define _XOPEN_SOURCE 700
 
 #include "input/files.h"
@@ -107,7 +107,7 @@ TEST(test_changes) {
     assert_string_equal(file.output.path, "7.png");
     expect_near(file.scene.solids[0].face.colour.y, 0.0, 0.0);
     hd_scene_file_free(&file);
-    expect_scene(&file, least_text, "image.width=77"); /* what may be missing is made */
+    expect_scene(&file, least_text, "image.width=77"); /* missing parts are made */
     assert_int_equal(file.scene.width, 77);
     assert_int_equal(file.scene.height, 480);
     hd_scene_file_free(&file);
@@ -119,7 +119,7 @@ TEST(test_changes) {
     hd_scene_file_free(&file);
 }
 
-/* Beside what the reader of all files refuses. */
+/* Besides errors that the reader of all files refuses. */
 TEST(test_scenes_of_no_byte_and_of_too_many) {
     write_bytes("empty.json", "", 0);
     write_bytes("huge.json", "{", 1);
@@ -130,7 +130,7 @@ TEST(test_scenes_of_no_byte_and_of_too_many) {
     expect_contains(error.message, "it has 33554433 bytes, expected at most 33554432");
 }
 
-/* Both the texture and the mesh are said to be `said`. */
+/* Expects `said` as the place of both the texture and the mesh. */
 static HdStatus read_with_files(const char *path, const char *said) {
     static char changes[2][HD_MAX_PATH + 64];
     const char *const both[] = {changes[0], changes[1]};

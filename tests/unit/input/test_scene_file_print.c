@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What is written reads back as the same scene, and the schema is the committed one. */
+/* Printed scenes read back equal, and the schema is the committed one. */
 #define _XOPEN_SOURCE 700
 
 #include "input/write.h"
@@ -13,11 +13,11 @@ static HdError error;
 
 typedef HdStatus Print(FILE *out, HdError *error);
 
-static HdStatus print_first(FILE *out, HdError *told) {
-    return hd_scene_file_print(out, &first, told);
+static HdStatus print_first(FILE *out, HdError *failure) {
+    return hd_scene_file_print(out, &first, failure);
 }
 
-/* The caller frees it. */
+/* Prints a scene; the caller frees the text. */
 static char *printed(Print *print) {
     char *text = NULL;
     size_t size;
@@ -40,9 +40,9 @@ static char *expect_round_trip(void) {
     return text;
 }
 
-TEST(test_values_that_are_hard_to_write) {
+TEST(test_values_that_are_hard_to_print) {
     static const char *const changes[] = {
-        "image.width=320", /* as it is */
+        "image.width=320", /* unchanged */
         "camera.eye.r0=-0.0",
         "camera.eye.z0=0.1",
         "camera.eye.r_phase=5e-324",
@@ -70,7 +70,7 @@ TEST(test_values_that_are_hard_to_write) {
     for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
         expect_scene(&first, rich_text, changes[i]);
         char *text = expect_round_trip();
-        /* Materials that are alike have one name. */
+        /* Equal materials have one name. */
         if (i == 0)
             expect_contains(text, "\n    \"solid_2\": {\n      \"diffuse\": 0.125\n    },\n"
                                   "    \"rim_2\": {}\n  },");
@@ -102,7 +102,7 @@ static double random_light(void) {
     return ldexp(share, (int)(random_bits() % 44) - 4);
 }
 
-/* The product of colour and intensity must come out to the bit. */
+/* The product of colour and intensity must be exact to the bit. */
 TEST(test_intensities_of_lights) {
     enum { COUNT = 5000 };
     expect_scene(&first, least_text, NULL);
@@ -141,7 +141,7 @@ TEST(test_a_stream_that_fails) {
     hd_scene_file_free(&first);
 }
 
-/* Every field with its range is in it. */
+/* It has every field with its range. */
 TEST(test_committed_schema) {
     static char path[4096], committed[1 << 20];
     snprintf(path, sizeof path, "%s/%s", unit_project, SCHEMA);
@@ -152,6 +152,6 @@ TEST(test_committed_schema) {
     fclose(stream);
     char *text = printed(hd_scene_schema_print);
     if (strcmp(committed, text) != 0)
-        fail_msg("%s is not what hd_scene_schema_print writes: write it anew", SCHEMA);
+        fail_msg("%s differs from the output of hd_scene_schema_print: write it again", SCHEMA);
     free(text);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The kernels' conversion to 8 bits makes the bytes that the host's does. */
+/* The kernels' conversion to 8 bits gives the host's bytes. */
 #include "cpu/dialect.h"
 #include "image/curve.h"
 #include "kernels/common/render.h"

@@ -42,7 +42,7 @@ static double half_area(const HdBox *box) {
     return x * (y + z) + y * z;
 }
 
-/* The next of a fixed row of numbers, from 0 to below 1. */
+/* Returns the next of a fixed sequence of numbers, from 0 to below 1. */
 static double next_number(uint64_t *state) {
     *state = *state * 6364136223846793005U + 1442695040888963407U;
     return (double)(*state >> 40) * 0x1p-24;
@@ -59,7 +59,7 @@ typedef struct Kind {
     int count;
     HdHierarchyOptions options;
     int flat_axes;    /* bits */
-    bool is_unsorted; /* children do not lie in order of their centres */
+    bool is_unsorted; /* children are not in order of their centres */
 } Kind;
 
 static HdStatus try_to_build(HdHierarchy *hierarchy, const Kind *kind, HdThreadPool *threads) {
@@ -99,13 +99,13 @@ static void identical(HdBox *box, int i) {
     *box = (HdBox){{0.1F, 0.2F, 0.3F}, {0.4F, 0.5F, 0.6F}};
 }
 
-/* Neither a box has an area, nor what holds them all. */
+/* Neither a box nor their union has an area. */
 static void points_in_a_line(HdBox *box, int i) {
     const float y = (float)(i * 7919 % COUNT);
     *box = (HdBox){{0.5F, y, 0.25F}, {0.5F, y, 0.25F}};
 }
 
-/* From the smallest to the largest floats there are. */
+/* From the smallest to the largest floats. */
 static void of_all_sizes(HdBox *box, int i) {
     uint64_t seed = (uint64_t)i * 0x9E3779B97F4A7C15U;
     for (int axis = 0; axis < 3; axis++) {
@@ -117,21 +117,21 @@ static void of_all_sizes(HdBox *box, int i) {
     }
 }
 
-/* Points on the axes, each 64 times nearer to the origin than the last: the outermost point is in a
-   bin of its own and all others share one, so that each split takes one point away. */
+/* Points on the axes, each 64 times nearer to the origin than the last. The outermost point has a
+   bin of its own and all others share one, so that each split removes one point. */
 static void deep(HdBox *box, int i) {
     *box = (HdBox){{0}, {0}};
     box->lower[i % 6 / 2] = box->upper[i % 6 / 2] = ldexpf(i % 2 == 0 ? 1.0F : -1.0F, -6 * (i / 6));
 }
 
-/* ---- what a hierarchy is to be ---- */
+/* ---- requirements on a hierarchy ---- */
 
-/* What is found below a child. */
+/* The contents below a child. */
 typedef struct Below {
     HdBox box;
-    double lowest[3], highest[3]; /* of twice the centres */
+    double lowest[3], highest[3]; /* bounds of twice the centres */
     int items, depth;
-    double cost; /* expected, times the area of the box */
+    double cost; /* expected cost, times the area of the box */
 } Below;
 
 typedef struct Check {
@@ -213,13 +213,13 @@ static Below check_node(Check *check, int number) {
     check_order(check, &sides[0], &sides[1], node->axis);
     all.depth++;
     all.cost += (double)check->kind->options.node_cost * half_area(&all.box);
-    /* Otherwise it should have been a leaf; as far as floats tell. */
+    /* Otherwise it should have been a leaf; within float accuracy. */
     if (number > 0 && all.items <= check->kind->options.max_in_leaf && all.depth < 60)
         assert_true(all.cost <= half_area(&all.box) * all.items * (1.0 + 1e-5) + 1e-30);
     return all;
 }
 
-/* ---- what a wide one is to be ---- */
+/* ---- requirements on a wide one ---- */
 
 static HdBox box_of(const HdWideHierarchy *wide, int node, int child) {
     HdBox box;
@@ -237,13 +237,13 @@ typedef struct WideCheck {
     int next_node, depth;
 } WideCheck;
 
-/* What a wide node merged. */
+/* The nodes that a wide node merged. */
 typedef struct Merged {
     int number, count, binary[16];   /* the binary nodes that its children come from */
     double min_opened, largest_left; /* areas */
 } Merged;
 
-/* Goes through the binary nodes that were merged, in the order of their items. */
+/* Visits the merged binary nodes, in the order of their items. */
 static void check_merged(const WideCheck *check, int node, Merged *merged) {
     const HdBuildNode *binary = &check->hierarchy->nodes[node];
     const HdWideHierarchy *wide = check->wide;
@@ -268,14 +268,14 @@ static void check_merged(const WideCheck *check, int node, Merged *merged) {
     }
 }
 
-/* Compares the wide node of a binary one with what it comes from, and all below. */
+/* Compares a wide node with the binary node that it comes from, and all below. */
 static void check_wide(WideCheck *check, int node, int depth) {
     const HdWideHierarchy *wide = check->wide;
     Merged merged = {.number = wide->root_of[node], .min_opened = HUGE_VAL, .largest_left = -1.0};
     assert_int_equal(merged.number, check->next_node++);
     check->depth = depth > check->depth ? depth : check->depth;
     check_merged(check, node, &merged);
-    /* The largest were opened, as long as there was room. */
+    /* The largest were opened, while there was space. */
     assert_true(merged.min_opened >= merged.largest_left);
     assert_true(merged.count == wide->width || merged.largest_left < 0.0);
     for (int i = merged.count; i < wide->width; i++) {
@@ -306,8 +306,8 @@ static void check_widths(const HdHierarchy *hierarchy) {
     }
 }
 
-/* Builds all that a hierarchy is to be, and wide ones of it; `*cost` is what is expected for a ray
-   that meets it. */
+/* Builds a hierarchy and wide ones of it, and checks all requirements; `*cost` is the expected cost
+   of a ray that hits it. */
 static HdHierarchy build(const Kind *kind, double *cost) {
     static Check check;
     HdHierarchy hierarchy;
@@ -326,14 +326,14 @@ static HdHierarchy build(const Kind *kind, double *cost) {
     return hierarchy;
 }
 
-/* Nodes that cost nothing divide everything; nodes that cost too much nothing that may stay. Flat
-   boxes are without a volume, without an area, without anything. */
+/* Nodes of no cost divide everything; nodes of too high a cost divide only what must be. Flat boxes
+   have no volume, no area, or nothing. */
 TEST(boxes_of_every_kind_are_divided) {
     enum { DEEPEST = HD_MAX_HIERARCHY_DEPTH };
     static const struct {
         Kind kind;
         int min_nodes, max_nodes, min_depth, max_depth;
-        double max_cost; /* as tried out */
+        double max_cost; /* found by experiment */
     } cases[] = {
         {{small, COUNT, {0.0F, 15}, 0, false}, COUNT - 1, COUNT - 1, 1, 30, 0.0577},
         {{small, COUNT, {1.0F, 4}, 1, false}, 1, COUNT, 1, 30, 38.9},
@@ -357,7 +357,7 @@ TEST(boxes_of_every_kind_are_divided) {
     }
 }
 
-TEST(any_number_of_boxes) {
+TEST(any_number_of_boxes_works) {
     for (int count = 1; count <= 200; count++) {
         double cost;
         const Kind kind = {small, count, {1.0F, 1 + count % HD_MAX_LEAF}, 0, false};
@@ -386,7 +386,7 @@ TEST(same_for_any_number_of_threads) {
     hd_hierarchy_free(&expected);
 }
 
-/* Leaves nothing where it does not succeed. */
+/* Leaves nothing if it fails. */
 static HdStatus build_few(void) {
     static const Kind kind = {small, 6000, {1.0F, 4}, 0, false};
     HdHierarchy hierarchy;
@@ -405,9 +405,9 @@ static HdStatus build_few(void) {
     return status;
 }
 
-/* Each allocation fails in turn, until all are made. To widen takes two at the start, one for the
-   boxes, and at least once it has to grow. */
-TEST(tells_when_memory_runs_out) {
+/* Each allocation fails in turn, until all succeed. Widening allocates twice at the start, once for
+   the boxes, and at least once to grow. */
+TEST(a_lack_of_memory_is_an_error) {
     HdStatus status = HD_FAILED;
     for (failing_allocation = 0; status != HD_OK; failing_allocation++) {
         allocations = 0;
@@ -423,7 +423,7 @@ TEST(tells_when_memory_runs_out) {
 }
 
 /* The last one: the signal stays. */
-TEST(can_be_interrupted) {
+TEST(a_build_can_be_interrupted) {
     hd_interrupt_install();
     raise(SIGTERM);
     assert_int_equal(build_few(), HD_INTERRUPTED);

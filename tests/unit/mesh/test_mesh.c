@@ -5,7 +5,7 @@
 #include "mesh/mesh.h"
 #include "unit_test.h"
 
-/* A copy that the mesh may free. */
+/* Returns a copy that the mesh may free. */
 static void *copy(const void *bytes, size_t size) {
     void *result = malloc(size);
     assert_non_null(result);
@@ -21,7 +21,7 @@ static HdMesh make_mesh(const HdVec3 *vertices, int vertex_count, const int32_t 
     return mesh;
 }
 
-TEST(triangles_without_an_area_are_told) {
+TEST(triangles_without_an_area_are_reported) {
     static const struct {
         bool has_area;
         HdVec3 at[3];
@@ -29,14 +29,14 @@ TEST(triangles_without_an_area_are_told) {
         {true, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}},
         {false, {{0, 0, 0}, {1, 0, 0}, {1, 0, 0}}},
         {false, {{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}},
-        /* On a line but for the rounding of tenths and thirds. */
+        /* Collinear except for the rounding of tenths and thirds. */
         {false, {{0.1, 0.2, 0.3}, {0.3, 0.6, 0.9}, {0.7, 1.4, 2.1}}},
         /* Thin and small ones have an area, at any scale. */
         {true, {{0, 0, 0}, {1e-12, 0, 0}, {0.5e-12, 1e-21, 0}}},
         {false, {{0, 0, 0}, {1e-12, 0, 0}, {0.5e-12, 1e-29, 0}}},
         {true, {{0, 0, 0}, {1e12, 0, 0}, {0.5e12, 1e3, 0}}},
         {false, {{0, 0, 0}, {1e12, 0, 0}, {0.5e12, 1e-5, 0}}},
-        /* Far from the origin less of an area is certain. */
+        /* Far from the origin the area is less certain. */
         {true, {{1e12, 0, 0}, {1e12 + 1, 0, 0}, {1e12, 1, 0}}},
         {false, {{1e12, 0, 0}, {1e12 + 1, 0, 0}, {1e12, 1e-5, 0}}},
     };
@@ -50,7 +50,7 @@ TEST(triangles_without_an_area_are_told) {
     }
 }
 
-TEST(what_belongs_to_a_triangle_moves_with_it) {
+TEST(a_triangles_data_moves_with_it) {
     const HdVec3 vertices[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}};
     const int32_t corners[5][3] = {{0, 1, 1}, {0, 1, 2}, {0, 1, 3}, {1, 3, 2}, {2, 0, 2}};
     const int32_t normals[5][3] = {{0, 1, 2}, {10, 11, 12}, {20, 21, 22}, {30, 31, 32}, {0, 0, 0}};
@@ -95,7 +95,7 @@ TEST(the_box_holds_all_triangles) {
     hd_mesh_free(&mesh);
 }
 
-TEST(angles_are_right) {
+TEST(angles_are_correct) {
     const HdVec3 x = {1.0, 0.0, 0.0};
     for (int i = 0; i <= 3600; i++) {
         const double angle = HD_PI * i / 3600.0;
@@ -108,7 +108,7 @@ TEST(angles_are_right) {
     expect_near(hd_angle(hd_vec3(1, 1, 0), hd_vec3(1, 1, 1e-9)), 1e-9 / sqrt(2.0), 1e-24);
 }
 
-/* A cube whose 12 triangles have vertices of their own, at 8 places. */
+/* Makes a cube whose 12 triangles have vertices of their own, at 8 places. */
 static HdMesh make_cube(void) {
     static const double sides[6][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, -1}, {1, 1}, {-1, 1}};
     HdVec3 vertices[36];
@@ -156,7 +156,7 @@ static void expect_normals(const HdMesh *mesh, int count, bool is_smooth) {
 TEST(smoothing_weights_by_angle_and_leaves_creases) {
     HdMesh mesh = make_cube();
     static const double creases[] = {91.0, 89.0, 180.0, 0.0};
-    for (int i = 0; i < 4; i++) { /* but for the first, over normals that are there */
+    for (int i = 0; i < 4; i++) { /* except the first, over the existing normals */
         smooth(&mesh, creases[i]);
         expect_normals(&mesh, i % 2 == 0 ? 8 : 24, i % 2 == 0);
     }
@@ -164,7 +164,7 @@ TEST(smoothing_weights_by_angle_and_leaves_creases) {
 }
 
 /* A roof whose two sides meet at 60 degrees, and touch a third triangle in one point alone. */
-TEST(triangles_that_share_a_point_alone_are_apart) {
+TEST(triangles_that_share_only_a_point_are_not_smoothed) {
     const HdVec3 vertices[6] = {
         {0, 0, 0},  {0, 2, 0},  {1, 1, -0.57735026918962584}, {-1, 1, -0.57735026918962584},
         {1, -1, 0}, {-1, -1, 0}};

@@ -10,7 +10,7 @@ enum { MOST = HD_MAX_CONCAVE_CORNERS };
 static HdVec3 corners[MOST];
 static int32_t triangles[MOST][3];
 
-/* Twice its area long. */
+/* Returns a vector of twice its area's length. */
 static HdVec3 normal_of(const int32_t triangle[3]) {
     const HdVec3 a = corners[triangle[0]];
     return hd_cross(hd_sub(corners[triangle[1]], a), hd_sub(corners[triangle[2]], a));
@@ -23,7 +23,7 @@ static double area_of(int count) {
     return sum;
 }
 
-/* Puts a flat outline, begun at its corner `first`, into a plane, turned so that each axis has its
+/* Puts a flat outline, begun at its corner `first`, into a plane, rotated so that each axis has its
    turn. */
 static void set_outline(const double (*outline)[2], int count, int first, int turn,
                         bool is_reversed) {
@@ -36,7 +36,8 @@ static void set_outline(const double (*outline)[2], int count, int first, int tu
     }
 }
 
-/* Every triangle has the polygon's sense, and all together its area: so they do not overlap. */
+/* Expects every triangle to have the polygon's orientation, and all together its area: so they do
+   not overlap. */
 static void expect_cut_from(const double (*outline)[2], int count, int first, double area) {
     for (int i = 0; i < 6; i++) {
         const int turn = i / 2;
@@ -97,8 +98,7 @@ TEST(polygons_are_cut_and_convex_ones_become_fans) {
     }
 }
 
-/* Stars of few and of as many corners as may be, whose radius alternates: they are fans of no
-   corner. */
+/* Stars of few and of the most corners, whose radius alternates: they are fans of no corner. */
 TEST(large_stars_are_cut) {
     static double outline[MOST][2];
     for (int count = 10; count <= MOST; count += MOST - 10) {
@@ -111,8 +111,8 @@ TEST(large_stars_are_cut) {
     }
 }
 
-/* Whatever the corners are, there are as many triangles, of corners that are there. */
-TEST(rubbish_is_cut_somehow) {
+/* For any corners the number of triangles is right, and their corners exist. */
+TEST(degenerate_polygons_are_cut_somehow) {
     uint32_t seed = 1;
     for (int round = 0; round < 3000; round++) {
         const int count = 4 + round % 40, size = 2 + round % 7;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Programs in the place of FFmpeg's: those in the folder "bin" of the test folder come first. */
+/* Fake programs in place of FFmpeg's: those in the folder "bin" of the test folder come first. */
 #ifndef HD_FAKE_PROGRAMS_H
 #define HD_FAKE_PROGRAMS_H
 
@@ -22,8 +22,8 @@ static inline void fake(const char *name, const char *script) {
     assert_int_equal(chmod(path, 0777), 0);
 }
 
-/* An FFmpeg that writes frames to the file as they come, or the films that it is to join; and an
-   ffprobe that counts frames of so many bytes, with an error. */
+/* An FFmpeg that writes frames to the file as they come, or the films to be joined; and an ffprobe
+   that counts frames of so many bytes, with an error. */
 static inline void fake_films(int frame_bytes, int error) {
     char script[200];
     fake("ffmpeg", "case \"$*\" in\n"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Films by segments, made by programs in FFmpeg's place: frames of one pixel go into a file as they
-   come, so that a film's bytes tell which frames it has, and in which order. */
+/* Films by segments, made by fake programs: frames of one pixel go into a file as they come, so
+   that a film's bytes show its frames and their order. */
 #define _XOPEN_SOURCE 700
 #include "output/film.h"
 
@@ -61,7 +61,7 @@ TEST(segments_are_of_whole_seconds) {
     }
 }
 
-/* Of the second one. */
+/* Compares the path of the second segment. */
 static void expect_name(const char *expected, bool is_same) {
     char path[HD_MAX_PATH];
     find();
@@ -69,13 +69,13 @@ static void expect_name(const char *expected, bool is_same) {
     assert_true((strcmp(path, expected) == 0) == is_same);
 }
 
-TEST(names_tell_what_decides_the_bytes) {
+TEST(names_depend_on_everything_that_decides_the_bytes) {
     char first[HD_MAX_PATH];
     find();
     assert_int_equal(hd_segment_path(&segments, 1, first, &error), HD_OK);
     assert_memory_equal(first, "out/it's.mkv.part-0001-", 23);
     assert_int_equal(strlen(first), 23 + 16);
-    numbers[23]++, numbers[48]++; /* of those beside it */
+    numbers[23]++, numbers[48]++; /* the files beside it */
     expect_name(first, true);
     numbers[47]++;
     expect_name(first, false);
@@ -90,7 +90,7 @@ TEST(names_tell_what_decides_the_bytes) {
     expect_name(first, false);
 }
 
-TEST(what_others_have_there_stays) {
+TEST(other_programs_files_stay) {
     static const char *const names[] = {"it's.mkv.part-0-a",
                                         "it's.mkv.part-12345-0123456789abcdef",
                                         "it's.mkv",
@@ -111,7 +111,7 @@ TEST(what_others_have_there_stays) {
     assert_int_equal(chdir(".."), 0);
 }
 
-TEST(only_whole_files_are_taken_and_only_where_a_run_goes_on) {
+TEST(only_a_continued_run_uses_files_and_only_whole_ones) {
     char path[HD_MAX_PATH];
     find();
     for (int i = 0; i < 3; i++) {
@@ -127,7 +127,7 @@ TEST(only_whole_files_are_taken_and_only_where_a_run_goes_on) {
     plan.resumes = false;
     find();
     assert_false(hd_segments_have(&segments, 0));
-    plan.has_fingerprint = false; /* then there is none but the film */
+    plan.has_fingerprint = false; /* then only the film exists */
     find();
     assert_int_equal(segments.count, 1);
     assert_string_equal(segments.film, "out/it's.mkv");
@@ -135,7 +135,7 @@ TEST(only_whole_files_are_taken_and_only_where_a_run_goes_on) {
     output = (HdOutput){.name = "out/a.png", .format = &hd_format_png};
     find();
     assert_true(segments.count == 1 && segments.film[0] == '\0');
-    /* Names must have room for those of segments. */
+    /* Names must leave space for those of segments. */
     static char name[HD_MAX_PATH];
     hd_segments_free(&segments);
     memset(name, 'a', sizeof name - 1);
@@ -171,7 +171,7 @@ static void abort_it(int left) {
     assert_int_equal(count_entries("out"), left);
 }
 
-/* The film is there, with every frame, and nothing else is. */
+/* Closes the film, which then has every frame, and no other file remains. */
 static void close_it(void) {
     uint8_t bytes[4 * FRAMES + 1];
     assert_int_equal(hd_film_close(film, &error), HD_OK);
@@ -184,17 +184,17 @@ static void close_it(void) {
 TEST(gaps_are_filled) {
     char path[HD_MAX_PATH];
     add_in_new_run(0, 30);
-    abort_it(1); /* behind which another run goes on */
+    abort_it(1); /* another run continues after it */
     add_in_new_run(24, FRAMES);
     for (int i = 0; i < 3; i++)
-        assert_true(segments.is_whole[i]); /* once the last frame was taken */
+        assert_true(segments.is_whole[i]); /* after the last frame was taken */
     assert_int_equal(hd_segment_path(&segments, 1, path, &error), HD_OK);
     assert_int_equal(remove(path), 0);
     abort_it(2);
     add_in_new_run(24, 48);
-    assert_true(segments.is_whole[1]); /* for nothing else is missing */
+    assert_true(segments.is_whole[1]); /* nothing else is missing */
     abort_it(3);
-    add_in_new_run(0, 0); /* all is there */
+    add_in_new_run(0, 0); /* all of it exists */
     close_it();
 }
 
@@ -209,7 +209,7 @@ TEST(a_segment_that_fails_ends_it) {
     abort_it(1);
 }
 
-TEST(what_cannot_be_joined_keeps_its_segments) {
+TEST(a_failed_join_keeps_the_segments) {
     add_in_new_run(0, FRAMES);
     fake_films(4, -1);
     assert_int_equal(hd_film_close(film, &error), HD_FAILED);

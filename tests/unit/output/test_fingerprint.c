@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Whatever decides a pixel changes the fingerprint, and nothing else does. That all fields of a
-   scene file are written, by which they are hashed, is what input/scene_file_print tests. */
+/* Everything that decides a pixel changes the fingerprint, and nothing else does.
+   input/scene_file_print checks that all fields of a scene file, which are hashed, are written. */
 #include "output/fingerprint.h"
 #include "scene_text.h"
 
@@ -26,7 +26,7 @@ typedef struct Bits {
     size_t size;
 } Bits;
 
-/* Of each of these, one bit of the first byte and one of the last. */
+/* Changes, in each of these, one bit of the first byte and one of the last. */
 static void change_each(const Bits *list, size_t count, bool expected) {
     for (size_t i = 0; i < count; i++) {
         unsigned char *bytes = list[i].place;
@@ -39,8 +39,8 @@ static void change_each(const Bits *list, size_t count, bool expected) {
     assert_true(fingerprint() == usual);
 }
 
-/* Of each type of field, and of each struct. */
-TEST(what_a_scene_file_tells_changes_it) {
+/* For each type of field, and each struct. */
+TEST(scene_values_change_the_fingerprint) {
     HdScene *scene = &file.scene;
     HdSolid *glass = &scene->solids[0], *rimmed = &scene->solids[1];
     HdMeshEntry *entry = file.mesh_entries;
@@ -61,7 +61,7 @@ TEST(what_a_scene_file_tells_changes_it) {
     }
 }
 
-/* As a file tells them, a colour and a factor, they may come back a rounding off. */
+/* Read from files, as a colour and a factor, they may have a rounding error. */
 TEST(the_last_digit_of_bright_lights_changes_it) {
     HdVec3 *light = &file.scene.lights[0].intensity;
     const HdVec3 kept = *light;
@@ -74,7 +74,7 @@ TEST(the_last_digit_of_bright_lights_changes_it) {
     *light = kept;
 }
 
-/* What files hold */
+/* Contents of files */
 
 static HdVec3 vertices[3], normals[1];
 static double uvs[1][2];
@@ -99,7 +99,7 @@ static HdMesh mesh = {.vertex_count = 3,
 static HdPicture picture = {.texture = {.width = 1, .height = 1, .texels = texels}};
 static HdInstance instance = {.has_material = true};
 
-TEST(what_files_hold_changes_it) {
+TEST(file_contents_change_the_fingerprint) {
     HdScene *scene = &file.scene;
     const Bits list[] = {BITS(floor_texels),
                          BITS(texels),
@@ -135,7 +135,7 @@ TEST(what_files_hold_changes_it) {
     mesh.normals = normals;
 }
 
-TEST(names_and_what_lies_beside_do_not) {
+TEST(names_and_unused_values_do_not) {
     const Bits list[] = {BITS(materials[0]),
                          BITS(materials[2]),
                          BITS(materials[1].name),
@@ -162,5 +162,5 @@ static int read_scene(void **state) {
     return 0;
 }
 
-/* Whose parts are not all its own to free. */
+/* A copy whose parts are not all its own to free. */
 GROUP(read_scene, NULL)

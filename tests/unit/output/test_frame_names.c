@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A name tells its frame exactly where the frame has that name. */
+/* A name identifies its frame exactly if the frame has that name. */
 #include <string.h>
 
 #include "output/outputs.h"
@@ -21,7 +21,7 @@ static int place(const char *entry) {
     return hd_frame_names_place(&names, entry, strlen(entry), false);
 }
 
-TEST(other_names_are_nobodys) {
+TEST(other_names_belong_to_no_frame) {
     static const char *const others[] = {
         "",       "a.png",   "a7.pn",  "a7.pngs",         "b7.png",
         "a8.png", "a07.png", "a:.png", "a4294967303.png", "a18446744073709551623.png"};
@@ -40,7 +40,7 @@ TEST(other_names_are_nobodys) {
     assert_int_equal(place("9%99999999.png"), 6);
 }
 
-TEST(numbered_folders_are_told_from_files) {
+TEST(numbered_folders_are_distinguished_from_files) {
     find("a/take %d of 9/x.png");
     assert_string_equal(names.folder, "a/");
     assert_string_equal(names.rest, "/x.png");
@@ -53,7 +53,7 @@ TEST(numbered_folders_are_told_from_files) {
     assert_true(place("film.mp40") == -1 && place("0film.mp4") == -1);
 }
 
-TEST(names_that_are_cut_are_known_by_their_begin) {
+TEST(truncated_names_are_matched_by_their_begin) {
     find("abc%04d.long.png");
     static const struct {
         const char *begin;

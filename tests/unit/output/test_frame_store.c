@@ -24,29 +24,29 @@ static struct {
     int fails_at; /* the call that fails; -1: none */
     bool is_as_expected;
     HdFrameTimes last;
-} told;
+} seen;
 
-/* Its first picture is there already. */
+/* Notes the frame, and whether its first picture already exists. */
 static HdStatus note_stored(void *context, const HdStoredFrame *stored, HdError *failure) {
     char name[HD_MAX_PATH];
     assert_null(context);
     hd_output_file(&outputs.list[0], stored->number, name, failure);
-    told.is_as_expected &= stored->number == FIRST + told.calls && stored->done == told.calls + 1 &&
-                           (stored->was_finished || stored->worker == told.calls % 3) &&
+    seen.is_as_expected &= stored->number == FIRST + seen.calls && stored->done == seen.calls + 1 &&
+                           (stored->was_finished || stored->worker == seen.calls % 3) &&
                            access(name, R_OK) == 0 && stored->frame->width == WIDTH;
-    told.finished += stored->was_finished;
-    told.last = stored->times;
-    return told.calls++ == told.fails_at ? hd_fail(failure, HD_FAILED, "nobody listens") : HD_OK;
+    seen.finished += stored->was_finished;
+    seen.last = stored->times;
+    return seen.calls++ == seen.fails_at ? hd_fail(failure, HD_FAILED, "nobody listens") : HD_OK;
 }
 
 static HdStatus start(const char *first, const char *second, int fails_at, bool resumes) {
     const HdOutputStyle style = {{HD_CURVE_SRGB, 8}, 30};
     const char *const names[] = {first, second};
     hd_resume_free(&resume);
-    hd_known_folders_forget(); /* that of another test is gone */
-    memset(&told, 0, sizeof told);
-    told.fails_at = fails_at;
-    told.is_as_expected = true;
+    hd_known_folders_forget(); /* removes another test's file */
+    memset(&seen, 0, sizeof seen);
+    seen.fails_at = fails_at;
+    seen.is_as_expected = true;
     assert_int_equal(
         hd_outputs_settle(&outputs, names, second != NULL ? 2 : 1, &style, FRAMES, &error), HD_OK);
     outputs.durability = HD_WITHOUT_SYNC;
@@ -67,7 +67,7 @@ static int take(void) {
     return hd_stages_claim(hd_frame_store_stages(store), &claimer, true);
 }
 
-/* Gives the frame once it has room, or until nobody wants it any more. */
+/* Submits the frame once it fits, or until nobody wants it any more. */
 static void give(int place) {
     HdFrameTimes *times;
     if (!hd_stages_wait(hd_frame_store_stages(store), place))
@@ -87,29 +87,29 @@ static HdStatus store_frames(const char *first, const char *second, int fails_at
     while ((place = take()) >= 0)
         give(place);
     const HdStatus status = hd_frame_store_end(store, HD_OK, &error);
-    assert_true(told.is_as_expected);
+    assert_true(seen.is_as_expected);
     return status;
 }
 
-/* The folder has as many files, which note_stored saw, and nothing else; it is removed. */
+/* Expects as many files as note_stored saw, and nothing else, and removes the folder. */
 static void expect_files(int count) {
     assert_int_equal(count_entries("run"), count);
     assert_int_equal(remove_folder("run"), 0);
 }
 
-/* Of a frame whose second picture cannot be written the first is not there either. */
+/* A frame whose second picture cannot be written has no first one either. */
 TEST(a_picture_that_cannot_be_written_ends_it) {
     mkdir("other", 0777);
     mkdir("other/107.data", 0777);
     assert_int_equal(store_frames("run/%d.data", "other/%d.data", -1, false), HD_BAD_INPUT);
     expect_contains(error.message, "other/107.data");
-    assert_int_equal(told.calls, 7);
-    assert_true(told.last.convert.began < 0.0 && told.last.film.began < 0.0);
+    assert_int_equal(seen.calls, 7);
+    assert_true(seen.last.convert.began < 0.0 && seen.last.film.began < 0.0);
     expect_files(7);
     assert_int_equal(count_entries("other"), 8);
 }
 
-TEST(an_interruption_tells_what_is_kept_and_how_to_go_on) {
+TEST(an_interruption_reports_the_kept_frames) {
     static const struct {
         const char *name;
         bool resumes;
@@ -135,7 +135,7 @@ TEST(an_interruption_tells_what_is_kept_and_how_to_go_on) {
     }
 }
 
-TEST(what_cannot_be_begun_leaves_nothing) {
+TEST(a_failed_start_leaves_nothing) {
     assert_int_equal(start("/dev/null/a_%d.data", "three/a_%d.data", -1, false), HD_FAILED);
     assert_null(store);
     assert_int_not_equal(access("three", F_OK), 0);
@@ -151,29 +151,29 @@ static void check_film(void) {
     assert_int_equal(remove("films/film.mkv"), 0);
 }
 
-/* Of a run that goes on, frames that are finished are read back. */
-TEST(films_and_pictures_go_side_by_side) {
+/* A continued run reads finished frames back. */
+TEST(films_and_pictures_are_written_together) {
     struct stat kept;
     fake_films(WIDTH * HEIGHT * 4, 0);
     assert_int_equal(store_frames("run/%d.png", "films/film.mkv", -1, false), HD_OK);
-    assert_int_equal(told.calls, FRAMES);
-    assert_true(told.last.trace.began >= 0.0);
-    assert_true(told.last.store.began >= told.last.trace.began);
-    assert_true(told.last.store.seconds > 0.0);
-    assert_true(told.last.convert.began >= told.last.trace.began);
-    assert_true(told.last.film.began >= told.last.convert.began + told.last.convert.seconds - 1e-6);
+    assert_int_equal(seen.calls, FRAMES);
+    assert_true(seen.last.trace.began >= 0.0);
+    assert_true(seen.last.store.began >= seen.last.trace.began);
+    assert_true(seen.last.store.seconds > 0.0);
+    assert_true(seen.last.convert.began >= seen.last.trace.began);
+    assert_true(seen.last.film.began >= seen.last.convert.began + seen.last.convert.seconds - 1e-6);
     check_film();
     assert_true(remove("run/103.png") == 0 && remove("run/104.png") == 0);
     assert_int_equal(link("run/100.png", "kept"), 0);
     assert_int_equal(store_frames("run/%d.png", "films/film.mkv", -1, true), HD_OK);
-    assert_int_equal(told.finished, FRAMES - 2);
+    assert_int_equal(seen.finished, FRAMES - 2);
     assert_true(stat("kept", &kept) == 0 && kept.st_nlink == 2); /* it was not written again */
     check_film();
     expect_files(FRAMES);
     /* The film of a run whose listener fails leaves no file. */
     assert_int_equal(store_frames("run/%d.data", "films/film.mkv", 10, false), HD_FAILED);
     assert_string_equal(error.message, "nobody listens");
-    assert_int_equal(told.calls, 11);
+    assert_int_equal(seen.calls, 11);
     assert_int_equal(count_entries("films"), 0);
     assert_true(count_entries("run") >= 11); /* those that waited with it have their names too */
     remove_folder("run");

@@ -15,7 +15,7 @@ static HdStatus settle(const char *first, const char *second, int bits, int fram
     return hd_outputs_settle(&plan, names, second != NULL ? 2 : 1, &style, frames, &error);
 }
 
-TEST(outputs_suit_the_number_of_frames) {
+TEST(outputs_fit_the_number_of_frames) {
     static const struct {
         const char *first, *second;
         int frames;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Which frames count as finished, and what is read back of them. */
+/* The frames that count as finished, and the values read back of them. */
 #define _XOPEN_SOURCE 700
 
 #include <stdlib.h>
@@ -36,7 +36,7 @@ static HdFrame make_frame(int number) {
     return frame;
 }
 
-/* As the run of that plan would. */
+/* Writes a frame as the run of that plan would. */
 static void write_frame(const HdOutputPlan *plan, int index, int number) {
     const HdPictureLabel label = {
         .scene = "",
@@ -95,14 +95,14 @@ TEST(whole_pictures_with_the_right_fingerprint_are_finished) {
     expect_finished(&plan, FRAMES - 3);
 }
 
-TEST(what_must_be_rendered_anyway_is_not) {
+TEST(frames_that_are_always_rendered_are_not_finished) {
     static const struct {
         const char *first, *second;
         int bits, finished;
     } cases[] = {{"c/%d.png", "c/%d.pfm", 8, 0},
                  {"c/%d.png", "c/film.mkv", 8, FRAMES},
                  {"c/%d.png", "c/film.mkv", 16, 0},
-                 {"c/%d.png", "d/%d.png", 8, 1}, /* all of a frame's must be there */
+                 {"c/%d.png", "d/%d.png", 8, 1}, /* all files of a frame must exist */
                  {"c/film.mkv", NULL, 8, 0},
                  {"c/2.png", NULL, 8, 0}};
     HdOutputPlan plan = write_frames("c/%d.png");

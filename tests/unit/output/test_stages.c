@@ -10,14 +10,14 @@
 #include "output/stages.h"
 #include "unit_test.h"
 
-/* A stage that waits for another one for ever fails by this. */
+/* A stage that waits for another one for ever fails by this timeout. */
 enum { ITEMS = 200, ROOM = 7 };
 
 typedef struct Probe {
     int threads;
     int fails_at, fails_late_at; /* -1: never */
-    int gathers;                 /* as many items are at work at once before one goes on */
-    const struct Probe *before;  /* what must be done with an item first; NULL: nothing */
+    int gathers;                 /* items that must be at work at once before one continues */
+    const struct Probe *before;  /* the stage that must precede; NULL: none */
     atomic_int begun, ended, at_work;
     atomic_int wrong; /* items that came too early, out of order, or too many at once */
     atomic_bool done[ITEMS];
@@ -47,7 +47,7 @@ static HdStatus work(void *context, int item, HdError *failure) {
     return fails ? hd_fail(failure, HD_FAILED, "item %d failed", item) : HD_OK;
 }
 
-/* A conversion, then a film beside pictures, then what needs them both. */
+/* A conversion, then a film beside pictures, then a stage that needs both. */
 static Probe probes[4];
 static const int threads[4] = {1, 1, 3, 1};
 static const unsigned after[4] = {0, 1, 0, 7};
@@ -55,8 +55,8 @@ static HdStages *stages;
 static int capacity;
 static const bool none_ready[ITEMS];
 
-/* Faults may be put into the probes afterwards, before items are given. */
-static void start(const bool *ready, int room_of_stages) {
+/* Faults may be added to the probes afterwards, before items are submitted. */
+static void start(const bool *ready, int capacity_of_stages) {
     HdStage list[4];
     for (int i = 0; i < 4; i++) {
         probes[i] = (Probe){.threads = threads[i], .fails_at = -1, .fails_late_at = -1};
@@ -65,14 +65,14 @@ static void start(const bool *ready, int room_of_stages) {
     }
     probes[1].before = &probes[0];
     probes[3].before = &probes[2];
-    capacity = room_of_stages;
+    capacity = capacity_of_stages;
     assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, ready, capacity, &error), HD_OK);
 }
 
 static const HdClaimer anybody = {.wants = NULL};
 
-/* Gives items from that one on until all are given or one failed; returns how many are. */
-static int give_items_from(int first) {
+/* Submits items from that one on until all are submitted or one failed; returns their number. */
+static int submit_items_from(int first) {
     int given = first, item;
     while ((item = hd_stages_claim(stages, &anybody, true)) >= 0) {
         assert_int_equal(item, given);
@@ -90,7 +90,7 @@ static int first_not_done(const Probe *probe) {
     return item;
 }
 
-/* Items before that one went through all stages, and none after it came to the last one. */
+/* Items before that one passed all stages, and none after it reached the last one. */
 static void expect_end(HdStatus status, int done) {
     assert_int_equal(hd_stages_end(stages, &error), status);
     for (int i = 0; i < 4; i++) {
@@ -101,8 +101,7 @@ static void expect_end(HdStatus status, int done) {
     assert_true(probes[3].begun <= done + (status != HD_OK));
 }
 
-/* None of them is there without anybody who makes it, or every third one and many at the end, or
-   all. */
+/* Nobody makes any of them, or every third one and many at the end, or all. */
 TEST(every_item_goes_through_every_stage) {
     static const int rooms[] = {ROOM, 1, ITEMS};
     static bool ready[ITEMS];
@@ -128,55 +127,55 @@ TEST(a_failure_of_any_stage_leaves_the_items_before_it) {
         char expected[32];
         start(none_ready, ROOM);
         probes[i % 4].fails_at = item;
-        assert_true(give_items_from(0) <= item + ROOM);
+        assert_true(submit_items_from(0) <= item + ROOM);
         assert_false(hd_stages_wait(stages, item));
         assert_int_equal(hd_stages_claim(stages, &anybody, false), -1);
         expect_end(HD_FAILED, item);
         snprintf(expected, sizeof expected, "item %d failed", item);
         assert_string_equal(error.message, expected);
     }
-    /* One that fails while an earlier one is still at work does not hide that one's failure. */
+    /* An item that fails while an earlier one is at work does not hide that one's failure. */
     start(none_ready, ROOM);
     probes[0].fails_at = 5;
     probes[2].fails_late_at = 3;
-    give_items_from(0);
+    submit_items_from(0);
     expect_end(HD_FAILED, 3);
     assert_string_equal(error.message, "item 3 failed");
 }
 
-/* ---- several takers ---- */
+/* ---- several workers ---- */
 
-static void take_in_order(int first, int count) {
+static void claim_in_order(int first, int count) {
     for (int i = first; i < first + count; i++)
         assert_int_equal(hd_stages_claim(stages, &anybody, false), i);
 }
 
 /* The third stage has several threads that work side by side and keep no order: it does not wait
    for the first item. */
-TEST(items_are_given_in_any_order) {
+TEST(items_may_be_submitted_in_any_order) {
     start(none_ready, ROOM);
     probes[2].gathers = 3;
-    take_in_order(0, 4);
+    claim_in_order(0, 4);
     for (int i = 3; i > 0; i--)
         hd_stages_submit(stages, i);
     while (!(probes[2].done[1] && probes[2].done[2] && probes[2].done[3]))
         nap(1);
     assert_int_equal(probes[0].begun + probes[1].begun + probes[3].begun, 0);
     hd_stages_submit(stages, 0);
-    assert_int_equal(give_items_from(4), ITEMS);
+    assert_int_equal(submit_items_from(4), ITEMS);
     expect_end(HD_OK, ITEMS);
 }
 
-TEST(nobody_takes_what_has_no_room) {
+TEST(nobody_claims_an_item_without_capacity) {
     const HdClaimer singles = {.ahead = 2};
     start(none_ready, ROOM);
-    take_in_order(0, ROOM);
+    claim_in_order(0, ROOM);
     assert_int_equal(hd_stages_claim(stages, &anybody, false), -1);
     assert_int_equal(hd_stages_claim(stages, &singles, false), ROOM);
     assert_int_equal(hd_stages_claim(stages, &singles, false), ROOM + 1);
     assert_int_equal(hd_stages_claim(stages, &singles, false), -1);
     hd_stages_submit(stages, 0);
-    assert_true(hd_stages_wait(stages, ROOM)); /* once the first one is gone */
+    assert_true(hd_stages_wait(stages, ROOM)); /* after the first one is gone */
     assert_int_equal(hd_stages_claim(stages, &singles, false), ROOM + 2);
     expect_end(HD_OK, 1);
 }
@@ -202,7 +201,7 @@ static void *wait_for_item(void *context) {
     return NULL;
 }
 
-/* Starts somebody who waits, and wants nothing yet. */
+/* Starts a thread that waits, and wants nothing yet. */
 static void start_waiting(Waiting *waiting) {
     *waiting = (Waiting){.item = -2};
     assert_int_equal(pthread_create(&waiting->thread, NULL, wait_for_item, waiting), 0);
@@ -215,20 +214,20 @@ static void expect_waiting_gets(Waiting *waiting, int item) {
     assert_int_equal(waiting->item, item);
 }
 
-TEST(takers_that_wait_are_asked_again) {
+TEST(waiting_threads_are_asked_again) {
     Waiting waiting;
     start(none_ready, ROOM);
     start_waiting(&waiting);
     waiting.wants = true;
     hd_stages_wake(stages);
     expect_waiting_gets(&waiting, 0);
-    /* Something is given back. */
+    /* An item is released. */
     start_waiting(&waiting);
     assert_int_equal(waiting.left, ROOM); /* items that it may choose from */
     waiting.wants = true;
     hd_stages_release(stages, 0);
     expect_waiting_gets(&waiting, 0);
-    /* Nothing will come any more. */
+    /* No item will come any more. */
     start_waiting(&waiting);
     hd_stages_stop(stages);
     expect_waiting_gets(&waiting, -1);
@@ -237,12 +236,13 @@ TEST(takers_that_wait_are_asked_again) {
     assert_int_equal(probes[0].begun, 0);
 }
 
-/* Items before the one that failed are still wanted, and nobody leaves before they are given. */
-TEST(what_comes_before_a_failure_is_wanted) {
+/* Items before the one that failed are still wanted, and nobody leaves before they are
+   submitted. */
+TEST(items_before_a_failure_are_wanted) {
     Waiting waiting;
     HdError failure;
     start(none_ready, ROOM);
-    take_in_order(0, 5);
+    claim_in_order(0, 5);
     hd_fail(&failure, HD_BAD_INPUT, "item 3 cannot be");
     hd_stages_fail(stages, 3, &failure);
     hd_fail(&failure, HD_FAILED, "nor can item 4");
@@ -255,7 +255,7 @@ TEST(what_comes_before_a_failure_is_wanted) {
     hd_stages_release(stages, 4);
     hd_stages_release(stages, 1);
     start_waiting(&waiting);
-    take_in_order(1, 1);
+    claim_in_order(1, 1);
     hd_stages_submit(stages, 1);
     expect_waiting_gets(&waiting, -1);
     expect_end(HD_BAD_INPUT, 3);
@@ -263,9 +263,9 @@ TEST(what_comes_before_a_failure_is_wanted) {
     assert_int_equal(probes[3].ended, 3);
 }
 
-TEST(a_gap_ends_it) {
+TEST(a_missing_item_ends_it) {
     start(none_ready, ROOM);
-    take_in_order(0, 5);
+    claim_in_order(0, 5);
     for (int i = 0; i < 5; i++)
         if (i != 2)
             hd_stages_submit(stages, i);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Temporary files of killed runs go, and all others stay. */
+/* Temporary files of killed runs are removed, and all others stay. */
 #define _XOPEN_SOURCE   700
 #define _DEFAULT_SOURCE /* flock */
 
@@ -29,12 +29,12 @@ static void expect_there(const char *path, bool expected) {
         fail_msg("%s is %s", path, expected ? "gone" : "still there");
 }
 
-TEST(those_of_the_run_go) {
+TEST(files_of_the_run_are_removed) {
     static const char *const names[] = {
-        /* these go */
+        /* these are removed */
         "a/0001.png.tmp-4000000-0", "a/0012.png.tmp-1-17", "film.mp4.tmp-99-3",
         "film.mp4.part-0-a.tmp-999999999-1",
-        /* another frame's, and what is none */
+        /* another frame's, and a file of no frame */
         "a/0002.png.tmp-4000000-0", "a/0001.png", "a/0001.png.tmp-1", "a/0001.png.tmp-1-",
         "a/0001.png.tmp-x-0", "a/0001.png.tmp-1-0x", "a/0001.png.tmp- 1-0", "a/0001.png.tmp-1--1",
         "a/00001.png.tmp-1-0", "a/0001.pngs.tmp-1-0", "film.mp4", "other.mp4.tmp-1-0",
@@ -48,8 +48,8 @@ TEST(those_of_the_run_go) {
         expect_there(names[i], i >= 4);
 }
 
-/* Left by a process of this number that was killed, or of another machine. */
-TEST(a_name_that_is_taken_is_left_alone) {
+/* A file of a killed process of this number, or of another machine. */
+TEST(an_existing_file_is_left_alone) {
     char taken[64];
     HdAtomicFile file;
     assert_int_equal(mkdir("e", 0777), 0);
@@ -64,7 +64,7 @@ TEST(a_name_that_is_taken_is_left_alone) {
     assert_int_equal(count_entries("e"), 2);
 }
 
-TEST(numbered_folders_are_looked_through_and_folders_stay) {
+TEST(numbered_folders_are_searched_and_kept) {
     assert_int_equal(mkdir("d", 0777), 0);
     assert_int_equal(mkdir("d/0.png.tmp-1-0", 0777), 0);
     assert_int_equal(symlink("../a", "d/1.png.tmp-1-0"), 0);
@@ -79,7 +79,7 @@ TEST(numbered_folders_are_looked_through_and_folders_stay) {
     expect_there("none", false);
 }
 
-/* What a run that was killed had started still has the lock for a while. */
+/* A child of a killed run still has the lock for a while. */
 TEST(orphans_are_waited_for) {
     const struct timespec while_it_ends = {.tv_nsec = 100000000};
     char path[64];

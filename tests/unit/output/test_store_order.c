@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The order in which bytes, names and words of frames are on the disk and told. */
+/* The order in which bytes, names and reports of frames reach the disk and the user. */
 #define _XOPEN_SOURCE   700
 #define _DEFAULT_SOURCE /* syscall */
 #include <errno.h>
@@ -16,15 +16,15 @@ static int numbers[FRAMES], missing[FRAMES - 1];
 static const HdFrameList frames = {.frames = numbers, .count = FRAMES};
 static HdOutputPlan outputs;
 
-/* What came to the disk, by frame; the last stage's thread alone notes it. */
+/* Events on the disk, by frame; only the last stage's thread notes them. */
 static struct {
     bool bytes[FRAMES], name[FRAMES];
-    int syncs, told;
+    int syncs, reported;
     bool is_as_expected;
 } done;
 
 /* Frames, or FOLDER, or NOBODY. */
-static struct { int sync_fails, name_is_taken, telling_fails; } faults;
+static struct { int sync_fails, name_is_taken, report_fails; } faults;
 
 static bool is_there(int number) {
     char path[32];
@@ -60,12 +60,13 @@ static HdStatus tell(void *context, const HdStoredFrame *stored, HdError *failur
     const int number = stored->number;
     const bool is_durable = outputs.durability == HD_DURABLE;
     (void)context;
-    done.is_as_expected &=
-        number == done.told++ && is_there(number) && stored->was_finished == (number == FINISHED) &&
-        stored->frame->rgb == NULL && stored->frame->rgba == NULL && stored->frame->width == 2;
+    done.is_as_expected &= number == done.reported++ && is_there(number) &&
+                           stored->was_finished == (number == FINISHED) &&
+                           stored->frame->rgb == NULL && stored->frame->rgba == NULL &&
+                           stored->frame->width == 2;
     if (is_durable)
         done.is_as_expected &= done.name[number] && (done.bytes[number] || stored->was_finished);
-    return number == faults.telling_fails ? hd_fail(failure, HD_FAILED, "nobody listens") : HD_OK;
+    return number == faults.report_fails ? hd_fail(failure, HD_FAILED, "nobody listens") : HD_OK;
 }
 
 static void trace_all(HdFrameStore *store) {
@@ -112,23 +113,23 @@ static HdStatus store_frames(HdDurability durability) {
     return status;
 }
 
-TEST(bytes_come_before_names_and_names_before_words) {
+TEST(bytes_precede_names_and_names_precede_reports) {
     assert_int_equal(store_frames(HD_DURABLE), HD_OK);
-    assert_int_equal(done.told, FRAMES);
+    assert_int_equal(done.reported, FRAMES);
     assert_int_equal(count_entries("out"), FRAMES);
     assert_true(done.syncs > FRAMES);
     assert_int_equal(store_frames(HD_WITHOUT_SYNC), HD_OK);
-    assert_int_equal(done.told, FRAMES);
+    assert_int_equal(done.reported, FRAMES);
     assert_int_equal(done.syncs, 0);
 }
 
-/* Frames before the one that failed are stored; of later ones nothing is left, but where telling
-   failed, those that waited with it have their names. */
+/* Frames before the one that failed are stored; later ones leave nothing. If reporting failed,
+   those that waited with it have their names. */
 TEST(a_failure_ends_it_there) {
     static const struct {
-        int sync_fails, name_is_taken, telling_fails;
+        int sync_fails, name_is_taken, report_fails;
         const char *why;
-        int told, there; /* negative: as many at least */
+        int reported, there; /* negative: at least as many */
     } cases[] = {
         {6, NOBODY, NOBODY, "cannot write out/6.data to the disk: Input/output error", 6, 6},
         {FOLDER, NOBODY, NOBODY, "cannot write out to the disk: Input/output error", 0, -2},
@@ -138,15 +139,15 @@ TEST(a_failure_ends_it_there) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         faults.sync_fails = cases[i].sync_fails;
         faults.name_is_taken = cases[i].name_is_taken;
-        faults.telling_fails = cases[i].telling_fails;
+        faults.report_fails = cases[i].report_fails;
         assert_int_equal(store_frames(HD_DURABLE), HD_FAILED);
         expect_contains(error.message, cases[i].why);
-        assert_int_equal(done.told, cases[i].told);
+        assert_int_equal(done.reported, cases[i].reported);
         int there = 0;
         for (int k = 0; k < FRAMES; k++)
             there += is_there(k);
         assert_int_equal(count_entries("out"), there);
-        /* The finished one is there in any case. */
+        /* The finished one always exists. */
         if (cases[i].there >= 0)
             assert_int_equal(there, cases[i].there);
         else
@@ -160,7 +161,7 @@ static int begin(void **state) {
         numbers[i] = i;
     for (int i = 0; i < FRAMES - 1; i++)
         missing[i] = i < FINISHED ? i : i + 1;
-    faults.sync_fails = faults.name_is_taken = faults.telling_fails = NOBODY;
+    faults.sync_fails = faults.name_is_taken = faults.report_fails = NOBODY;
     return 0;
 }
 

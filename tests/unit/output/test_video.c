@@ -76,7 +76,7 @@ static HdStatus film_frames(const char *path, const HdFrame *frames, int count,
     return status;
 }
 
-/* Of as many red frames, at most three. */
+/* Makes it of as many red frames, at most three. */
 static HdStatus make_film(const char *path, int width, int height, int count,
                           const HdOutputStyle *style) {
     HdFrame frame = make_frame(width, height, RED);
@@ -86,14 +86,14 @@ static HdStatus make_film(const char *path, int width, int height, int count,
     return status;
 }
 
-/* The film must fail, say why, and leave no file. */
+/* Expects the film to fail, say why, and leave no file. */
 static void check_failure(int side, int frames, HdStatus expected, const char *part) {
     assert_int_equal(make_film("out/film.mp4", side, side, frames, &STYLE), expected);
     expect_contains(error.message, part);
     assert_int_equal(count_entries("out"), 0);
 }
 
-/* What ffprobe says of these properties, one a line. */
+/* Compares ffprobe's values of these properties, one a line. */
 static void check_film(const char *path, const char *properties, const char *expected) {
     char command[300], text[1000] = "";
     snprintf(command, sizeof command,
@@ -126,8 +126,8 @@ static const uint8_t colours[COLOURS][4] = {
     {255, 0, 0, 255}, {0, 255, 0, 255},    {0, 0, 255, 255},  {255, 255, 255, 255},
     {0, 0, 0, 255},   {200, 100, 50, 255}, {30, 60, 90, 255}, {128, 128, 128, 255}};
 
-/* A frame for each colour, and one with more colours than a palette has. A player that heeds the
-   tags shows what was given. */
+/* Makes a frame for each colour, and one with more colours than a palette has. A player that
+   follows the tags shows the original. */
 static void film_colours(const char *path, int rate, double tolerance) {
     const HdOutputStyle style = {STYLE.picture, rate};
     static uint8_t rgb[FRAMES * PIXELS * 3];
@@ -171,14 +171,14 @@ static void trust_count(int frames) {
 static const char tags[] = "stream=codec_name,width,height,color_range,color_space,color_transfer,"
                            "color_primaries,r_frame_rate,nb_read_packets";
 
-TEST(mp4_tells_that_it_is_linear_and_odd_sizes_are_padded) {
+TEST(mp4_is_tagged_linear_and_odd_sizes_are_padded) {
     need_ffmpeg();
     trust_count(1);
     assert_int_equal(make_film("out/film.mp4", 33, 1, 1, &LINEAR), HD_OK);
     check_film("out/film.mp4", tags, "h264\n34\n2\ntv\nbt709\nlinear\nbt709\n25/1\n1\n");
 }
 
-/* Cut into slices, where both sides have 64 pixels, or not. */
+/* Cut into slices if both sides have 64 pixels, or not. */
 TEST(mkv_loses_nothing) {
     static const struct {
         const char *path;
@@ -211,7 +211,7 @@ TEST(mkv_loses_nothing) {
     }
 }
 
-/* The format has centiseconds: the whole is as long as it should be, and no frame is lost. */
+/* The format has centiseconds: the total is as long as it should be, and no frame is lost. */
 TEST(gif_keeps_the_time) {
     need_ffmpeg();
     film_colours("out/film.gif", 30, 2.0);
@@ -230,9 +230,9 @@ TEST(names_reach_ffmpeg_unchanged) {
     assert_int_equal(chdir(".."), 0);
 }
 
-/* ---- with other programs in the place of FFmpeg ---- */
+/* ---- fake programs in place of FFmpeg ---- */
 
-TEST(an_older_film_stays_until_there_is_another) {
+TEST(an_old_film_stays_until_replaced) {
     HdVideo *video;
     struct stat found;
     HdFrame frame = make_frame(32, 16, RED);
@@ -249,7 +249,7 @@ TEST(an_older_film_stays_until_there_is_another) {
     hd_frame_free(&frame);
 }
 
-TEST(the_patience_is_whole_seconds) {
+TEST(the_timeout_is_whole_seconds) {
     static const char *const wrong[] = {"0", "86401", "1.5", "1s"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         setenv("HEDRON_FFMPEG_PATIENCE", wrong[i], 1);
@@ -264,8 +264,8 @@ TEST(the_patience_is_whole_seconds) {
     unsetenv("HEDRON_FFMPEG_PATIENCE");
 }
 
-TEST(failures_of_the_programs_are_told) {
-    enum { LARGE = 600 }; /* a frame of that side is more than all buffers hold */
+TEST(failures_of_the_programs_are_reported) {
+    enum { LARGE = 600 }; /* a frame of that side exceeds all buffers */
     static const struct {
         const char *ffmpeg, *ffprobe;
         int side;
@@ -319,8 +319,7 @@ TEST(targets_in_the_way_are_errors) {
     hd_frame_free(&frame);
 }
 
-/* A shell would clear the signals that it finds blocked, so that this program itself plays FFmpeg.
- */
+/* A shell would clear the signals that it finds blocked, so this program itself plays FFmpeg. */
 static int play_ffmpeg(void) {
     sigset_t blocked;
     sigprocmask(SIG_BLOCK, NULL, &blocked);
@@ -356,7 +355,7 @@ TEST(closed_standard_streams_do_no_harm) {
     assert_int_equal(count_entries("out"), 1);
 }
 
-/* The last one, for they are still missing afterwards. */
+/* The last one, because they are still missing afterwards. */
 TEST(missing_programs_are_unavailable) {
     char only_bin[100];
     snprintf(only_bin, sizeof only_bin, "/nonexistent:%s/bin", test_folder);

@@ -13,7 +13,7 @@ static double linear(double v) {
     return v > 1.0 ? 1.0 : v;
 }
 
-/* Whatever is missing from a pixel within the budget does not show by more steps than that. */
+/* A pixel's missing light within the budget shows by no more steps than that. */
 TEST(budget_is_kept) {
     double (*const curves[])(double) = {[HD_CURVE_LINEAR] = linear, [HD_CURVE_SRGB] = srgb};
     for (int curve = 0; curve < 2; curve++) {

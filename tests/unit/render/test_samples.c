@@ -7,7 +7,7 @@
 
 static HdError error;
 
-/* Of hd_sample_set_dense (mean.h). */
+/* Number of hd_sample_set_dense (mean.h). */
 #define REFERENCE_SAMPLE_ERROR 2.2
 
 static int compare(const void *a, const void *b) {
@@ -19,7 +19,7 @@ static double part(double a) {
     return a > 0.0 ? a * a : 0.0;
 }
 
-/* The share of the unit square about 0 with a x + b y <= d, for a >= b >= 0, a > 0. */
+/* Returns the share of the unit square about 0 with a x + b y <= d, for a >= b >= 0, a > 0. */
 static double share_below(double a, double b, double d) {
     double outer = 0.5 * (a + b), inner = 0.5 * (a - b);
     if (b < 1e-9)
@@ -28,9 +28,9 @@ static double share_below(double a, double b, double d) {
     return area / (2.0 * a * b);
 }
 
-/* The greatest error that the set makes on an edge between black and white, wherever the edge and
-   however it is turned, in steps of 255 on the linear curve; found by trying many directions of the
-   edge, a full turn, each at every place where the share changes. */
+/* Returns the set's greatest error on an edge between black and white at any place and angle, in
+   steps of 255 on the linear curve. It tries many directions of the edge, a full turn, each at
+   every place where the share changes. */
 static double edge_error(const HdSampleSet *set) {
     enum { ANGLES = 720, MOST = 1024 };
     double along[MOST], worst = 0.0;
@@ -79,7 +79,7 @@ TEST(a_grid_has_each_place_once_and_begins_next_to_the_middle) {
     }
 }
 
-/* What docs/numerics.md says. */
+/* As docs/numerics.md states. */
 TEST(dense_sets_are_better_than_grids) {
     HdSampleSet dense, grid;
     assert_int_equal(hd_sample_set_dense(&dense, 32, &error), HD_OK);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What is told of a frame while it is rendered: all of it, in parts; and that it ends where nobody
-   wants it any more. */
+/* Progress of a frame during rendering: all of it, in parts; and its cancellation. */
 #include "base/watch.h"
 
 #include "render/backends.h"
@@ -43,8 +42,8 @@ static HdStatus render(Setup *setup) {
     return hd_frame_render(&maker, &setup->camera, &setup->frame, &error);
 }
 
-/* Two frames are two, to the last count; an unwanted one ends before all of it is done. */
-TEST(all_samples_and_passes_are_told) {
+/* Two frames count as two, to the last count; a cancelled one ends before all of it is done. */
+TEST(all_samples_and_passes_are_reported) {
     const struct {
         HdSampling sampling;
         double max_error;

@@ -2,7 +2,7 @@
 #include "run/frame_scheduler.h"
 #include "unit_test.h"
 
-/* A tracer that takes so many seconds a frame; 0: nobody knows yet. */
+/* A worker that takes so many seconds a frame; 0: unknown yet. */
 #define GPU(time)                                                                                  \
     (HdScheduledWorker) {                                                                          \
         .seconds = (time)                                                                          \
@@ -18,7 +18,7 @@ static HdFrameScheduler scheduler_of(int count, HdScheduledWorker first, HdSched
         .mutex = PTHREAD_MUTEX_INITIALIZER, .list = {first, second, third}, .count = count};
 }
 
-/* A bit for each of the tracers that want a frame. */
+/* Returns a bit for each worker that wants a frame. */
 static int wanting(HdFrameScheduler *scheduler, int left, double now) {
     int all = 0;
     for (int i = 0; i < scheduler->count; i++)
@@ -27,12 +27,12 @@ static int wanting(HdFrameScheduler *scheduler, int left, double now) {
     return all;
 }
 
-/* A frame that takes 10 s is worth beginning if the others need as long for what is left. */
-TEST(slow_ones_leave_the_last_frames_to_others) {
+/* A frame of 10 s pays off if the others need as long for the rest. */
+TEST(slow_workers_leave_the_last_frames_to_others) {
     HdFrameScheduler scheduler = scheduler_of(2, GPU(1.0), CPU(9.5), GPU(0.0));
     assert_int_equal(wanting(&scheduler, 10, 0.0), 3);
     assert_int_equal(wanting(&scheduler, 9, 0.0), 1);
-    scheduler.list[0].busy_until = 5.0; /* with what it has already */
+    scheduler.list[0].busy_until = 5.0; /* counting its own frames */
     assert_int_equal(wanting(&scheduler, 5, 0.0), 3);
     assert_int_equal(wanting(&scheduler, 4, 0.0), 1);
     assert_int_equal(wanting(&scheduler, 5, 5.0), 1);
@@ -43,7 +43,7 @@ TEST(slow_ones_leave_the_last_frames_to_others) {
     assert_int_equal(wanting(&alike, 2, 0.0), 3);
 }
 
-/* One alone begins frames before it is known how long they take. */
+/* A single worker begins frames before their time is known. */
 TEST(a_new_one_takes_one_frame_unless_it_is_alone) {
     HdFrameScheduler scheduler = scheduler_of(2, GPU(1.0), GPU(0.0), GPU(0.0));
     assert_int_equal(wanting(&scheduler, 1, 0.0), 3);
@@ -54,7 +54,7 @@ TEST(a_new_one_takes_one_frame_unless_it_is_alone) {
     scheduler = scheduler_of(1, GPU(0.0), GPU(0.0), GPU(0.0));
     hd_scheduler_begun(&scheduler, 0, 0.0);
     assert_int_equal(wanting(&scheduler, 1, 0.0), 1);
-    /* So does one that is left alone, however slow. */
+    /* So does the last remaining one, however slow. */
     scheduler = scheduler_of(2, GPU(1.0), CPU(1000.0), GPU(0.0));
     assert_int_equal(wanting(&scheduler, 1, 0.0), 1);
     hd_scheduler_leave(&scheduler, 0);
@@ -75,7 +75,7 @@ TEST(cpus_wait_for_gpus) {
     assert_int_equal(wanting(&cpus, 100, 0.0), 3);
 }
 
-TEST(frames_under_way_count) {
+TEST(frames_in_flight_count) {
     HdFrameScheduler scheduler = scheduler_of(2, GPU(4.0), GPU(4.0), GPU(0.0));
     const HdScheduledWorker *worker = &scheduler.list[0];
     hd_scheduler_begun(&scheduler, 0, 10.0);

@@ -13,10 +13,10 @@
 #include "test_folder.h"
 #include "wrapped.h"
 
-/* More frames than a store has room for. */
+/* More frames than a store has space for. */
 enum { DEVICES = 3, FRAMES = 36, POINTS = 4 };
 
-/* What happened so far. */
+/* The events so far. */
 static struct {
     pthread_mutex_t mutex;
     pthread_cond_t changed;
@@ -30,13 +30,13 @@ static HdError error;
 static HdScene scene;
 static int frame_numbers[FRAMES];
 static HdFrameList frames;
-static int makers[FRAMES]; /* who traced the frame; -1: it was not stored */
+static int makers[FRAMES]; /* device that traced the frame; -1: it was not stored */
 static int dropped_ones[DEVICES];
 static char dropped_why[512];
-static int the_cpu; /* which device is one; the others are GPUs */
+static int the_cpu; /* the device that is a CPU; the others are GPUs */
 
-/* What a device does at one point, when it is there so many times: it waits until a number of the
-   history, which is this thread's own otherwise, is large enough. */
+/* A device's action at a point on its visit number `count`, after waiting until a number of the
+   history, which only this thread reads otherwise, is large enough. */
 typedef struct Rule {
     FakePoint point;
     int count; /* 0: nothing happens */
@@ -120,7 +120,7 @@ static void begin_again(void) {
     begin(NULL);
 }
 
-/* A sequence may start so many threads, and has so many left; negative: any number. */
+/* Number of threads that a sequence may start, and has left; negative: any number. */
 static int threads_for_sequence = -1, threads_allowed = -1, threads_left;
 
 /* The arithmetic is fast, so that the kernels do not test themselves first. */
@@ -194,16 +194,16 @@ TEST(devices_share_the_frames) {
     }
 }
 
-/* The GPU finishes nothing before the CPU has rendered something, which can only be its estimate.
- */
-TEST(a_cpu_beside_gpus_estimates_its_pace) {
+/* The GPU finishes nothing before the CPU has rendered something, which can only be its
+   estimate. */
+TEST(a_cpu_with_gpus_estimates_its_pace) {
     the_cpu = 1;
     rules[0] = (Rule){FAKE_COLLECT, 1, &history.events[1][FAKE_COLLECT], 1, GO_ON};
     expect_all_made(2, 0);
 }
 
 /* The second device fails; the first one finishes nothing before. */
-TEST(others_trace_what_a_failed_device_had) {
+TEST(others_trace_a_failed_devices_frames) {
     const struct {
         FakePoint point;
         int count, made;
@@ -221,17 +221,17 @@ TEST(others_trace_what_a_failed_device_had) {
     }
 }
 
-/* The second device fails with its first frame when the other one has made so many. */
+/* Lets the second device fail with its first frame after the other one has made so many. */
 static void fail_second_after(int made) {
     rules[0] = (Rule){FAKE_COLLECT, 1, &history.events[1][FAKE_COLLECT], 1, GO_ON};
     rules[1] = (Rule){FAKE_COLLECT, 1, &history.events[0][FAKE_COLLECT], made, FAIL};
 }
 
 /* The first device has made all that it can beside the second one's, of a few frames or of more
-   than the store has room for, and is still needed. A device must not hold a later frame that waits
-   for the one that it is to make now. */
+   than the store has space for, and is still needed. A device must not hold a later frame that
+   waits for its next one. */
 TEST(a_late_failure_stops_nobody) {
-    enum { MAX_ENCODERS = 16, SPARE = 12 }; /* which decide how much room there is */
+    enum { MAX_ENCODERS = 16, SPARE = 12 }; /* which decide the capacity */
     const int processors = hd_processor_count();
     const int room = (processors < MAX_ENCODERS ? processors : MAX_ENCODERS) + SPARE;
     for (int k = 0; k < 2; k++) {
@@ -243,7 +243,7 @@ TEST(a_late_failure_stops_nobody) {
     }
 }
 
-/* The others go on first. The words of one alone are its own. */
+/* The others continue first. A single device's message is used unchanged. */
 TEST(all_devices_failing_is_an_error) {
     const struct {
         int devices;
@@ -283,7 +283,7 @@ static void expect_spoilt(int frame, int devices, int dropped) {
     assert_int_equal(count_entries("run"), frame);
 }
 
-TEST(a_frame_that_cannot_be_ends_it_for_all) {
+TEST(an_impossible_frame_ends_it_for_all) {
     for (int mean = 0; mean < 2; mean++) {
         begin_again();
         scene.sampling = (HdSampling)mean;
@@ -307,8 +307,8 @@ static int create_few(pthread_t *thread, const pthread_attr_t *attributes, void 
 }
 REPLACE(pthread_create, create_few)
 
-/* With fewer and fewer threads: first devices are missed, then all of them; without any it is the
-   store that cannot begin. */
+/* With fewer and fewer threads first devices are missing, then all of them; without any the store
+   cannot begin. */
 TEST(devices_without_a_thread_are_dropped) {
     enum { ENOUGH = 1000 };
     static const char *const errors[] = {

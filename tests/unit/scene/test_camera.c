@@ -18,7 +18,7 @@ static HdPath standing_at(double x, double y, double z) {
     return (HdPath){.is_fixed = true, .point = hd_vec3(x, y, z)};
 }
 
-/* Eye and target of the only frame. */
+/* Returns eye and target of the only frame. */
 static HdScene still(HdPath eye, HdPath target) {
     return (HdScene){.frame_count = 1, .eye = eye, .target = target, .field_of_view_degrees = 90.0};
 }
@@ -133,7 +133,7 @@ static void expect_refused(HdPath eye, HdPath target, int frame, const char *mes
 TEST(test_no_view) {
     const double quarter = acos(0.0);
     const HdPath here = {.cylinder = {.r0 = 3.0, .z0 = 2.0, .phi0 = 1.0}};
-    /* The same place, reached by another sum: it differs in the last bit. */
+    /* The same place by another sum: it differs in the last bit. */
     const HdPath again = {.cylinder = {.r0 = 2.7,
                                        .z0 = 2.0,
                                        .phi0 = 1.0 + 4.0 * quarter,

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* How deep solids lie in each other and in the floor, and what is done where they only touch. */
+/* Depths of overlap between solids and with the floor, and the handling of contacts. */
 #include "scene/contact.h"
 #include "unit_test.h"
 
-/* A cube with edges `edge` long. */
+/* Returns a cube with edges `edge` long. */
 static HdSolid cube_at(double x, double y, double z, double edge) {
     return (HdSolid){
         .kind = HD_HEXAHEDRON, .centre = {x, y, z}, .circumradius = edge * sqrt(3.0) / 2.0};
 }
 
-/* A square floor about (0, 0, z). */
+/* Returns a square floor about (0, 0, z). */
 static HdFloor floor_at(double z, double half_side) {
     const double h = half_side;
     return (HdFloor){.present = true, .corners = {{-h, -h, z}, {-h, h, z}, {h, h, z}, {h, -h, z}}};
@@ -23,7 +23,7 @@ TEST(test_cubes) {
         double depth;
     } rows[] = {{1.5, 0.0, 0.0, 2.0, 0.0, 0.5},
                 {1.5, -1.75, 1.875, 2.0, 0.0, 0.125},
-                {2.1, 0.0, 0.0, 2.0, 0.0, 0.0}, /* within each other's spheres, and yet apart */
+                {2.1, 0.0, 0.0, 2.0, 0.0, 0.0}, /* spheres overlap, solids do not */
                 {1.0, -2.1, 1.0, 2.0, 0.0, 0.0},
                 {0.0, 0.0, 0.0, 2.0, 0.0, 2.0}, /* through the nearest face, not to the centre */
                 {0.25, 0.0, 0.0, 0.5, 0.0, 1.0},
@@ -38,7 +38,7 @@ TEST(test_cubes) {
         expect_near(hd_solid_overlap(&cube, &other), rows[i].depth, 1e-14);
         expect_near(hd_solid_overlap(&other, &cube), rows[i].depth, 1e-14);
     }
-    /* Edges that cross at a right angle: the axis that tells them apart is no face's normal. */
+    /* Edges that cross at a right angle: the separating axis is no face's normal. */
     for (int i = -1; i <= 1; i++) {
         HdSolid a = cube, b = cube_at(2.0 * root2 + 0.0625 * i, 0.0, 0.0, 2.0);
         a.rotation_degrees.z = 45.0;
@@ -48,18 +48,18 @@ TEST(test_cubes) {
     }
 }
 
-TEST(test_what_counts_as_touching) {
+TEST(test_contact_threshold) {
     for (double size = 1e-12; size < 1e12; size *= 10.0) {
         const HdSolid cube = cube_at(0.0, 0.0, 0.0, 2.0 * size);
         const HdSolid just = cube_at((2.0 - 1.7e-9) * size, 0.0, 0.0, 2.0 * size);
         const HdSolid more = cube_at((2.0 - 1.8e-9) * size, 0.0, 0.0, 2.0 * size);
         assert_true(hd_solid_overlap(&cube, &just) == 0.0);
         assert_true(hd_solid_overlap(&cube, &more) > 0.0);
-        /* The smaller one's size is what counts. */
+        /* The smaller one's size counts. */
         const HdSolid small = cube_at((1.001 - 1.8e-12) * size, 0.0, 0.0, 0.002 * size);
         assert_true(hd_solid_overlap(&cube, &small) > 0.0);
     }
-    /* Far from the origin the rounding of places alone makes neighbours overlap. */
+    /* Far from the origin, rounding alone makes neighbours overlap. */
     for (int i = 0; i < 100; i++) {
         const double x = 1e9 + 0.1 * i, side = 0.002;
         const HdSolid a = cube_at(x, 0.1, 1e8, side), b = cube_at(x + side, 0.1, 1e8, side);
@@ -98,7 +98,7 @@ static double random_between(double low, double high) {
     return low + (high - low) * ldexp((double)(random_state >> 11), -53);
 }
 
-/* In a cube of sides 2 * `reach`. */
+/* Returns a point in a cube of sides 2 * `reach`. */
 static HdVec3 random_vector(double reach) {
     return hd_vec3(random_between(-reach, reach), random_between(-reach, reach),
                    random_between(-reach, reach));
@@ -111,7 +111,7 @@ static HdSolid random_solid(void) {
                      .circumradius = random_between(0.5, 1.5)};
 }
 
-/* By its faces' planes, which is another way to describe a solid than by its vertices. */
+/* Tests the planes of its faces, independently of its vertices. */
 static bool is_inside(const HdSolid *solid, const HdPlatonic *shape, HdVec3 point) {
     const HdVec3 from_centre = hd_sub(point, solid->centre);
     for (int f = 0; f < shape->face_count; f++)
@@ -120,7 +120,7 @@ static bool is_inside(const HdSolid *solid, const HdPlatonic *shape, HdVec3 poin
     return true;
 }
 
-/* What is deep is hit by some of many random points, what does not overlap by none. */
+/* Some of many random points hit a deep overlap, none hits separate solids. */
 TEST(test_random_points) {
     enum { PAIRS = 100, POINTS = 20000 };
     int deep = 0, apart = 0;
@@ -182,7 +182,7 @@ TEST(contacts_of_floors_and_lights) {
     assert_int_equal(hd_touching_lights(&cube, lights, 2, &first), 0);
 }
 
-/* Nothing coincides any more, and nothing has moved by more than a few millionths. */
+/* Expects that nothing coincides any more, and nothing has moved by more than a few millionths. */
 static void expect_parted(HdScene *scene) {
     double before[8];
     for (int i = 0; i < scene->solid_count; i++)
@@ -200,7 +200,7 @@ static void expect_parted(HdScene *scene) {
     }
 }
 
-TEST(everything_is_parted) {
+TEST(all_contacts_are_separated) {
     HdSolid stack[] = {cube_at(0.0, 0.0, 1.0, 2.0),  cube_at(0.5, 0.25, 2.5, 1.0),
                        cube_at(2.0, 0.0, 1.0, 2.0),  cube_at(0.5, 0.0, 1.0, 1.0),
                        cube_at(-0.5, 0.0, 0.5, 1.0), cube_at(4.0, 0.0, 4.0, 0.5)};
@@ -211,13 +211,13 @@ TEST(everything_is_parted) {
                      .light_count = 1,
                      .lights = &light};
     expect_parted(&scene);
-    /* By half the size, a step moves its faces as far as two steps move the larger one's. */
+    /* With half the size, a step moves its faces as far as two steps move the larger one's. */
     HdSolid nested[] = {cube_at(0.0, 0.0, 1.0, 2.0), cube_at(0.5, 0.5, 0.5, 1.0),
                         cube_at(-0.5, 0.5, 0.5, 1.0), cube_at(0.0, 0.5, 0.25, 0.5)};
     scene.solids = nested;
     scene.solid_count = 4;
     expect_parted(&scene);
-    /* What lies apart stays, and so does the earlier one of two. */
+    /* Separate solids stay, and so does the earlier one of two. */
     HdSolid two[] = {cube_at(0.0, 0.0, 1.5, 2.0), cube_at(0.5, 0.25, 2.75, 2.0)};
     const double radius = two[0].circumradius;
     scene = (HdScene){.solid_count = 2, .solids = two, .floor = floor_at(0.0, 9.0)};
@@ -228,9 +228,8 @@ TEST(everything_is_parted) {
     assert_true(two[0].circumradius == radius && two[1].circumradius < radius);
 }
 
-/* Steps are as long as the greatest of the group, though two of it do not touch what that comes
-   from. */
-TEST(what_touches_in_turn_is_parted_by_equal_steps) {
+/* Steps are as long as the greatest of the group, even if two of it do not touch its owner. */
+TEST(chains_of_contacts_are_separated_by_equal_steps) {
     HdSolid solids[] = {cube_at(0.0, 0.0, 4.0, 8.0), cube_at(4.5, 0.0, 4.0, 1.0),
                         cube_at(5.5, 0.0, 4.0, 1.0), cube_at(5.0, 0.0, 4.75, 0.5)};
     const double before = solids[1].circumradius, small = solids[3].circumradius;

@@ -9,7 +9,7 @@ static HdMaterial plain(void) {
                         .index_of_refraction = 1.0};
 }
 
-/* No less than it is, and not much more. */
+/* Expects a bound of at least the radiance, and not much more. */
 static void expect_bound(HdVec3 bound, double x, double y, double z) {
     const double bounds[3] = {bound.x, bound.y, bound.z}, least[3] = {x, y, z};
     for (int i = 0; i < 3; i++)
@@ -29,7 +29,7 @@ TEST(lights_add_up) {
     expect_bound(hd_light_bound(&scene), 1.5 + 1.2, 2.0 + 1.2, 3.25);
     solid.lights.intensity = 0.0;
     expect_bound(hd_light_bound(&scene), 1.5, 2.0, 3.25);
-    /* Of what can be seen the brightest counts. */
+    /* The brightest visible radiance counts. */
     solid.face = plain();
     solid.lights.disc_radiance = 8.0;
     solid.lights.colours[1] = (HdVec3){0.0, 0.25, 0.0};
@@ -37,7 +37,7 @@ TEST(lights_add_up) {
     expect_bound(hd_radiance_bound(&scene), 8.0, 2.0, 9.0);
 }
 
-/* What a surface shows of itself, over what it does not send on. */
+/* A surface's emission, by the share that it absorbs. */
 TEST(mirrors_multiply) {
     HdScene scene = {.floor = {.present = true, .material = plain()}, .exposure = 1.0};
     HdMaterial *material = &scene.floor.material;
@@ -49,11 +49,13 @@ TEST(mirrors_multiply) {
     material->has_inner_side = true;
     material->inner_reflection = 0.9;
     expect_bound(hd_radiance_bound(&scene), 0.2 / (1.0 - 0.9), 0.1 / (1.0 - 0.9), 0.0);
-    material->inner_reflection = 1.0; /* a mirror that sends all on adds to what ends the way */
+    material->inner_reflection = 1.0; /* a mirror that reflects everything adds to the emission at
+                                         the path's end */
     scene.background.x = 7.0;
     const double levels = HD_MAX_DEPTH + 1;
     expect_bound(hd_radiance_bound(&scene), 7.0 + 0.2 * levels, 0.1 * levels, 0.0);
-    /* Under total reflection the mirror, whose tint is white, takes over what would have passed. */
+    /* Under total reflection the mirror, whose tint is white, also reflects the transmitted
+       part. */
     scene = (HdScene){.floor = {.present = true, .material = plain()}, .exposure = 1.0};
     material->ambient = 0.1;
     material->colour = (HdVec3){0.01, 0.01, 0.01};
@@ -66,7 +68,7 @@ TEST(mirrors_multiply) {
     }
 }
 
-/* A room of mirrors that is `apart` from another solid, and what is seen then. */
+/* Finds the bounds of a room of mirrors that is `apart` from another solid. */
 static void see_two(HdScene *scene, double apart, HdSeen seen[4]) {
     scene->solid_count = 2;
     scene->solids[0] = (HdSolid){.kind = HD_HEXAHEDRON, .circumradius = 1.0, .face = plain()};
@@ -79,15 +81,15 @@ static void see_two(HdScene *scene, double apart, HdSeen seen[4]) {
     hd_seen_bounds(scene, seen);
 }
 
-/* Within a room nothing is seen but the room, unless something reaches into it. */
-TEST(rays_see_what_is_there) {
+/* Inside a room only the room is visible, unless something reaches into it. */
+TEST(bounds_cover_visible_radiance) {
     HdSolid solids[2];
     HdSeen seen[4];
     HdScene scene = {.solids = solids, .background = {0.5, 0.0, 0.0}};
-    see_two(&scene, 1.154, seen); /* the faces are 1.1547 apart where they touch */
+    see_two(&scene, 1.154, seen); /* the faces are 1.1547 apart at the contact */
     expect_bound(seen[0].inside, 4.0, 2.0, 0.0);
     see_two(&scene, 1.155, seen);
-    expect_bound(seen[0].inside, 4.0, 2.0, 0.0); /* so near is in the same place */
+    expect_bound(seen[0].inside, 4.0, 2.0, 0.0); /* this distance counts as the same place */
     see_two(&scene, 3.0, seen);
     expect_bound(seen[0].inside, 0.1 / (1.0 - 0.5), 0.05 / (1.0 - 0.5), 0.0);
     expect_bound(seen[0].outside, 4.0, 2.0, 0.0);
@@ -107,10 +109,10 @@ TEST(rays_see_what_is_there) {
     scene.floor.material.ambient = 8.0;
     hd_seen_bounds(&scene, seen);
     expect_near(seen[0].inside.x, 8.0, 0.2);                           /* it cuts the room */
-    expect_near(seen[2].outside.x, 0.1 + 0.5 * 8.0 + 0.25 * 8.0, 0.3); /* and is not met twice */
+    expect_near(seen[2].outside.x, 0.1 + 0.5 * 8.0 + 0.25 * 8.0, 0.3); /* and is not hit twice */
 }
 
-/* What meshes show by themselves and send on, with their own materials and with a place's. */
+/* Emission and reflection of meshes, with their own materials and with a place's. */
 TEST(meshes_are_seen_from_all_sides) {
     HdMeshMaterial materials[2] = {{.material = plain(), .emission = {0.5, 6.0, 0.0}},
                                    {.material = plain(), .emission = {2.0, 0.0, 0.0}}};
@@ -130,7 +132,7 @@ TEST(meshes_are_seen_from_all_sides) {
         expect_near(seen[i].outside.x, 2.0, 0.1);
         expect_bound(hd_vec3(0.0, seen[i].outside.y, seen[i].inside.y), 0.0, 6.0, 6.0);
     }
-    instance.has_material = true; /* which mirrors, so that what the mesh emits is seen again */
+    instance.has_material = true; /* which mirrors, so that the mesh's emission is visible again */
     instance.material.reflection = 0.5;
     hd_seen_bounds(&scene, seen);
     expect_near(seen[0].outside.y, 6.0 / (1.0 - 0.5), 0.3);

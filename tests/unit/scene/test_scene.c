@@ -47,7 +47,7 @@ static void make(void) {
     scene.lights = memcpy(lights, good.scene.lights, sizeof lights);
 }
 
-/* All that is found, a line for each. */
+/* Returns all problems, a line for each. */
 static const char *found(HdNaming naming) {
     static HdProblems problems;
     problems = (HdProblems){0};
@@ -102,8 +102,8 @@ TEST(test_instances) {
     REJECTED(scene.instance_count = -1, "number of meshes in their places is -1, expected 0 to");
 }
 
-/* Ranges are those by which scene files are read: their tests have all ends. Here is each kind of
-   value in each part of a scene. */
+/* Ranges are those of scene files, whose tests have all ends. This has each kind of value in each
+   part of a scene. */
 TEST(test_picture_and_view) {
     ACCEPTED(scene.solid_count = 0; scene.light_count = 0; scene.floor.present = false);
     REJECTED(scene.frame_count = 0, "frame count is 0, expected 1 to 10000000");
@@ -219,7 +219,7 @@ TEST(test_floor) {
                          hd_scale(good.scene.floor.corners[i], size));
 }
 
-/* One mistake makes one line, also where other checks need the value. */
+/* One mistake gives one line, even if other checks need the value. */
 TEST(test_no_problem_follows_from_another) {
     ONE_IS(solids[1].kind = HD_SOLID_KIND_COUNT; solids[1].face.index_of_refraction = 1.5;
            solids[1].rim_width = 100.0, "solid 2: kind is 5, expected 0 to 4\n");
@@ -252,7 +252,7 @@ TEST(test_the_eye_never_at_the_target) {
              scene.eye.cylinder.z_frequency = 1.0; scene.target.cylinder.z0 = -4.1);
 }
 
-/* Two cubes with edges 2 long, side by side on the floor, `apart` between their centres. */
+/* Puts two cubes with edges 2 long side by side on the floor, `apart` between their centres. */
 static void set_cubes(double apart, double height) {
     for (int i = 0; i < 2; i++) {
         solids[i].kind = HD_HEXAHEDRON;
@@ -268,13 +268,13 @@ TEST(test_refracting_solids_overlap_nothing) {
              solids[1].face.index_of_refraction = 1.5,
              "solid 2 (cube): it refracts and overlaps solid 1 (cube), 0.5 deep; move them apart "
              "or give it an index of refraction of 1\n");
-    /* A pair is told once, also where both refract. */
+    /* A pair is reported once, even if both refract. */
     ACCEPTED(set_cubes(2.5, -0.25); solids[0].face.index_of_refraction = 1.5;
              scene.floor.present = false);
     /* The eye may be inside. */
     ACCEPTED(set_cubes(2.5, 0.0); solids[0].face.index_of_refraction = 1.5;
              scene.eye = standing_at(0.0, 0.0, 0.0));
-    /* Turned, the cube's edges stick out. */
+    /* Rotated, the cube's edges stick out. */
     REJECTED(set_cubes(2.0, 0.0); solids[1].face.index_of_refraction = 1.5;
              solids[1].rotation_degrees.z = 45.0,
              "solid 2 (cube): it refracts and overlaps solid 1 (cube), 0.414 deep; move");
@@ -300,8 +300,8 @@ TEST(test_deep_trees) {
     }
 }
 
-/* What is wrong in one place, or was before, keeps no other check from being made. A pair is told
-   once, also where both refract. */
+/* An error in one place, or an earlier one, suppresses no other check. A pair is reported once,
+   even if both refract. */
 TEST(test_no_problem_hides_another) {
     static HdProblems problems;
     make();

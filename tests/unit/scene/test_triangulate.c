@@ -54,7 +54,7 @@ static void add_floor(void) {
                             .texture = texture_of(100)};
 }
 
-/* The scene's own come behind `made` others, and name each other as before. */
+/* The scene's own come after `made` others, and name each other as before. */
 static void expect_own(int made) {
     assert_int_equal(scene.mesh_count, made + 2);
     assert_int_equal(scene.instance_count, made + 3);
@@ -69,7 +69,7 @@ static void expect_own(int made) {
     }
 }
 
-TEST(solids_and_the_floor_come_before_what_was_there) {
+TEST(solids_and_the_floor_precede_the_scenes_own) {
     add_floor();
     assert_int_equal(hd_scene_triangulate(&scene, 8, 2, &error), HD_OK);
     expect_own(3);
@@ -96,7 +96,7 @@ TEST(solids_and_the_floor_come_before_what_was_there) {
     assert_ptr_not_equal(scene.pictures[2].texture.texels, scene.floor.texture.texels);
 }
 
-TEST(a_failure_leaves_it_as_it_was) {
+TEST(a_failure_leaves_it_unchanged) {
     add_floor();
     hd_texture_clear(&scene.floor.texture);
     assert_int_equal(hd_scene_triangulate(&scene, 8, 8000, &error), HD_BAD_INPUT);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Solids and the floor as triangles. */
+/* Triangulates solids and the floor. */
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "scene/triangulate.h"
 #include "unit_test.h"
 
-/* Of what is drawn on a face, in circumradii. */
+/* Sizes of the drawing on a face, in circumradii. */
 static const double min_length = 1e-8;
 
 /* In units of the circumradius. */
@@ -31,8 +31,8 @@ static const Pattern patterns[] = {
     {0.05, 5.0, 3, 30},   /* discs that cover the whole solid */
     {0.04, 0.02, 20, 3},  /* many */
     {0.02, 3e-5, 2, 1},   /* tiny, with long and thin triangles between */
-    {1e-6, 1e-6, 2, 2},   /* hardly to be seen */
-    {1e-10, 1e-10, 2, 2}, /* not to be told from nothing */
+    {1e-6, 1e-6, 2, 2},   /* barely visible */
+    {1e-10, 1e-10, 2, 2}, /* indistinguishable from nothing */
 };
 enum { PATTERNS = sizeof patterns / sizeof patterns[0] };
 
@@ -60,7 +60,7 @@ static HdVec3 corner_of(const HdMesh *mesh, int triangle, int corner) {
     return mesh->vertices[mesh->corners[triangle][corner]];
 }
 
-/* Half the cross product of two edges: along the normal, as long as the area. */
+/* Returns half the cross product of two edges: along the normal, as long as the area. */
 static HdVec3 area_vector(const HdMesh *mesh, int triangle) {
     HdVec3 a = corner_of(mesh, triangle, 0);
     return hd_scale(
@@ -73,7 +73,7 @@ static int compare_pairs(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
-/* Each directed edge once, and once the other way; no hole, no handle, no vertex that is unused. */
+/* Expects each directed edge once, and once the other way; no hole, no handle, no unused vertex. */
 static void expect_closed(const HdMesh *mesh) {
     const size_t count = 3 * (size_t)mesh->triangle_count;
     int64_t *edges = malloc(count * sizeof *edges);
@@ -92,7 +92,8 @@ static void expect_closed(const HdMesh *mesh) {
     free(edges);
 }
 
-/* Each triangle has an area and lies in the face that its group names, outer side out. */
+/* Expects each triangle to have an area and lie in the face that its group names, outer side
+   out. */
 static void expect_on_faces(const HdMesh *mesh, const HdSolid *solid) {
     HdPlatonic shape = hd_solid_shape(solid);
     for (int t = 0; t < mesh->triangle_count; t++) {
@@ -108,15 +109,15 @@ static void expect_on_faces(const HdMesh *mesh, const HdSolid *solid) {
 
 enum { MAX_MATERIALS = HD_SOLID_MATERIAL_DISCS + 2 * HD_MAX_EDGE_COLOURS };
 
-/* The share of a face that is nearer to an edge than the rim is wide. */
+/* Returns the share of a face that is nearer to an edge than the rim is wide. */
 static double rim_share(const HdPlatonic *shape, double width) {
     double half = 0.5 * shape->edge_length;
     double left = 1.0 - width / sqrt(1.0 - shape->inradius * shape->inradius - half * half);
     return left > 0.0 ? 1.0 - left * left : 1.0;
 }
 
-/* A face's area by the formula for regular polygons, from the number of its sides and the length
-   of an edge. */
+/* Returns a face's area by the formula for regular polygons, from the number of its sides and the
+   length of an edge. */
 static double surface_of(const HdPlatonic *shape) {
     double sides = 2.0 * shape->edge_count / shape->face_count;
     return shape->face_count * sides * shape->edge_length * shape->edge_length /
@@ -167,8 +168,9 @@ static void expect_materials(const HdMesh *mesh, const HdSolid *solid, bool has_
     }
 }
 
-/* What the kernels' rule (surface.h) says of a point relative to the centre, with other widths than
-   the solid's: twice the number of the edge whose disc is seen, or -2, and 1 more on the rim. */
+/* Returns the kernels' result (surface.h) for a point relative to the centre, with other widths
+   than the solid's. It is twice the number of the edge whose disc is visible, or -2, and 1 more on
+   the rim. */
 static int by_rule(const HdSolid *solid, const HdPlatonic *shape, int face, HdVec3 point,
                    double rim_width, double disc_radius) {
     double nearest = -HUGE_VAL;
@@ -195,15 +197,16 @@ static int by_rule(const HdSolid *solid, const HdPlatonic *shape, int face, HdVe
     return shown;
 }
 
-/* How far the border of a regular polygon is from that of a disc of radius 1 with its area. */
+/* Returns the distance between the borders of a regular polygon and of a disc of radius 1 with its
+   area. */
 static double off_disc(int sides) {
     double part = acos(-1.0) / sides, corner = sqrt(2.0 * part / sin(2.0 * part));
     return fmax(corner - 1.0, 1.0 - corner * cos(part));
 }
 
-/* A point in each of many triangles, but those where somewhat larger or smaller discs and rims
-   would show something else, for a polygon may lie on the other side of the border; that is little
-   of the surface. */
+/* Checks a point in each of many triangles, except those that slightly larger or smaller discs and
+   rims would change: a polygon may lie on the other side of the border. That is little of the
+   surface. */
 static void expect_rule(const HdMesh *mesh, const HdSolid *solid, int disc_sides) {
     HdPlatonic shape = hd_solid_shape(solid);
     const double vagueness = 1.1 * off_disc(disc_sides);
@@ -243,7 +246,7 @@ static void expect_sound(HdSolidKind kind, const Pattern *pattern, int disc_side
     HdMesh mesh;
     HdError error;
     assert_int_equal(hd_triangulate_solid(&mesh, &solid, disc_sides, divisions, &error), HD_OK);
-    /* Little more than is needed. Half a disc of n sides has n / 2 + 1 corners, those on the edge
+    /* Slightly more than needed. Half a disc of n sides has n / 2 + 1 corners, those on the edge
        among them; a rim p inside. */
     if (pattern == &patterns[0])
         assert_int_equal(mesh.triangle_count, bare_triangles[kind] * divisions * divisions);
@@ -258,8 +261,8 @@ static void expect_sound(HdSolidKind kind, const Pattern *pattern, int disc_side
     hd_mesh_free(&mesh);
 }
 
-/* Closed, as large as the solid, with materials as the kernels have it. Tetrahedra, which take
-   least time, have rounder discs, but for tiny ones, whose sides would be too short. */
+/* Closed, as large as the solid, with the kernels' materials. Tetrahedra, which take least time,
+   have rounder discs, except tiny ones, whose sides would be too short. */
 TEST(test_patterns) {
     for (HdSolidKind kind = HD_TETRAHEDRON; kind < HD_SOLID_KIND_COUNT; kind++) {
         static const double differences[] = {0.0, 1e-16, -1e-16, 1e-10, -1e-10};
@@ -308,7 +311,7 @@ TEST(test_bad_numbers) {
     }
 }
 
-/* Each triangle lies where its texture coordinates tell, and all of them cover the floor. */
+/* Expects each triangle where its texture coordinates say, and all of them to cover the floor. */
 static void expect_floor(const HdFloor *floor, int divisions, double area) {
     HdMesh mesh;
     HdError error;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What another process may do to temporary files just before they are locked. */
+/* Other processes' changes to temporary files just before they are locked. */
 #define _GNU_SOURCE
 
 #include <errno.h>
@@ -12,7 +12,7 @@
 #include "wrapped.h"
 
 static HdError error;
-static const char *comes_between; /* is moved to `to`, or where that is NULL removed */
+static const char *comes_between; /* moved to `to`, or if that is NULL removed */
 static const char *to;
 
 static int lock_late(int descriptor, int operation) {
@@ -22,8 +22,8 @@ static int lock_late(int descriptor, int operation) {
     return real_flock(descriptor, operation);
 }
 
-/* Another run took it for a stale one before it was locked. */
-TEST(one_that_was_removed_before_its_lock_is_not_written_to) {
+/* Another run mistook it for a stale one before it was locked. */
+TEST(a_file_removed_before_its_lock_is_not_written_to) {
     HdAtomicFile file;
     char first[64];
     snprintf(first, sizeof first, "0.png.tmp-%ld-0", (long)getpid());
@@ -37,7 +37,7 @@ TEST(one_that_was_removed_before_its_lock_is_not_written_to) {
 }
 
 /* Another run removed the stale one and gave its name to a file of its own. */
-TEST(one_that_took_the_name_of_a_stale_one_stays) {
+TEST(a_file_that_took_a_stale_files_name_stays) {
     write_bytes("1.png.tmp-1-0", "stale", 5);
     write_bytes("other", "fresh", 5);
     comes_between = "other";
@@ -49,7 +49,7 @@ TEST(one_that_took_the_name_of_a_stale_one_stays) {
     assert_int_equal(access("1.png.tmp-1-0", F_OK), -1);
 }
 
-/* One whose lock is held, of the process. */
+/* Removes a file of the process whose lock is held. */
 static void remove_locked(pid_t owner, bool is_done) {
     char path[64];
     snprintf(path, sizeof path, "2.mkv.tmp-%ld-0", (long)owner);
@@ -63,8 +63,8 @@ static void remove_locked(pid_t owner, bool is_done) {
     assert_int_equal(access(path, F_OK), -1);
 }
 
-/* What it had started still writes. */
-TEST(that_of_a_process_that_is_gone_is_to_be_tried_again) {
+/* Its child still writes. */
+TEST(a_file_of_an_ended_process_is_tried_again) {
     const pid_t gone = fork();
     if (gone == 0)
         _exit(0);
@@ -73,7 +73,7 @@ TEST(that_of_a_process_that_is_gone_is_to_be_tried_again) {
     remove_locked(getpid(), true);
 }
 
-/* What had the final name when the file, and when its folder, was synced; and the file's size. */
+/* The file with the final name at the file's and at its folder's sync; and the file's size. */
 static bool was_there[2];
 static off_t synced_size;
 static int syncs;
@@ -87,8 +87,8 @@ static int note_sync(int descriptor) {
 }
 REPLACE(fsync, note_sync)
 
-/* Another program may put a file in the place of one that was made for it. */
-TEST(a_reserved_one_is_named_as_another_program_left_it) {
+/* Another program may replace a file made for it. */
+TEST(a_reserved_file_keeps_the_name_of_its_replacement) {
     HdAtomicFile file;
     struct stat found;
     assert_int_equal(hd_atomic_file_reserve(&file, "3.mkv", &error), HD_OK);
@@ -113,7 +113,7 @@ static void expect_failure(HdAtomicFile *file, const char *message) {
 }
 
 /* The bytes are on the disk before the name is. */
-TEST(only_what_is_to_last_is_synced) {
+TEST(only_lasting_files_are_synced) {
     HdAtomicFile file;
     syncs = 0;
     assert_int_equal(hd_atomic_file_open(&file, "fleeting", &error), HD_OK);
@@ -134,7 +134,7 @@ TEST(a_write_that_failed_leaves_the_old_file) {
     close(fileno(file.stream));
     expect_failure(&file, "cannot write old/file: Bad file descriptor");
     open_for(&file, "old/file");
-    assert_int_equal(fgetc(file.stream), EOF); /* an error of which no write tells the reason */
+    assert_int_equal(fgetc(file.stream), EOF); /* an error whose cause no write reports */
     errno = 0;
     expect_failure(&file, "cannot write old/file: Input/output error");
     assert_int_equal(stat("old/file", &found), 0);
@@ -142,7 +142,7 @@ TEST(a_write_that_failed_leaves_the_old_file) {
     assert_int_equal(count_entries("old"), 1);
 }
 
-TEST(what_goes_away_meanwhile_is_named) {
+TEST(a_vanished_file_is_named) {
     HdAtomicFile file;
     char message[HD_MAX_PATH + 64];
     open_for(&file, "going/file");

@@ -18,7 +18,7 @@ static HdError error;
 static const char payload[] = "machine code\0with a NUL";
 static char entry_file[512];
 
-/* The first entry of the folder "cache". */
+/* Returns the first entry of the folder "cache". */
 static const char *find_entry(void) {
     glob_t found;
     assert_int_equal(glob("cache/*.entry", 0, NULL, &found), 0);
@@ -63,8 +63,8 @@ static int mode_of(const char *path) {
     return (int)found.st_mode & 0777;
 }
 
-/* For the user alone from the first instant, whatever the mask. */
-TEST(what_is_put_is_got_by_the_user_alone) {
+/* Private to the user from the first instant, whatever the mask. */
+TEST(only_the_user_can_read_entries) {
     HdAtomicFile file;
     put("a");
     assert_int_equal(mode_of(find_entry()), 0600);
@@ -156,7 +156,7 @@ TEST(entries_of_another_key_are_noticed) {
     expect_untrusted("another key");
 }
 
-TEST(what_is_no_file_is_not_read) {
+TEST(only_regular_files_are_read) {
     put("a");
     assert_int_equal(rename(find_entry(), "elsewhere"), 0);
     assert_int_equal(symlink("../elsewhere", entry_file), 0);
@@ -172,7 +172,7 @@ TEST(what_is_no_file_is_not_read) {
 }
 
 /* The entry ("") or the folder; only an entry is made again. */
-TEST(what_is_open_to_others_is_not_used) {
+TEST(folders_open_to_others_are_not_used) {
     static const struct {
         const char *path;
         mode_t mode;
@@ -207,7 +207,7 @@ TEST(what_is_open_to_others_is_not_used) {
 
 /* ---- folders ---- */
 
-/* "!PART": there is none, and the error tells of that. */
+/* "!PART": there is none, and the error names that part. */
 TEST(the_folder_is_found_in_order) {
     static const struct {
         const char *own, *xdg, *home, *expected;
@@ -245,8 +245,8 @@ TEST(the_folder_is_found_in_order) {
     expect_contains(error.message, "file/cache");
 }
 
-/* As on a full disk, or of what is too large. */
-TEST(a_write_that_fails_leaves_what_was_there) {
+/* As on a full disk, or for too large an entry. */
+TEST(a_failed_write_leaves_the_old_file) {
     static const char large[1 << 14];
     struct rlimit before, limit;
     put("a");
@@ -267,7 +267,7 @@ TEST(a_write_that_fails_leaves_what_was_there) {
 
 /* ---- the limit ---- */
 
-/* In the cache, which is made where there is none. */
+/* Makes a file in the cache, and the cache if it is missing. */
 static void make_file(const char *name, off_t size, int seconds_ago) {
     char path[256];
     mkdir("cache", 0700);
@@ -278,7 +278,7 @@ static void make_file(const char *name, off_t size, int seconds_ago) {
     assert_int_equal(utimensat(AT_FDCWD, path, (const struct timespec[2]){then, then}, 0), 0);
 }
 
-/* The files of the cache have the names, in order and each with a space behind it. */
+/* Expects these names in the cache, in order and each with a space behind it. */
 static void expect_left(const char *names) {
     char text[512] = "";
     glob_t found;
@@ -299,7 +299,7 @@ static int unlink_but_stuck(int folder, const char *name, int flags) {
     return real_unlinkat(folder, name, flags);
 }
 
-/* However long their names are; one that cannot be removed is passed over. */
+/* Names of any length; one that cannot be removed is skipped. */
 TEST(the_longest_unused_go_first) {
     make_file("newest.entry", 400, 10);
     make_file("o.entry", 400, 300);
@@ -319,7 +319,7 @@ TEST(the_longest_unused_go_first) {
     hd_cache_limit("nowhere", 0);
 }
 
-/* It is their size that counts, and when they were used. */
+/* Their size counts, and the time of their use. */
 TEST(a_put_keeps_to_the_limit) {
     static const char *const names[] = {"0.entry", "1.entry", "2.entry"};
     struct stat found;

@@ -43,8 +43,9 @@ static void expect_end(bool is_good, const char *words) {
     expect_none();
 }
 
-/* What was ignored, such as by nohup, stays ignored; our own handling of lost readers does not. */
-TEST(it_tells_how_it_ended_and_what_was_said) {
+/* Signals that were ignored, such as by nohup, stay ignored; our own handling of lost readers does
+   not. */
+TEST(the_end_and_the_output_are_reported) {
     static const struct {
         const char *script, *how, *said;
     } cases[] = {
@@ -67,13 +68,13 @@ TEST(it_tells_how_it_ended_and_what_was_said) {
     signal(SIGHUP, SIG_DFL);
 }
 
-TEST(what_is_sent_comes_back) {
+TEST(sent_bytes_are_echoed) {
     enum { SIZE = 3 << 20 };
     uint8_t *bytes = malloc(SIZE);
     assert_non_null(bytes);
     for (size_t i = 0; i < SIZE; i++)
         bytes[i] = (uint8_t)('a' + i % 26);
-    run("tee copy; echo ' end' >&2; echo; echo ' '"); /* it says as much as it hears */
+    run("tee copy; echo ' end' >&2; echo; echo ' '"); /* it writes as much as it reads */
     assert_true(hd_child_send(&child, bytes, SIZE, 60000));
     expect_end(true, "exit code 0");
     assert_int_equal(child.tail_length, HD_CHILD_MAX_TAIL);
@@ -89,8 +90,8 @@ TEST(what_is_sent_comes_back) {
     free(bytes);
 }
 
-/* The look comes every 0.2 s. */
-TEST(one_that_hangs_is_killed) {
+/* The check comes every 0.2 s. */
+TEST(a_hanging_program_is_killed) {
     static const uint8_t bytes[1 << 20];
     run("sleep 1000");
     assert_false(hd_child_end(&child, 300, how));
@@ -103,8 +104,8 @@ TEST(one_that_hangs_is_killed) {
     expect_none();
 }
 
-/* It takes in, then it speaks: each for longer than the patience, but with shorter rests. */
-TEST(one_that_works_is_waited_for) {
+/* It reads, then it writes: each for longer than the timeout, but with shorter pauses. */
+TEST(a_working_program_is_waited_for) {
     static const uint8_t bytes[12 << 17];
     run("for i in 1 2 3 4 5 6; do sleep 0.22; head -c 262144 >/dev/null; done; "
         "for i in 1 2 3 4 5 6; do sleep 0.22; echo; done");
@@ -152,7 +153,7 @@ static void expect_no_start(const char *path, HdStatus status, const char *reaso
     expect_none();
 }
 
-TEST(one_that_cannot_start_is_told) {
+TEST(a_failed_start_is_reported) {
     write_bytes("text", "no program", 10);
     expect_no_start("./none", HD_UNAVAILABLE, "cannot start ./none: No such file");
     expect_no_start("./text", HD_UNAVAILABLE, "cannot start ./text: Permission denied");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Choices in chunks are as one call for all items makes them. */
+/* Selections in chunks equal those of one call for all items. */
 #include <stdlib.h>
 
 #include "system/thread_pool.h"
@@ -25,7 +25,7 @@ static int end_threads(void **state) {
 static const int counts[] = {0, 1, 1023, 1024, 1025, 5000, 256 * 1024, 256 * 1024 + 1, 700001};
 enum { COUNTS = sizeof counts / sizeof *counts };
 
-/* Some chunks have few of them, some none, some all. */
+/* Selects few items in some chunks, none or all in others. */
 static bool is_chosen(int item) {
     return item / 3000 % 3 == 1 || item % 97 == 5;
 }

@@ -9,8 +9,7 @@
 #include "system/path.h"
 #include "test_folder.h"
 
-/* As many as all outputs of a run have under way, but for one that was removed: its place stays
- * taken. */
+/* As many as all outputs of a run have in flight, except a removed one: its place stays taken. */
 enum { FILES = 32 * HD_MAX_OUTPUTS - 1, GROUPS = 2 * HD_MAX_OUTPUTS };
 
 static char *name_of(int i) {
@@ -24,7 +23,7 @@ static void add(int i) {
     hd_cleanup_add_file(name_of(i));
 }
 
-TEST(all_others_are_removed_once) {
+TEST(all_unforgotten_files_are_removed_once) {
     for (int i = 0; i < FILES; i++)
         add(i);
     for (int i = 1; i < FILES; i += 2) {
@@ -41,7 +40,7 @@ TEST(all_others_are_removed_once) {
     assert_int_equal(access("0.tmp", F_OK), 0);
 }
 
-TEST(names_without_room_are_not_remembered) {
+TEST(names_that_do_not_fit_are_not_remembered) {
     char path[HD_MAX_PATH + 1];
     memset(path, '/', sizeof path);
     memcpy(path, ".", 1);
@@ -62,7 +61,7 @@ static void expect_killed(pid_t child) {
     assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
 }
 
-TEST(groups_are_killed_unless_they_are_forgotten) {
+TEST(groups_are_killed_unless_forgotten) {
     pid_t groups[GROUPS];
     alarm(60); /* where nothing is killed */
     for (int i = 0; i < GROUPS; i++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What is synced, and what becomes of a disk that says no. */
+/* Synced files, and the effects of a failing disk. */
 #define _GNU_SOURCE
 
 #include "system/atomic_file.h"
@@ -11,9 +11,9 @@
 #include "wrapped.h"
 
 static HdError error;
-static int answers[4]; /* to the next syncs, as errno has them; 0: done */
+static int answers[4]; /* results of the next syncs, as errno has them; 0: done */
 static int calls;
-static char synced_names[1000]; /* of the folders below the test's, each with a space behind it */
+static char synced_names[1000]; /* synced folders below the test's, each with a space behind it */
 
 static void report_name(int descriptor) {
     char link[64], name[500];
@@ -51,7 +51,7 @@ static void expect_synced(const char *path, const char *names) {
     assert_string_equal(synced_names, names);
 }
 
-TEST(folders_are_synced_up_to_one_that_was) {
+TEST(folders_are_synced_up_to_a_synced_one) {
     expect_synced("a/b/1.png", "/a/b /a . ");
     expect_synced("a/b/2.png", "/a/b ");
     expect_synced("a/c/1.png", "/a/c /a ");
@@ -63,7 +63,7 @@ TEST(folders_are_synced_up_to_one_that_was) {
     expect_synced("//tmp/1.png", "/tmp / ");
 }
 
-/* What has no disk needs none. */
+/* A target without a disk needs none. */
 TEST(a_sync_that_a_signal_ends_is_begun_again) {
     static const int reasons[] = {EINTR, EINVAL, ENOTSUP, ENOSYS, EROFS};
     for (size_t i = 0; i < sizeof reasons / sizeof *reasons; i++) {
@@ -74,7 +74,7 @@ TEST(a_sync_that_a_signal_ends_is_begun_again) {
     }
 }
 
-TEST(a_disk_that_fails_is_told) {
+TEST(a_failing_disk_is_reported) {
     answers[0] = EDQUOT;
     answers[2] = EIO;
     assert_int_equal(hd_sync_file(STDIN_FILENO, "a/1.png", &error), HD_FAILED);

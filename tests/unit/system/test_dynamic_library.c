@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* With the library of the test itself, which is there. */
+/* Loads the library of the test itself, which exists. */
 #define _POSIX_C_SOURCE 200809L
 #include "system/dynamic_library.h"
 
@@ -63,7 +63,7 @@ static void expect_beside(const char *name) {
     hd_library_close(again);
 }
 
-TEST(what_lies_beside_it_is_opened) {
+TEST(a_library_in_its_own_folder_is_opened) {
     const char *name = strrchr(path, '/') + 1;
     expect_beside(name);
     assert_null(hd_library_open_adjacent(library, symbol, "no_such.so"));

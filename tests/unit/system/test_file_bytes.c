@@ -58,7 +58,7 @@ TEST(files_are_read_up_to_a_size) {
     expect_refused("six", 5, "cannot read the scene six: it has 6 bytes, expected at most 5");
     expect_refused("none", 5, "cannot read the scene none: No such file");
     expect_refused("pipe", 5, "cannot read the scene pipe: it is not a regular file");
-    /* As what a system tells of itself: more bytes than there are. */
+    /* Like files of the system's own state: more bytes than reported. */
     assert_int_equal(access("/sys/kernel/uevent_seqnum", R_OK), 0);
     expect_refused("/sys/kernel/uevent_seqnum", 1 << 20, " of 4096 bytes");
     expect_contains(error.message, "it ended after ");

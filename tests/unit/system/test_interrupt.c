@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Signals, each in a process of its own, and how that ends. */
+/* Signals, each in a process of its own, and its end. */
 #define _XOPEN_SOURCE 700
 #include "system/interrupt.h"
 
@@ -14,7 +14,7 @@
 
 static HdError error;
 
-/* ---- what processes do ---- */
+/* ---- actions of processes ---- */
 
 static void pass(double seconds) {
     struct timespec rest = {.tv_nsec = (long)(1e9 * seconds)};
@@ -24,7 +24,7 @@ static void pass(double seconds) {
 
 static int number;
 
-static void take_it(void) {
+static void raise_one(void) {
     hd_interrupt_announce("stopping\n");
     errno = EDOM;
     if (hd_interrupt_signal() != 0 || raise(number) != 0 || errno != EDOM)
@@ -40,14 +40,14 @@ static void announce_nothing(void) {
     _exit(hd_interrupt_signal());
 }
 
-static void take_two_at_once(void) {
+static void raise_two_at_once(void) {
     hd_interrupt_announce("stopping\n");
     raise(SIGINT);
     raise(SIGTERM);
     _exit(hd_interrupt_signal());
 }
 
-/* The main thread handles none, as if a file server that is gone had it. */
+/* The main thread handles none, as if a lost file server blocked it. */
 static void be_deaf(void) {
     sigset_t all;
     sigfillset(&all);
@@ -67,7 +67,7 @@ static void leave_a_file(void) {
     hd_cleanup_add_file("left");
 }
 
-static void take_a_second_one(void) {
+static void raise_a_second_one(void) {
     leave_a_file();
     raise(SIGTERM);
     pass(0.51);
@@ -105,13 +105,13 @@ static void look_at_others(void) {
     _exit(hd_interrupt_signal());
 }
 
-/* ---- how they end ---- */
+/* ---- their ends ---- */
 
-static char said[1000]; /* what the last one wrote to standard error */
+static char said[1000]; /* the last one's output on standard error */
 static double took;     /* its seconds */
 
 static void be(void (*act)(void), const int errors[2]) {
-    signal(SIGCHLD, SIG_IGN); /* a careless parent's */
+    signal(SIGCHLD, SIG_IGN); /* as from a careless parent */
     if (act == look_at_others)
         signal(SIGHUP, SIG_IGN); /* as by nohup */
     dup2(errors[1], STDERR_FILENO);
@@ -123,7 +123,7 @@ static void be(void (*act)(void), const int errors[2]) {
     _exit(98);
 }
 
-/* How a process that does this ends: its exit code, or minus the signal. */
+/* Returns the end of a process with this action: its exit code, or minus the signal. */
 static int outcome_of(void (*act)(void)) {
     int errors[2], status = 0;
     size_t size = 0;
@@ -153,13 +153,13 @@ static const struct {
     int outcome;
     const char *said;
 } cases[] = {
-    {"it is announced", take_it, "", SIGINT, "stopping\n"},
-    {"it is announced", take_it, "", SIGTERM, "stopping\n"},
-    {"it is announced", take_it, "", SIGHUP, "stopping\n"},
+    {"it is announced", raise_one, "", SIGINT, "stopping\n"},
+    {"it is announced", raise_one, "", SIGTERM, "stopping\n"},
+    {"it is announced", raise_one, "", SIGHUP, "stopping\n"},
     {"nothing is to be announced", announce_nothing, "", SIGTERM, ""},
-    {"two at once are the same wish", take_two_at_once, "", SIGINT, "stopping\n"},
-    {"another thread takes it where the main thread is stuck", wait_deaf, "", SIGTERM, ""},
-    {"a second one later ends it at once", take_a_second_one, "100", -SIGINT, ""},
+    {"two at once count as one", raise_two_at_once, "", SIGINT, "stopping\n"},
+    {"another thread takes it if the main thread is stuck", wait_deaf, "", SIGTERM, ""},
+    {"a second one later ends it at once", raise_a_second_one, "100", -SIGINT, ""},
     {"who does not end in time is ended", hang, "0.1", -SIGTERM, too_late},
     {"whose main thread is stuck, too", hang_deaf, "0.1", -SIGTERM, too_late},
     {"what the parent ignored stays ignored, but for children", look_at_others, "", 0, ""},
@@ -178,7 +178,7 @@ TEST(signals_end_it_as_they_should) {
     }
 }
 
-TEST(the_patience_is_a_time) {
+TEST(the_timeout_is_a_time) {
     static const struct {
         const char *text;
         bool is_good;
@@ -195,7 +195,7 @@ TEST(the_patience_is_a_time) {
     }
 }
 
-/* Shells start what runs in the background with some of these ignored. */
+/* Shells start background processes with some of these ignored. */
 static int begin(void **state) {
     (void)state;
     unsetenv("HEDRON_STOP_PATIENCE");

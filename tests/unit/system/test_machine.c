@@ -10,7 +10,7 @@
 
 #include "test_folder.h"
 
-TEST(a_desktop_or_what_is_plugged_in_is_seen) {
+TEST(a_desktop_or_a_connected_screen_is_detected) {
     static const char *const variables[] = {"DISPLAY", "WAYLAND_DISPLAY"};
     unsetenv("DISPLAY");
     unsetenv("WAYLAND_DISPLAY");
@@ -29,7 +29,7 @@ TEST(a_desktop_or_what_is_plugged_in_is_seen) {
     assert_false(hd_display_may_be_there("/no/such/folder"));
 }
 
-TEST(processors_are_those_it_may_run_on) {
+TEST(only_allowed_processors_count) {
     cpu_set_t all, one;
     assert_int_equal(sched_getaffinity(0, sizeof all, &all), 0);
     assert_int_equal(hd_processor_count(), CPU_COUNT(&all));

@@ -15,7 +15,7 @@ enum { THREADS = 3, ITEMS = 1000 };
 static HdError error;
 static atomic_int done[ITEMS], not_nearest, not_of_the_pool;
 
-/* Whether there is a context: at once, or never. */
+/* Returns whether there is a context: at once, or never. */
 static bool must_stop(const void *context) {
     return context != NULL;
 }
@@ -36,7 +36,7 @@ static void expect_round(HdThreadPool *pool) {
     assert_int_equal(not_of_the_pool, 0);
 }
 
-/* Threads inherit how their maker rounds. */
+/* Threads inherit their creator's rounding mode. */
 TEST(each_item_is_done_once_and_rounds_as_usual) {
     HdThreadPool *pool;
     assert_int_equal(fesetround(FE_UPWARD), 0);
@@ -51,9 +51,9 @@ TEST(each_item_is_done_once_and_rounds_as_usual) {
     hd_thread_pool_destroy(pool);
 }
 
-/* ---- what the system refuses ---- */
+/* ---- refusals by the system ---- */
 
-static int threads_left = -1; /* until it refuses some; -1: it does not */
+static int threads_left = -1; /* threads until it refuses some; -1: it does not */
 
 static int create_few(pthread_t *thread, const pthread_attr_t *attributes, void *(*begin)(void *),
                       void *argument) {
@@ -72,7 +72,7 @@ static HdStatus create_with(HdThreadPool **pool, int threads) {
     return status;
 }
 
-TEST(those_that_start_do_the_work) {
+TEST(the_started_threads_do_the_work) {
     HdThreadPool *pool;
     char note[HD_FALLBACK_LENGTH];
     assert_int_equal(create_with(&pool, 2), HD_OK);

@@ -19,7 +19,7 @@ TEST(sentences_come_once_and_in_their_order) {
     assert_false(hd_fallback_take(text));
 }
 
-TEST(what_finds_no_room_is_dropped) {
+TEST(what_does_not_fit_is_dropped) {
     char text[HD_FALLBACK_LENGTH];
     for (int i = 0; i < 10; i++)
         hd_fallback_note("%-600d", i);

@@ -39,8 +39,7 @@ static const Light *compile(int lanes) {
 }
 
 /* Runs are of one cluster each. With one lane they are long enough, and within their spheres. With
-   several lanes all lights are in runs, which are as long as they can be and not judged by
-   themselves. */
+   several lanes all lights are in runs of maximum length, without culling of their own. */
 TEST(runs_are_of_one_cluster_and_within_their_sphere) {
     for (int lanes = 1; lanes <= 8; lanes += 7) {
         const Light *lights = compile(lanes);
@@ -75,7 +74,7 @@ TEST(runs_are_of_one_cluster_and_within_their_sphere) {
     }
 }
 
-TEST(where_no_light_ends_one_lane_has_none) {
+TEST(one_lane_has_no_runs_without_falloff) {
     for (int i = 0; i < scene.light_count; i++)
         scene.lights[i].falloff = (HdFalloff){0};
     const Light *lights = compile(1);

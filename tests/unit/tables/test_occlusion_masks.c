@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Segments drawn by lot from solids and the floor to lights: none of them crosses what is said to
-   be beside, and much is. */
+/* Random segments from solids and the floor to lights: none of them crosses an object that the
+   masks exclude, and the masks exclude many. */
 #include "kernels/host/shared.h"
 #include "scene_text.h"
 #include "tables/table.h"
 
 #define GLASS "\"material\": \"glass\""
-/* To be filled in: more lights, by lot. */
+/* To be filled in: more lights, at random. */
 static const char pattern[] =
     "{\"hedron\": 1, \"camera\": {\"eye\": [30, 0, 5]}, \"materials\": {\"glass\": {}}, "
     "\"solids\": ["
@@ -67,7 +67,7 @@ static double along(const Plane *plane, HdVec3 v) {
     return (double)plane->x * v.x + (double)plane->y * v.y + (double)plane->z * v.z;
 }
 
-/* On the surface, relative to the object. */
+/* Returns a point on the surface, relative to the object. */
 static HdVec3 point_on(int object) {
     HdVec3 v = {between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0)};
     if (object == FLOOR)
@@ -86,7 +86,7 @@ static HdVec3 offset(int table, int row) {
     return (HdVec3){(double)v->x, (double)v->y, (double)v->z};
 }
 
-/* What is left of the segment behind one half-space. */
+/* Cuts the segment to the part behind one half-space. */
 static void clip(double from, double to, double distance, double *first, double *last) {
     double t = (distance - from) / (to - from);
     if (to > from)
@@ -115,8 +115,8 @@ static bool cannot_occlude(int from, int light, int object) {
     return ways[from * (tables.light_count + 1) + 1 + light] >> object & 1;
 }
 
-/* Numbers of single lights, and before them one of all lights. */
-TEST(segments_miss_what_is_beside) {
+/* Masks of single lights, and before them one of all lights. */
+TEST(segments_miss_excluded_objects) {
     int nonoccluders = 0, others = 0, crossed = 0;
     for (int from = 0; from < OBJECTS; from++)
         for (int object = 0; object < OBJECTS; object++) {
@@ -137,14 +137,14 @@ TEST(segments_miss_what_is_beside) {
             }
             assert_int_equal(cannot_occlude(from, -1, object), all);
         }
-    /* Of what is not beside most is crossed: the hulls are not much too wide. */
+    /* Most objects that the masks do not exclude are crossed: the hulls are not much too wide. */
     assert_true(nonoccluders > others);
     assert_true(2 * crossed > others);
 }
 
 /* The dodecahedron and the cube overlap, the icosahedron is in the floor. The first light is in the
    tetrahedron, the second one is not. */
-TEST(solids_that_others_reach_into_are_not_apart) {
+TEST(solids_that_others_reach_into_are_not_isolated) {
     static const int isolated[OBJECTS] = {1, 1, 0, 0, 0, 0};
     for (int i = 0; i < OBJECTS; i++)
         assert_int_equal(objects[i].isolated, isolated[i]);
@@ -152,8 +152,8 @@ TEST(solids_that_others_reach_into_are_not_apart) {
                 !cannot_occlude(0, 1, 0));
 }
 
-/* Where rays come from far away rounding puts points off the solids, so that nothing is known: the
-   eye is 10^7 radii away, which a float tells by about one. */
+/* For distant rays rounding puts points off the solids, so that nothing is known: the eye is 10^7
+   radii away, which a float resolves to about one. */
 TEST(nothing_is_known_where_points_are_off) {
     file.scene.eye.point.x = 1e7;
     compile();

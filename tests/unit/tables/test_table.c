@@ -24,7 +24,7 @@ static HdError error;
 static const HdMemoryBudget device = {
     .name = "Device", .advice = "do this", .memory = 4e9, .at_once = 1e9};
 
-TEST(bytes_are_told_shortly) {
+TEST(bytes_are_printed_briefly) {
     static const struct {
         double bytes;
         const char *text;
@@ -74,7 +74,7 @@ TEST(every_table_has_a_name) {
     }
 }
 
-/* What the meshes claim to have is never read. */
+/* The meshes' claimed contents are never read. */
 TEST(a_scene_may_be_too_large_for_the_machine) {
     enum { MANY = 1000 };
     HdScene scene = scene_with_meshes();
@@ -95,7 +95,7 @@ TEST(a_scene_may_be_too_large_for_the_machine) {
     expect_contains(error.message, "fewer triangles need less");
     scene.meshes = own;
     scene.mesh_count = count;
-    /* What there would be room for may be taken. */
+    /* An allocation within the capacity succeeds. */
     const int triangles = own[1].triangle_count;
     scene.accel = HD_ACCEL_BRUTE;
     own[1].triangle_count = 20000000;
@@ -108,8 +108,8 @@ TEST(a_scene_may_be_too_large_for_the_machine) {
     assert_string_equal(error.message, "out of memory: the scene's triangles need 960 MB");
 }
 
-/* PoCL tells of as little memory as it is asked to, and allows a quarter of it at once. */
-TEST(opencl_tells_what_is_too_large) {
+/* PoCL reports as little memory as requested, and allows a quarter of it at once. */
+TEST(opencl_reports_too_large_tables) {
     HdDevice devices[HD_MAX_DEVICES];
     HdRenderOptions options = {.lanes = 1};
     HdRenderer *renderer;
@@ -147,7 +147,7 @@ TEST(textures_end_where_kernels_count_no_further) {
                                        "most 1073741822");
 }
 
-/* Each level of a ray's tree adds what lights shine on a surface, and the exposure scales all. */
+/* Each level of a ray's tree adds the light on a surface, and the exposure scales all. */
 TEST(deeper_trees_leave_out_more) {
     HdScene scene = scene_with_meshes();
     scene.exposure = 1.0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A device that is plain C with one thing wrong. */
+/* A device that is plain C with one fault. */
 #define HD_DOUBLE 0
 #include "render/backends.h"
 #include "verify/first_difference.h"
@@ -54,9 +54,8 @@ static const char *difference(const char *frame, void (*how)(const HdSceneTables
     return text;
 }
 
-/* What is wrong in mirrors is not seen before a ray was mirrored; the sky at once, in the corner.
- */
-TEST(pixel_sample_and_depth_are_told) {
+/* A fault of mirrors shows only after a reflection; one of the sky at once, in the corner. */
+TEST(pixel_sample_and_depth_are_reported) {
     assert_string_equal(difference("tetrahedron", with_nothing),
                         "a second rendering equals that of plain C");
     expect_contains(difference("tetrahedron", with_other_mirrors), "depth 1 of the ray: ");

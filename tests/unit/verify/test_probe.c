@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #define _XOPEN_SOURCE 700
-/* What the arithmetic probe makes of devices that compute rightly and of others. */
+/* Results of the arithmetic probe on devices that compute correctly and on others. */
 #include "verify/probe.h"
 
 #include <inttypes.h>
@@ -111,7 +111,7 @@ static HdProbeReport probe(Fault of, HdPrecision precision) {
 
 static const uint64_t hashes[] = {0x98b531570775fa8d, 0x9aa55f0c416093c4};
 
-/* Plain C's results on every processor; they change with the operands, on purpose only. */
+/* Plain C's results on every processor; they change only with the operands, on purpose. */
 TEST(expectations_are_known) {
     for (int precision = 0; precision < 2; precision++) {
         const HdProbeReport report = probe(NONE, (HdPrecision)precision);
@@ -122,11 +122,11 @@ TEST(expectations_are_known) {
     }
 }
 
-/* Division alone may be made of fused operations instead. */
-TEST(faults_are_told_or_healed) {
+/* Division alone may be replaced by fused operations. */
+TEST(faults_are_reported_or_corrected) {
     static const struct {
         Fault fault;
-        const char *primitive, *cause; /* NULL: none is told */
+        const char *primitive, *cause; /* NULL: none is reported */
     } list[] = {
         {OTHER_NAN, NULL, NULL},
         {DIVISION, NULL, NULL},

@@ -90,7 +90,7 @@ TEST(printed_and_applied_cameras_read_back) {
     assert_memory_equal(&back, &pose, sizeof back);
 }
 
-/* ---- how fine ---- */
+/* ---- resolution ---- */
 
 static const HdDetail full = {640, 360, 4, 14};
 
@@ -98,7 +98,7 @@ static double seconds_of(const HdDetail *detail, double each) {
     return each * detail->width * detail->height * detail->samples * detail->samples;
 }
 
-/* What is chosen once pictures of a device that takes `each` seconds a sample were noted. */
+/* Returns the choice after pictures of a device that takes `each` seconds a sample. */
 static HdDetail settled(HdPace *pace, double each) {
     HdDetail detail = hd_pace_choose(pace, &full);
     for (int i = 0; i < 60; i++) {
@@ -108,7 +108,7 @@ static HdDetail settled(HdPace *pace, double each) {
     return detail;
 }
 
-/* All pixels come before more samples, and a picture is no smaller than it must be. */
+/* All pixels come before more samples, and a picture is no smaller than necessary. */
 TEST(pictures_are_made_in_time) {
     for (double each = 1e-9; each < 2e-6; each *= 1.7) {
         HdPace pace = {0};
@@ -126,8 +126,8 @@ TEST(pictures_are_made_in_time) {
     }
 }
 
-/* Pictures do not become stamps: their rays go less deep instead, and come back once there is time.
- */
+/* Pictures do not become tiny: their rays become less deep instead, and recover once there is
+   time. */
 TEST(depth_is_given_up_last) {
     HdPace pace = {0};
     HdDetail detail = settled(&pace, 1e-4);
@@ -135,14 +135,14 @@ TEST(depth_is_given_up_last) {
     assert_int_equal(detail.depth, 2);
     detail = settled(&pace, 1e-10);
     assert_memory_equal(&detail, &full, sizeof detail);
-    /* What is small already stays whole. */
+    /* A small picture stays whole. */
     const HdDetail small = {64, 48, 1, 3};
     hd_pace_note(&pace, &small, 1.0);
     detail = hd_pace_choose(&pace, &small);
     assert_true(detail.width == 64 && detail.height == 48);
 }
 
-/* One that took too long counts at once, a quick one by and by. */
+/* A slow picture counts at once, a quick one gradually. */
 TEST(slow_pictures_count_more) {
     HdPace slower = {1e-6, 0}, faster = {1e-6, 0};
     const HdDetail detail = {100, 100, 1, 14};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Says that it is an NVRTC of the version that its file's name ends with, "libnvrtc.so.12.3", for
-   sm_7 and that of ten times the number before the point; version 0 fails to tell it, and one with
-   the minor number 99 tells of more architectures than there are. It compiles nothing. */
+/* Claims to be an NVRTC of the version at its file's name's end, "libnvrtc.so.12.3", for sm_7 and
+   that of ten times the number before the point. Version 0 fails to report it, and minor number 99
+   reports more architectures than there are. It compiles nothing. */
 #define _GNU_SOURCE /* dladdr */
 #include <dlfcn.h>
 #include <stdio.h>
@@ -32,7 +32,7 @@ HdNvrtcResult nvrtcGetSupportedArchs(int *list) {
     return 0;
 }
 
-/* What nobody calls. */
+/* Functions that nobody calls. */
 #define STUB(symbol)                                                                               \
     HdNvrtcResult symbol(void);                                                                    \
     HdNvrtcResult symbol(void) {                                                                   \

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The driver: the fake one (tests/fake_cuda), one that lacks functions, none; each in a process of
-   its own, which the loader tells where to look. */
+   its own, with its own path for the loader. */
 #define _XOPEN_SOURCE 700
 #include "device/cuda/api.h"
 
@@ -16,7 +16,7 @@ static char said[4096];
 
 /* ---- loading ---- */
 
-/* The program again: loads the driver, tells what came of it, and ends with the status. */
+/* Loads the driver in a process of this program, prints the result, and ends with the status. */
 static int load(void) {
     HdDevice device;
     int count;
@@ -44,7 +44,7 @@ static void expect_loading(const char *folder, HdStatus expected, const char *me
     assert_int_equal(WEXITSTATUS(status), expected);
 }
 
-TEST(a_driver_is_loaded_or_told_to_be_missing_or_old) {
+TEST(a_driver_is_loaded_or_reported_as_missing_or_old) {
     setenv("FAKE_CUDA_DRIVER", "13010", 1);
     expect_loading(FAKE_CUDA, HD_OK, "CUDA_ERROR_OUT_OF_MEMORY, sm_61, driver for CUDA 13.1");
     assert_int_equal(symlink(STUB_NVRTC, "libcuda.so.1"), 0);
@@ -56,7 +56,7 @@ TEST(a_driver_is_loaded_or_told_to_be_missing_or_old) {
                    "the NVIDIA driver (libcuda.so.1) is not installed");
 }
 
-TEST(what_may_help_a_driver_to_start_is_told) {
+TEST(remedies_for_a_failing_driver_are_reported) {
     static const struct {
         const char *code, *version;
         HdStatus status;
@@ -88,7 +88,7 @@ TEST(what_may_help_a_driver_to_start_is_told) {
 
 /* ---- errors ---- */
 
-static HdCuResult outcome; /* of asking for words */
+static HdCuResult outcome; /* asking for words */
 static const char *word;
 
 static HdCuResult tell(HdCuResult code, const char **text) {
@@ -117,7 +117,7 @@ TEST(errors_have_their_words) {
     }
 }
 
-TEST(what_a_device_does_not_survive_is_a_loss) {
+TEST(errors_that_lose_the_device) {
     static const HdCuResult losses[] = {46, 214, 220, 700, 702, 709, 714, 715, 716, 717, 718, 719};
     for (HdCuResult code = 1; code < 1000; code++) {
         bool is_loss = false;
@@ -125,7 +125,7 @@ TEST(what_a_device_does_not_survive_is_a_loss) {
             is_loss = is_loss || losses[i] == code;
         expect_failure("cuLaunchKernel", code, is_loss, "cuLaunchKernel failed");
     }
-    /* Another program has the device for itself. */
+    /* Another program has exclusive use of the device. */
     expect_failure("cuDevicePrimaryCtxRetain", 46, false, "cuDevicePrimaryCtxRetain failed");
     expect_failure("cuDevicePrimaryCtxRetain", 700, true, "cuDevicePrimaryCtxRetain failed");
 }

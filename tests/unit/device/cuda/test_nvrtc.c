@@ -28,13 +28,13 @@ static int end(void **state) {
     return remove_folder("there");
 }
 
-/* ---- what is remembered: it is not loaded, which could not be ---- */
+/* ---- a remembered version is not loaded: this one could not be ---- */
 
 static void expect_checked(int arch, int driver_major, HdStatus expected) {
     assert_int_equal(hd_nvrtc_check("some device", arch, driver_major, &error), expected);
 }
 
-TEST(what_is_remembered_is_not_loaded_while_it_is_as_it_was) {
+TEST(an_unchanged_remembered_library_is_not_loaded) {
     const struct timespec other[2] = {{.tv_sec = 1000}, {.tv_sec = 1000}};
     setenv("HEDRON_NVRTC", "/no/such/library.so", 1);
     expect_checked(61, 12, HD_UNAVAILABLE);
@@ -58,9 +58,9 @@ TEST(what_is_remembered_is_not_loaded_while_it_is_as_it_was) {
     expect_checked(61, 12, HD_UNAVAILABLE);
 }
 
-/* ---- which is taken: of stubs (stub_nvrtc.c), which alone compile for sm_7 ---- */
+/* ---- choosing among stubs (stub_nvrtc.c), which alone compile for sm_7 ---- */
 
-/* Below the folder that such a variable names. */
+/* Puts a stub below the folder that such a variable names. */
 static void put(const char *below, const char *name) {
     char command[2000];
     snprintf(command, sizeof command, "mkdir -p there/%s && cp %s there/%s/%s", below, STUB_NVRTC,
@@ -94,7 +94,7 @@ TEST(the_newest_that_suits_the_driver_is_taken) {
         put("lib64", names[i]);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         expect_version(cases[i][0], cases[i][1], NULL, cases[i][2], cases[i][3]);
-    /* What does not suit is told once. */
+    /* An unsuitable one is reported once. */
     expect_none(8, NULL,
                 "NVRTC 12.3 for sm_7 to sm_120, NVRTC 12.8 for sm_7 to sm_120, NVRTC 13.0");
     assert_null(strstr(strstr(error.message, "NVRTC 12.3") + 1, "NVRTC 12.3"));
@@ -102,7 +102,7 @@ TEST(the_newest_that_suits_the_driver_is_taken) {
 
 #define PACKAGE "lib/python3.11/site-packages/nvidia/cuda_nvrtc/lib"
 
-TEST(it_is_looked_for_where_people_put_it) {
+TEST(usual_folders_are_searched) {
     static const char *const found[][2] = {
         {"CUDA_HOME", "lib64"},
         {"CUDA_PATH", "lib64"},
@@ -131,7 +131,7 @@ TEST(it_is_looked_for_where_people_put_it) {
                 "branch 470 is the last for this card; found: ");
 }
 
-TEST(one_that_is_named_is_the_only_one) {
+TEST(a_named_library_is_the_only_candidate) {
     static const char *const ignored[] = {"libnvrtc.so.13.0", "libnvrtc.so.12.99",
                                           "libnvrtc.so.0.1"};
     setenv("CUDA_HOME", "there", 1);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Which of the program's PTX does what kernels of a shape would. */
+/* Choosing the program's PTX for kernels of a shape. */
 #include "device/cuda/compile.h"
 
 #include "unit_test.h"
@@ -19,7 +19,7 @@ const HdCudaPtx hd_cuda_ptx[] = {
 };
 const int hd_cuda_ptx_count = sizeof hd_cuda_ptx / sizeof *hd_cuda_ptx;
 
-TEST(what_does_all_is_found) {
+TEST(suitable_ptx_is_found) {
     static const struct {
         HdKernelShape shape;
         int expected;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A GPU's memory, its kernels and the queue of a wavefront, of a GPU whose memory runs out and
-   whose kernels are a letter. */
+/* A GPU's memory, kernels and wavefront queue, of a GPU whose memory runs out and whose kernels are
+   a letter. */
 #define _XOPEN_SOURCE 700
 #include "device/gpu/gpu.h"
 #include "test_folder.h"
@@ -9,8 +9,8 @@ static HdError error;
 static HdGpuProgram program;
 
 static struct {
-    size_t room;       /* what may still be taken */
-    bool breaks;       /* taking, loading and compiling fail, not for want of memory */
+    size_t room;       /* bytes that may still be allocated */
+    bool breaks;       /* allocating, loading and compiling fail, though memory is enough */
     int taken, living; /* memories */
     size_t most;       /* threads of a group that its kernels allow */
     bool has_kernels;
@@ -166,7 +166,7 @@ TEST(memory_is_kept_while_it_is_enough) {
     hd_gpu_release(&gpu, &memory);
     assert_null(memory.handle);
     assert_int_equal(card.living, 0);
-    /* An empty table has room. */
+    /* An empty table fits. */
     assert_int_equal(hd_gpu_write_table(&gpu, &memory, NULL, 0, "lights", &error), HD_OK);
     assert_non_null(memory.handle);
     assert_int_equal(hd_gpu_write_table(&gpu, &memory, "solids", 6, "solids", &error), HD_OK);
@@ -174,7 +174,7 @@ TEST(memory_is_kept_while_it_is_enough) {
     hd_gpu_release(&gpu, &memory);
 }
 
-TEST(a_lack_of_memory_is_told) {
+TEST(a_lack_of_memory_is_reported) {
     HdGpuMemory memory = {0};
     card.room = 1000;
     assert_int_equal(reserve(&memory, HD_GPU_DEVICE, 1001), HD_FAILED);
@@ -197,8 +197,8 @@ static const HdWaveNeeds queue_needs = {.bytes = 4 * HD_WAVE_MIN_BYTES,
                                         .samples = 1 << 20,
                                         .samples_at_once = 32};
 
-/* Of two workers; half of it is tried where there is no room. */
-TEST(a_queue_is_cut_to_what_there_is) {
+/* The queue of two workers; half of it is tried if memory is short. */
+TEST(a_queue_is_cut_to_the_available_memory) {
     static const struct {
         size_t room;
         HdStatus status;
@@ -223,7 +223,7 @@ TEST(a_queue_is_cut_to_what_there_is) {
     expect_contains(error.message, "the rays of the queue need 2.");
 }
 
-TEST(a_queue_counts_from_0_and_tells_what_it_lacks) {
+TEST(a_queue_counts_from_0_and_reports_its_missing_memory) {
     HdGpuWaveQueue queue = {0};
     HdWaveNeeds needs = queue_needs;
     unsigned taken = 1;
@@ -251,13 +251,13 @@ static HdStatus build_probe(void) {
     return hd_gpu_build_probe(&program, &gpu, &error);
 }
 
-/* All in all so many kernels are compiled then. */
+/* Expects so many kernels compiled in total. */
 static void expect_compiled(HdStatus status, HdStatus expected, int compiled) {
     assert_int_equal(status, expected);
     assert_int_equal(card.compiled, compiled);
 }
 
-TEST(kernels_are_built_for_other_needs_or_the_probe_only) {
+TEST(kernels_are_built_only_for_other_needs_or_the_probe) {
     expect_compiled(build(8), HD_OK, 1);
     expect_compiled(build(8), HD_OK, 1);
     expect_compiled(build(16), HD_OK, 2);
@@ -292,7 +292,7 @@ TEST(groups_are_as_large_as_the_kernels_allow) {
     assert_int_equal(program.group_size, 1);
 }
 
-TEST(groups_that_were_asked_for_are_not_made_smaller) {
+TEST(requested_groups_are_not_made_smaller) {
     program.block = 128;
     card.most = 128;
     assert_int_equal(build(8), HD_OK);
@@ -305,7 +305,7 @@ TEST(groups_that_were_asked_for_are_not_made_smaller) {
     assert_false(program.is_built || card.has_kernels);
 }
 
-TEST(what_fails_is_tried_again) {
+TEST(failed_devices_are_tried_again) {
     card.breaks = true;
     expect_compiled(build(8), HD_UNAVAILABLE, 1);
     expect_compiled(build(8), HD_UNAVAILABLE, 2);

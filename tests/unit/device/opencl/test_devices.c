@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What becomes of what OpenCL's drivers say of their devices and of errors. */
+/* Interpretation of OpenCL drivers' reports on their devices and errors. */
 #define _POSIX_C_SOURCE 200809L
 #include "device/opencl/devices.h"
 
@@ -111,7 +111,7 @@ AT_START(hide_displays)
 static HdDevice devices[HD_MAX_DEVICES];
 static HdError error;
 
-TEST(devices_and_obstacles_are_described) {
+TEST(devices_and_unsupported_reasons_are_described) {
     static const char all[] = "it is not available, its driver has no compiler, it is older than "
                               "OpenCL 1.2, it is not little-endian";
     static const char *const unsupported_reasons[COUNT] = {"", "", "it is older than OpenCL 1.2",
@@ -128,7 +128,7 @@ TEST(devices_and_obstacles_are_described) {
     assert_true(devices[0].has_wide_atomics && !devices[0].is_cpu && !devices[0].has_double);
     assert_int_equal(devices[1].nvidia_arch, 0);
     assert_true(devices[1].is_cpu && !devices[1].has_wide_atomics && !devices[1].has_timeout);
-    assert_true(devices[2].has_timeout); /* nobody tells */
+    assert_true(devices[2].has_timeout); /* nobody reports it */
     assert_int_equal(hd_opencl_enumerate(devices, 2, &count, &error), HD_OK);
     assert_int_equal(count, 2);
 }
@@ -147,7 +147,7 @@ TEST(devices_are_found_by_number) {
 
 /* ---- errors ---- */
 
-TEST(a_lost_device_is_told) {
+TEST(a_lost_device_is_reported) {
     static const struct {
         const char *function;
         cl_int code;
@@ -179,7 +179,7 @@ TEST(a_lost_device_is_told) {
     assert_false(hd_is_loss(&error));
 }
 
-/* From the first to the last that OpenCL 1.2 has, but for those between its two groups. */
+/* From the first to the last of OpenCL 1.2, except those between its two groups. */
 TEST(errors_have_their_names) {
     for (int code = -68; code <= 1; code++) {
         const bool is_none = code >= 0 || (code > CL_INVALID_VALUE && code < -19);

@@ -36,7 +36,7 @@ static HdMesh read_text(const char *text) {
     return read_bytes(text, strlen(text));
 }
 
-/* The whole message is expected. */
+/* Expects the whole message. */
 static void expect_refused_bytes(const void *bytes, size_t size, const char *message) {
     HdMesh mesh;
     write_bytes("a.obj", bytes, size);
@@ -51,7 +51,7 @@ static void expect_refused(const char *text, const char *message) {
     expect_refused_bytes(text, strlen(text), message);
 }
 
-TEST(everything_of_a_face_is_read) {
+TEST(all_parts_of_a_face_are_read) {
     HdMesh mesh = read_text("v -1.5 +2 .5e1 1.0\nv 1 0 0 0.5 0.5 0.5\nv\t0\t1\t-0.25E-1\n"
                             "vt 0.25 0.5 0\nvt 0.75\nvn 0 0 2\nvn 0 0 0\n"
                             "f 1/1/1 2/2/1 3//2\nf 3 2/1 1//1\nf -3/-1/-2 -2/ -1//\n");
@@ -75,7 +75,7 @@ TEST(everything_of_a_face_is_read) {
     assert_int_equal(mesh.material_count, 1);
     hd_mesh_free(&mesh);
 
-    /* The largest numbers, and what no face uses. */
+    /* The largest numbers, and values that no face uses. */
     mesh = read_text("v 1e12 -1000000000000 0\nv 12345678.9e-3 1E+2 0\nv 0 0 0.1e-11\n"
                      "vn 0 0 1\nvt 0 0\nf 1 2 3\n");
     assert_true(mesh.vertices[0].x == (double)1e12f && mesh.vertices[0].y == (double)-1e12f);
@@ -148,7 +148,7 @@ TEST(long_lines_and_comments_pass) {
                          "a.obj: line 11001: with its continuations it is longer than 65000 bytes");
 }
 
-TEST(files_that_cannot_be_read_are_told_apart) {
+TEST(files_that_cannot_be_read_are_distinguished) {
     /* The first byte of a process' memory is at no address. */
     static const char *const files[][2] = {{"missing.obj", "No such file or directory"},
                                            {"folder", "Is a directory"},
@@ -165,7 +165,7 @@ TEST(files_that_cannot_be_read_are_told_apart) {
     }
 }
 
-TEST(what_is_no_obj_file_is_told) {
+TEST(a_file_that_is_not_obj_is_reported) {
 #define NO_FACES                                                                                   \
     "cannot read the mesh a.obj: it has no faces, so it is empty or no OBJ file (of other "        \
     "formats, such as STL, PLY and glTF, Blender or assimp can make one)"
@@ -181,7 +181,7 @@ TEST(what_is_no_obj_file_is_told) {
                    "a.obj: line 2: it begins with byte 0x1b, so it is no OBJ file");
 }
 
-TEST(wrong_numbers_are_told) {
+TEST(wrong_numbers_are_reported) {
     static const struct {
         const char *expected, *numbers[12];
     } wrong[] = {
@@ -213,7 +213,7 @@ TEST(wrong_numbers_are_told) {
 
 #define BACK " counted back from here"
 
-TEST(wrong_faces_are_told) {
+TEST(wrong_faces_are_reported) {
     static const struct {
         const char *face, *problem;
     } wrong[] = {
@@ -300,12 +300,12 @@ static HdMeshMaterial read_material(const char *text) {
 
 #define OF_M "a.obj: material 'm': "
 
-/* Statements of the material m, what becomes of it (colour | mirror tint | ambient, diffuse,
-   specular, shininess | reflection, transmission, index of refraction | emission), and the note
-   that they bring. */
+/* Statements of the material m, the result (colour | mirror tint | ambient, diffuse, specular,
+   shininess | reflection, transmission, index of refraction | emission), and the note that they
+   cause. */
 static const char *const material_cases[][3] = {
     {"", "1 1 1 | 1 1 1 | 0 1 0 64 | 0 0 1 | 0 0 0"},
-    /* Nothing passes, so that Ni does not count. */
+    /* Nothing passes, so Ni does not count. */
     {"Ka 0.1 0.2 0.6\nKd 0.5 0.25 0.125\nKs 0.2 0.4 0.6\nKe 3 2 1\nNs 96.6\nNi 1.5",
      "0.5 0.25 0.125 | 1 1 1 | 0.3 1 0.4 97 | 0 0 1 | 3 2 1"},
     {"Kd .5\nKs .3\nillum 1", "0.5 0.5 0.5 | 1 1 1 | 0 1 0 64 | 0 0 1 | 0 0 0"},
@@ -318,13 +318,13 @@ static const char *const material_cases[][3] = {
     {"Ni 1.25\nillum 7\nd 0.75\nTf 1 1 1", "1 1 1 | 1 1 1 | 0 0.75 0 64 | 0 0.25 1.25 | 0 0 0"},
     /* Black glass is seen through its filter. */
     {"Kd 0 0 0\nillum 7\nTf 0.4 0.8 0.2", "0.5 1 0.25 | 1 1 1 | 0 0 0 64 | 0 0.8 1 | 0 0 0"},
-    /* Tr is the other way round, and only where there is no d. */
+    /* Tr is the inverse of d, and only counts without it. */
     {"d 0.75\nTr 0.5", "1 1 1 | 1 1 1 | 0 0.75 0 64 | 0 0.25 1 | 0 0 0"},
     /* Together with the mirror at most all. */
     {"Ks 1 1 1\nd 0\nillum 7", "1 1 1 | 1 1 1 | 0 0 1 64 | 0.5 0.5 1 | 0 0 0",
      OF_M "Ks reflects 1 and d or Tf transmits 1, expected at most 1 together, and both "
           "are divided by 2"},
-    /* What is made legal; without a highlight the exponent does not matter. */
+    /* Corrected values; without a highlight the exponent does not matter. */
     {"Kd 2 1 0", "1 1 0 | 1 1 1 | 0 1 0 64 | 0 0 1 | 0 0 0",
      OF_M "Kd is 2, expected 0 to 1, and becomes 1"},
     {"Ka 0 1.5 0.5", "1 1 1 | 1 1 1 | 0.5 1 0 64 | 0 0 1 | 0 0 0",
@@ -374,7 +374,7 @@ TEST(materials_are_mapped) {
     assert_true(read_material("newmtl n\nd 1\nnewmtl m\nTr 0.75\n").material.transmission == 0.75);
 }
 
-TEST(what_is_not_used_is_noted) {
+TEST(unused_statements_are_noted) {
     static const struct {
         const char *statements, *notes;
     } cases[] = {
@@ -400,7 +400,7 @@ TEST(what_is_not_used_is_noted) {
         snprintf(text, sizeof text, "a.mtl: line %s\n", cases[i].notes);
         assert_string_equal(notes.text, text);
     }
-    /* What is before the first material belongs to none; that of no library is white. */
+    /* Statements before the first material belong to none; a material of no library is white. */
     const HdMaterial white = read_material("Kd 0 0 0\nnewmtl m\n").material;
     const HdMaterial none = read_material("").material;
     assert_memory_equal(&none, &white, sizeof white);
@@ -461,7 +461,7 @@ TEST(too_many_materials_are_refused) {
                                        "expected at most 65536");
 }
 
-/* `note` is the only one. */
+/* Expects `note` as the only one. */
 static void expect_note_of(const char *statements, const char *note) {
     HdMesh mesh = read_triangle(statements);
     assert_int_equal(notes.count, 1);
@@ -515,7 +515,7 @@ TEST(libraries_stay_in_the_folder) {
     hd_mesh_free(&mesh);
 }
 
-/* Of a material with the map; NULL: none. */
+/* Expects a material with the map; NULL: none. */
 static void expect_texture(const char *library, const char *map, const char *texture) {
     char text[128];
     snprintf(text, sizeof text, "newmtl m\nmap_Kd  %s \n", map);
@@ -559,7 +559,7 @@ TEST(textures_stay_in_the_folder) {
     expect_texture("-dash/a.mtl", "b.png", "./-dash/b.png");
 }
 
-/* Every limit ends in the error or in a mesh, and there is one from which on there is a mesh. */
+/* Every limit gives an error or a mesh, and beyond some limit always a mesh. */
 TEST(memory_is_limited) {
     const int open_before = count_entries("/proc/self/fd");
     write_text("a.mtl", "newmtl m\nmap_Kd a.png\nKd 1 1 1\nnewmtl n\nKd 1 1 1\n");
@@ -594,8 +594,8 @@ TEST(memory_is_limited) {
     assert_int_equal(count_entries("/proc/self/fd"), open_before);
 }
 
-/* Of those that are OBJ files neither by their names nor by what they say first. */
-TEST(words_of_other_files_are_not_told) {
+/* Files whose names and first words are not those of OBJ. */
+TEST(other_files_are_not_quoted) {
     static const char *const cases[][2] = {
         {"root:x:0 hidden\nf password\n", "corner '...' of a face"},
         {"root:x:0 hidden\n", "it has no faces"},
