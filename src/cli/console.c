@@ -18,9 +18,9 @@
 
 enum { BAR_WIDTH = 24, SECONDS_BETWEEN_LINES = 5, MAX_HOURS = 99999, USUAL_COLUMNS = 80 };
 
-/* A frame is not looked into before it has taken so long, and then so often. Plain lines about it
-   wait until so much more of a frame is done, so that an hour's frame has a hundred of them. */
-static const double LONG_FRAME = 1.0, GLANCE = 0.2, MIN_PART = 0.01;
+/* Seconds before a running frame is polled, and between polls; share of a frame between plain
+   lines: a frame of an hour gets a hundred of them. */
+static const double LONG_FRAME = 1.0, POLL_INTERVAL = 0.2, MIN_PART = 0.01;
 
 /* Seconds of preparing devices that are worth a word in the last line. */
 static const double LEAST_PREPARING = 0.1;
@@ -153,8 +153,8 @@ static void update(HdConsole *console) {
 
 static void wait_poll_interval(HdConsole *console) {
     struct timespec until;
-    clock_gettime(CLOCK_REALTIME, &until); /* the condition's; where it jumps, a glance is longer */
-    until.tv_nsec += (long)(1e9 * GLANCE);
+    clock_gettime(CLOCK_REALTIME, &until); /* the condition's clock; a jump only lengthens a wait */
+    until.tv_nsec += (long)(1e9 * POLL_INTERVAL);
     until.tv_sec += until.tv_nsec / 1000000000;
     until.tv_nsec %= 1000000000;
     pthread_cond_timedwait(&console->over, &console->mutex, &until);
@@ -173,7 +173,7 @@ static void *watch(void *argument) {
     return NULL;
 }
 
-/* Without a thread whole frames are told of. */
+/* Without a thread only whole frames are reported. */
 void hd_console_watch(HdConsole *console, const HdWatch *frames) {
     if (!console->quiet && isatty(STDERR_FILENO))
         hd_interrupt_announce(console->form == HD_PROGRESS_BAR
@@ -370,7 +370,7 @@ static void count_frame(HdConsole *console, const HdFrame *frame) {
     update(console);
 }
 
-/* Programs are told of every frame, people of those that were rendered. */
+/* Reports every frame to programs, rendered ones to people. */
 void hd_console_release(HdConsole *console, const HdStoredFrame *stored) {
     if (stored != NULL && console->form == HD_PROGRESS_FRAMES && hd_wait_to_write(STDERR_FILENO))
         fprintf(stderr, "hedron: frame %d stored, %d of %d\n", stored->number, stored->done,

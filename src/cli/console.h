@@ -64,9 +64,9 @@ void hd_console_clear(const HdConsole *console);
 
 void hd_console_report_devices(const HdConsole *console, const HdDeviceTeam *team);
 
-/* The frames begin, and `watch` is told of them until the end below: on a terminal a frame that
-   takes long is seen to grow, and plain lines tell of it now and then. The first signal is answered
-   at once where somebody may be waiting at a terminal. */
+/* Begins to report the frames in `watch`, until the end below: a terminal shows the progress within
+   a long frame, plain lines report it from time to time. Announces the first signal at once if
+   standard error is a terminal. */
 void hd_console_watch(HdConsole *console, const HdWatch *watch);
 
 /* Between the two something else may be written where the bar is, not for long. The second tells

@@ -23,7 +23,7 @@ typedef struct HdStatistics {
 HdStatus hd_statistics_settle(HdStatistics *statistics, const char *path, const char *scene,
                               const HdOutputPlan *plan, int frame_number, HdError *error);
 
-/* Begins the file anew, where it is wanted; makes missing folders. */
+/* Truncates the file, if one is wanted; makes missing folders. */
 HdStatus hd_statistics_open(HdStatistics *statistics, HdError *error);
 
 /* Writes and flushes one line. Numbers have a decimal point in every locale. `line` is what the

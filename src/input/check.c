@@ -166,8 +166,8 @@ static HdCylinderPath swings_of(const HdPath *path) {
     return (HdCylinderPath){.r0 = hd_length(aside), .z0 = path->point.z};
 }
 
-/* True for most flights, and then it saves a look at millions of frames: their heights or their
-   distances from the z axis differ always. */
+/* Returns true for most camera paths, which saves checking millions of frames: their heights or
+   their distances from the z axis always differ. */
 static bool paths_keep_apart(const HdPath *eye, const HdPath *target) {
     static const double margin = 1e-9;
     const HdCylinderPath a = swings_of(eye), b = swings_of(target);

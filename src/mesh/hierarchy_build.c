@@ -378,7 +378,7 @@ static bool allocate(Build *build, HdHierarchy *hierarchy) {
     const size_t count = (size_t)build->count;
     build->memory = hd_large_allocate(2 * count * sizeof(HdItem));
     build->nodes = hd_large_allocate(count * sizeof *build->nodes);
-    build->top = malloc(sizeof *build->top); /* small pages: usually little of it is touched */
+    build->top = malloc(sizeof *build->top); /* small pages: usually little of it is used */
     hierarchy->order = hd_large_allocate(count * sizeof *hierarchy->order);
     if (build->memory == NULL || build->nodes == NULL || build->top == NULL ||
         hierarchy->order == NULL)

@@ -218,7 +218,7 @@ static HdStatus sample_chosen(HdRefinement *r, int count, int from, int samples,
     r->requests = hd_reserved(r->requests, sizeof *r->requests, all, &r->request_capacity);
     r->means = hd_reserved(r->means, sizeof *r->means, all, &r->mean_capacity);
     if (r->requests == NULL || r->means == NULL)
-        return HD_NO_ROOM(error, "surveys of %d pixels", all);
+        return HD_NO_ROOM(error, "the means of %d pixels", all);
     hd_chunks_run(r->threads, count, request_samples, &pass);
     const double own = (double)count * (samples - from);
     const HdBoundPass asked = {.requests = r->requests,

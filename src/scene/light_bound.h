@@ -16,7 +16,7 @@ HdVec3 hd_surface_bound(const HdScene *scene);
 /* Returns a bound of any ray's radiance, for ray depths up to HD_MAX_DEPTH. Let a surface show at
    most s by itself and send on a share q. It shows at most s / (1 - q) if all that it sees does
    likewise, or else at most what the background or discs show. These plus s for each ray depth are
-   a second bound; the lesser one counts. */
+   a second bound; the smaller one counts. */
 HdVec3 hd_radiance_bound(const HdScene *scene);
 
 /* Bounds of the radiance of rays that leave an object. */

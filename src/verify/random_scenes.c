@@ -55,7 +55,7 @@ static const Kind kinds[] = {
     {.name = "all features with meshes",
      .needs = {SHALLOW, SMALL, HAS_MESHES, ALL},
      .has_meshes = true},
-    {.name = "surveyed", .needs = {SHALLOW, SMALL, ALL, .bounded = true}, .is_bounded = true},
+    {.name = "error bound", .needs = {SHALLOW, SMALL, ALL, .bounded = true}, .is_bounded = true},
     {.name = "meshes in global memory, error bound",
      .needs = {SHALLOW, HAS_MESHES, ALL, .bounded = true},
      .has_meshes = true,

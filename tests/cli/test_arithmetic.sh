@@ -46,7 +46,7 @@ done
 expect_stderr_contains "taken from $work/cache"
 rm -r "$work/cache"
 expect_exit 0 "${no_nvidia[@]}" "${render[@]}" --verbose
-! grep -q 'division by fma' "$logs/stderr" || fail 'a device that divides rightly divides by fma'
+! grep -q 'division by fma' "$logs/stderr" || fail 'a device that divides correctly divides by fma'
 rm -r "$work/cache" picture.data
 
 # ---- faults without a remedy are refused before kernels are compiled; then that is remembered

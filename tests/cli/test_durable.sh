@@ -58,7 +58,7 @@ expect_durable "$hedron" compare new/deep/0.png new/deep/1.png --diff heat.png
 
 # ---- without
 rm "$work/log"
-expect_exit 0 "${watched[@]}" "$hedron" "${frames[@]}" --frames 0-3 -o fleeting/%d.png --stats fleeting.jsonl --no-sync
+expect_exit 0 "${watched[@]}" "$hedron" "${frames[@]}" --frames 0-3 -o unsynced/%d.png --stats unsynced.jsonl --no-sync
 ! grep -v '^rename ' "$work/log" || fail "--no-sync syncs"
 
 # ---- a disk that fails: earlier frames stay, later ones are gone, nothing is incomplete

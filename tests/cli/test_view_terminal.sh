@@ -69,8 +69,8 @@ see blocks "$waits" "keys:$right" wait:moving: "$waits" "keys:$right" wait:movin
 see blocks wait:finished keys:.... 'wait:frame 4 of 240' 'keys: ' wait:playing 'keys: ' keys:p wait:saved keys:q \
     -- --backend c "${small[@]}"
 frame=$(tr '\033' '\n' <screen | sed -n 's/.*frame \([0-9]*\) of 240; h.*/\1/p' | tail -n 1)
-expect_exit 0 "$hedron" render --quiet --frames "$frame" --backend c -o flight.png "${small[@]}"
-expect_exit 0 "$hedron" compare flight.png hedron-001.png --fail-above 0
+expect_exit 0 "$hedron" render --quiet --frames "$frame" --backend c -o path.png "${small[@]}"
+expect_exit 0 "$hedron" compare path.png hedron-001.png --fail-above 0
 rm -f hedron-001.png
 
 # ---- two settings side by side

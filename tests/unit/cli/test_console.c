@@ -16,7 +16,7 @@ TEST(lines_have_rate_and_time_left) {
         {{1, 1, 0.0, 59.6, 0.0}, "1/1 frames, 0.02 frames/s, 1:00 in all"},
         {{1, 1, 0.0, 3599.4, 0.0}, "1/1 frames, 0.00 frames/s, 59:59 in all"},
         {{1, 1, 0.0, 1e300, 0.0}, "1/1 frames, 0.00 frames/s, 99999:00:00 in all"},
-        /* preparing is told by itself, and is not in the rate */
+        /* preparing is reported separately, and is not in the rate */
         {{12, 120, 0.0, 12.0, 4.0}, "12/120 frames, 1.50 frames/s, 1:12 left"},
         {{120, 120, 0.0, 64.0, 4.0},
          "120/120 frames, 2.00 frames/s, 1:04 in all, 4.0 s of it to prepare"},

@@ -101,7 +101,7 @@ TEST(everything_that_kernels_depend_on_counts) {
 }
 
 /* These entries report no test, or nothing at all. */
-TEST(damaged_kernels_are_compiled_anew) {
+TEST(damaged_kernels_are_compiled_again) {
     static const char *const entries[] = {"", "\n\n", "passed\nnobody\nfake", "fake"};
     expect_rendered(HD_OK, 1, 0);
     for (int i = 0; i < 4; i++) {

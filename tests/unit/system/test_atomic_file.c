@@ -116,7 +116,7 @@ static void expect_failure(HdAtomicFile *file, const char *message) {
 TEST(only_lasting_files_are_synced) {
     HdAtomicFile file;
     syncs = 0;
-    assert_int_equal(hd_atomic_file_open(&file, "fleeting", &error), HD_OK);
+    assert_int_equal(hd_atomic_file_open(&file, "unsynced", &error), HD_OK);
     assert_int_equal(hd_atomic_file_commit(&file, HD_WITHOUT_SYNC, &error), HD_OK);
     assert_int_equal(syncs, 0);
     assert_int_equal(hd_atomic_file_open(&file, "lasting", &error), HD_OK);
