@@ -195,8 +195,11 @@ FN vint load_ints(GLOBAL const int *from) {
 
 #if HD_LANES > 1 && !HD_DOUBLE
 #define HD_OWN_ROWS
-/* Loads the rows of four lanes; the halves of its halves are columns. PoCL makes scattered stores
-   of code that writes lane by lane. */
+/* Returns 16 ints: the row of `lane`, then of the three lanes after it. A row is four
+   consecutive ints that begin at table[index of the lane]; `index` counts ints, and any
+   alignment will do. Column 0 of the four rows is .even.even, 1 is .odd.even, 2 is .even.odd, 3
+   is .odd.odd. Vectors, because PoCL turns writes to single lanes (set_lane_int) into scattered
+   stores. */
 FN int16 load_four_rows(GLOBAL const int *table, vint index, int lane) {
     return (int16)(vload4(0, table + lane_int(&index, lane)),
                    vload4(0, table + lane_int(&index, lane + 1)),

@@ -152,9 +152,11 @@ HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *erro
         return hd_fail(error, HD_BAD_INPUT, "a frame was collected and none was in flight");
     if (frame->floats != tables->floats || frame->width != tables->width ||
         frame->height != tables->height)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "a frame of %d x %d pixels was given for one of %d x %d", frame->width,
-                       frame->height, tables->width, tables->height);
+        return hd_fail(
+            error, HD_BAD_INPUT,
+            "a frame of %d x %d pixels and %d floats was given for one of %d x %d and %d",
+            frame->width, frame->height, frame->floats, tables->width, tables->height,
+            tables->floats);
     HdStatus status = renderer->backend->functions->collect(renderer->state, tables, frame, error);
     if (status == HD_OK && frame->longest_launch > renderer->longest_launch)
         renderer->longest_launch = frame->longest_launch;

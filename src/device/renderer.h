@@ -25,9 +25,11 @@ HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, H
 HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
                             const HdFrameRequest *request, HdError *error);
 
-/* Blocks on the oldest frame in flight, which must exist, and retires it, even on failure. `frame`
-   must have its size, and `rgba` unless radiance was requested. HD_INTERRUPTED after a signal
-   (interrupt.h), or if the watcher cancels (watch.h). */
+/* Blocks on the oldest frame in flight, fills `frame`, and takes it out of flight, also if the
+   backend fails. `frame` must have the width, height and floats of the submitted tables, and
+   `rgba` unless radiance was requested. HD_BAD_INPUT: no frame is in flight, or the size or
+   floats differ; nothing is then collected. HD_INTERRUPTED: a signal came (interrupt.h) or the
+   caller's watch cancelled (watch.h). After an error the pixels are undefined. */
 HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *error);
 
 /* Fills the frame's `first` (hd_frame_add_layers) with the first hits of those tables. The renderer

@@ -27,7 +27,9 @@ enum {
     HD_CLASSIC_DEFAULT_VARIANT = 4
 };
 
-/* Returns whether the text begins with a number, as every classic input does and no scene. */
+/* Returns whether the text may be a classic input: its first character beyond white space is a
+   digit, '+', '-' or '.'. That holds for every classic input and for no scene file, which begins
+   with '{'. The text needs no terminating zero; `size` may be 0. */
 bool hd_classic_may_be(const char *text, size_t size);
 
 /* Parses `size` bytes of text, which need no terminating zero. Fills in what the classic input

@@ -93,7 +93,7 @@ HdStatus hd_mesh_build(HdMesh *mesh, HdThreadPool *pool, HdError *error) {
         return hd_fail(error, HD_FAILED, "out of memory: a mesh has %d triangles",
                        mesh->triangle_count);
     find_box(mesh, &mesh->lower, &mesh->upper);
-    HdVec3 middle = hd_mesh_middle(mesh);
+    HdVec3 middle = hd_mesh_centre(mesh);
     double scale = 1.0 / hd_mesh_half_side(mesh);
     for (int i = 0; i < mesh->triangle_count; i++)
         boxes[i] = box_of(mesh, i, middle, scale);

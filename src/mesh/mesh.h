@@ -75,28 +75,34 @@ bool hd_mesh_allocate(HdMesh *mesh, size_t vertices, size_t triangles);
    rounding of their coordinates. Unused vertices stay. */
 void hd_mesh_drop_degenerate(HdMesh *mesh);
 
-/* Replaces the normals by averages of the triangles around each vertex, weighted by their angle
-   there (Thuermer and Wuethrich 1998). Vertices at one place count as one. An edge stays sharp if
-   its two triangles meet at more than `crease_degrees` (0..180). Triangles that share only a vertex
-   do not affect each other; those without an area stay flat. The bytes depend on the mesh only.
+/* Replaces the normals by unit averages of the triangles around each vertex, weighted by their
+   angle there (Thuermer and Wuethrich 1998). Vertices with equal coordinates count as one. Two
+   triangles are averaged at a vertex if they share an edge there and their normals differ by at
+   most `crease_degrees` (0 to 180), or if a chain of such pairs around the vertex connects them.
+   Triangles without an area, and corners whose average is 0, stay flat (-1). Among more than 16
+   triangles at one edge not all pairs are compared. The same arguments give the same bits.
    HD_FAILED: out of memory; the mesh is then unchanged. */
 HdStatus hd_mesh_smooth(HdMesh *mesh, double crease_degrees, HdError *error);
 
 /* Divides each triangle of a mesh without normals and texture coordinates into `divisions` x
    `divisions` equal ones, which keep its material and group. Triangles that share an edge share its
-   new vertices. HD_BAD_INPUT: more than HD_MAX_MESH_TRIANGLES. On errors the mesh is unchanged. */
+   new vertices. HD_BAD_INPUT as hd_check_divisions; HD_FAILED: out of memory. On errors the mesh is
+   unchanged. */
 HdStatus hd_divide_triangles(HdMesh *mesh, int divisions, HdError *error);
 
-/* Checks `divisions`, and that `triangle_count` triangles give at most HD_MAX_MESH_TRIANGLES. */
+/* Fails with HD_BAD_INPUT if `divisions` is less than 1, or `triangle_count` * `divisions` *
+   `divisions` exceeds HD_MAX_MESH_TRIANGLES. */
 HdStatus hd_check_divisions(int64_t triangle_count, int divisions, HdError *error);
 
 /* Computes the box and builds the hierarchy of a finished mesh with at least one triangle. */
 HdStatus hd_mesh_build(HdMesh *mesh, HdThreadPool *pool, HdError *error);
 
-/* Return the centre of a built mesh's box, and half its longest side. */
-static inline HdVec3 hd_mesh_middle(const HdMesh *mesh) {
+/* Returns the centre of the box of a built mesh, in local coordinates. */
+static inline HdVec3 hd_mesh_centre(const HdMesh *mesh) {
     return hd_scale(hd_add(mesh->lower, mesh->upper), 0.5);
 }
+
+/* Returns half the longest side of that box. */
 static inline double hd_mesh_half_side(const HdMesh *mesh) {
     HdVec3 sides = hd_sub(mesh->upper, mesh->lower);
     return 0.5 * fmax(sides.x, fmax(sides.y, sides.z));

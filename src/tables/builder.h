@@ -102,7 +102,12 @@ HdFloorFrame hd_floor_frame(const HdFloor *floor);
 /* Returns the maximum radiance that a ray sees with clamped contributions. */
 HdVec3 hd_max_radiance(const HdScene *scene);
 
-/* Computes each mesh's first entries, the box about all instances and the hierarchy over them. */
+/* Fills places, sizes, mesh_centre, mesh_reach, top, first_top_node and the stack depths: each
+   mesh's first entries in the tables, its wide hierarchy with several lanes, the box about all
+   instances in world space, and the hierarchy over them. Call it after hd_builder_count. Does
+   nothing without instances. HD_BAD_INPUT: the meshes have more than HD_MAX_MESH_TRIANGLES
+   together. HD_FAILED: out of memory, or no thread pool. HD_INTERRUPTED: a signal came. Call
+   hd_builder_free_meshes in any case. */
 HdStatus hd_builder_prepare_meshes(HdBuilder *builder, HdError *error);
 void hd_builder_free_meshes(HdBuilder *builder);
 

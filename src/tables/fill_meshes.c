@@ -8,7 +8,7 @@
 /* ---- triangles ---- */
 
 static void store_corner(real out[3], const HdMesh *mesh, int corner) {
-    HdVec3 from_middle = hd_sub(mesh->vertices[corner], hd_mesh_middle(mesh));
+    HdVec3 from_middle = hd_sub(mesh->vertices[corner], hd_mesh_centre(mesh));
     hd_store3(out, hd_scale(from_middle, 1.0 / hd_mesh_half_side(mesh)));
 }
 

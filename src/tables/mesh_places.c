@@ -27,7 +27,7 @@ static void rotation_of(const HdInstance *instance, HdVec3 columns[3]) {
 HdPlacement hd_placement_of(const HdScene *scene, int number) {
     const HdInstance *instance = &scene->instances[number];
     const HdMesh *mesh = hd_mesh_of(scene, number);
-    HdVec3 middle = hd_mesh_middle(mesh);
+    HdVec3 middle = hd_mesh_centre(mesh);
     HdPlacement to;
     rotation_of(instance, to.columns);
     to.columns[0] = hd_scale(to.columns[0], instance->scale.x);

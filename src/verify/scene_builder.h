@@ -32,8 +32,12 @@ void build_camera(HdCamera *camera, HdVec3 eye, HdVec3 target, double field_of_v
 /* Allocates meshes in a scene; the caller frees them with the scene. */
 bool build_meshes(HdScene *scene, int meshes, int instances, int pictures);
 
-/* Makes a closed sphere of radius 1 with one material: `rows` rings of 2 rows triangles each,
-   displaced by up to `bump`. `smooth` adds normals, `mapped` texture coordinates. */
+/* Makes a closed sphere of radius 1 about the origin, poles on the z axis, in an empty (zeroed)
+   mesh with one material, which is copied. It has `rows` (at least 2) rings of 2 * `rows`
+   quadrilaterals, which are single triangles at the poles: 4 * rows * (rows - 1) triangles. A
+   fixed wave moves vertices along the radius by up to `bump`. `smooth` adds the normals of the
+   undisplaced sphere, `mapped` texture coordinates, also beyond 0 to 1. Builds no hierarchy. On
+   false the caller still frees the mesh. */
 bool build_sphere_mesh(HdMesh *mesh, int rows, double bump, bool smooth, bool mapped,
                        const HdMaterial *material);
 

@@ -112,8 +112,10 @@ typedef struct HdCudaDriver {
    device, HD_FAILED if it does not start; the message adds advice. */
 HdStatus hd_cuda_load_driver(HdCudaDriver *driver, HdError *error);
 
-/* Fails with the names of the function and of the error. Says so if the device is lost, so that no
-   later call of this process succeeds on it. */
+/* Fails with the names of the function and of the error, and the driver's description.
+   HD_UNAVAILABLE (hd_fail_lost) if the device is lost: `code` is in HD_CUDA_LOSSES, or is
+   DEVICE_UNAVAILABLE from any function but cuDevicePrimaryCtxRetain. Otherwise HD_FAILED. `code`
+   must be an error. */
 HdStatus hd_cuda_fail(const HdCudaDriver *driver, const char *function, HdCuResult code,
                       HdError *error);
 

@@ -17,7 +17,8 @@ HdStatus hd_opencl_enumerate(HdDevice *devices, int capacity, int *count, HdErro
 /* Finds the device with that number. HD_UNAVAILABLE if no kernel can run on it. */
 HdStatus hd_opencl_find(cl_device_id *device, int index, HdGpuFacts *facts, HdError *error);
 
-/* Returns the name, such as "CL_OUT_OF_RESOURCES"; "an unknown error" for non-standard codes. */
+/* Returns the name of an OpenCL 1.2 error, such as "CL_OUT_OF_RESOURCES", or
+   CL_PLATFORM_NOT_FOUND_KHR; otherwise "an unknown error". The text is static. */
 const char *hd_opencl_error_name(cl_int code);
 
 /* Fails with the names of the function and of the error: HD_UNAVAILABLE if the device is lost
