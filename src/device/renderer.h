@@ -25,7 +25,7 @@ HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, H
 HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
                             const HdFrameRequest *request, HdError *error);
 
-/* Blocks on the oldest frame in flight, fills `frame`, and takes it out of flight, also if the
+/* Blocks on the oldest frame in flight, fills `frame`, and removes it from the queue, also if the
    backend fails. `frame` must have the width, height and floats of the submitted tables, and
    `rgba` unless radiance was requested. HD_BAD_INPUT: no frame is in flight, or the size or
    floats differ; nothing is then collected. HD_INTERRUPTED: a signal came (interrupt.h) or the
