@@ -164,7 +164,8 @@ TEST(errors_are_refused_and_frames_in_flight_are_dropped) {
     assert_int_equal(hd_renderer_upload(renderer, &tables, &error), HD_BAD_INPUT);
     expect_contains(error.message, "a scene came while 2 frames were in flight, at most 0");
     assert_int_equal(hd_renderer_collect(renderer, &small, &error), HD_BAD_INPUT);
-    expect_contains(error.message, "a frame of 1 x 1 pixels and 3 floats was given for one of 16 x 16 and 3");
+    expect_contains(error.message,
+                    "a frame of 1 x 1 pixels and 3 floats was given for one of 16 x 16 and 3");
     hd_renderer_drop(renderer);
     hd_renderer_drop(renderer);
     assert_int_equal(fake.dropped, 1);
