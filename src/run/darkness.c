@@ -2,6 +2,7 @@
 #include "run/darkness.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "base/minmax.h"
 #include "render/backends.h"
@@ -75,31 +76,71 @@ static HdStatus look(Glimpse *seen, HdCurve curve, HdError *error) {
     return status;
 }
 
-static bool shows_light(const HdMaterial *material) {
-    return material->specular > 0.0 ||
+/* Tests of a material and its emission, which only materials of meshes have. */
+typedef bool MaterialTest(const HdMaterial *material, HdVec3 emission);
+
+static bool shows_colour(const HdMaterial *material, HdVec3 emission) {
+    return hd_largest(emission) > 0.0 ||
            (material->ambient + material->diffuse > 0.0 && hd_largest(material->colour) > 0.0);
 }
 
-static bool mesh_shows_light(const HdMesh *mesh) {
+static bool shows_light(const HdMaterial *material, HdVec3 emission) {
+    return material->specular > 0.0 || shows_colour(material, emission);
+}
+
+static bool is_mirror(const HdMaterial *material, HdVec3 emission) {
+    (void)emission;
+    return material->reflection + material->transmission + material->inner_reflection +
+               material->inner_transmission >
+           0.0;
+}
+
+static bool any_of_mesh(const HdMesh *mesh, MaterialTest *test) {
     for (int i = 0; i < mesh->material_count; i++)
-        if (shows_light(&mesh->materials[i].material) ||
-            hd_largest(mesh->materials[i].emission) > 0.0)
+        if (test(&mesh->materials[i].material, mesh->materials[i].emission))
             return true;
     return false;
 }
 
-static bool any_shows_light(const HdScene *scene) {
-    bool shows = scene->floor.present && shows_light(&scene->floor.material);
+static bool any_material(const HdScene *scene, MaterialTest *test) {
+    const HdVec3 none = {0};
+    bool is_any = scene->floor.present && test(&scene->floor.material, none);
     for (int i = 0; i < scene->solid_count; i++) {
         const HdSolid *solid = &scene->solids[i];
-        shows |= shows_light(&solid->face) || (solid->rim_width > 0.0 && shows_light(&solid->rim));
+        is_any |= test(&solid->face, none) || (solid->rim_width > 0.0 && test(&solid->rim, none));
     }
     for (int i = 0; i < scene->instance_count; i++) {
         const HdInstance *instance = &scene->instances[i];
-        shows |= instance->has_material ? shows_light(&instance->material)
-                                        : mesh_shows_light(&scene->meshes[instance->mesh]);
+        is_any |= instance->has_material ? test(&instance->material, none)
+                                         : any_of_mesh(&scene->meshes[instance->mesh], test);
     }
-    return shows;
+    return is_any;
+}
+
+/* Notes an object of which a colour is meant to be seen, but whose material shows nothing. */
+static void note_object(const char *name, int index, const HdMaterial *material,
+                        HdProblems *notes) {
+    const HdVec3 none = {0};
+    char number[16] = "";
+    if (shows_light(material, none) || is_mirror(material, none) ||
+        material->ambient + material->diffuse > 0.0 || hd_largest(material->colour) <= 0.0)
+        return;
+    if (index >= 0)
+        snprintf(number, sizeof number, "[%d]", index);
+    hd_problem(notes,
+               "%s%s shows no light: its material lacks ambient, diffuse, specular, reflection and "
+               "transmission",
+               name, number);
+}
+
+static void note_objects(const HdScene *scene, HdProblems *notes) {
+    for (int i = 0; i < scene->solid_count; i++)
+        note_object("solids", i, &scene->solids[i].face, notes);
+    for (int i = 0; i < scene->instance_count; i++)
+        if (scene->instances[i].has_material)
+            note_object("meshes", i, &scene->instances[i].material, notes);
+    if (scene->floor.present)
+        note_object("floor", -1, &scene->floor.material, notes);
 }
 
 static bool is_inside(const HdSolid *solid, HdVec3 point) {
@@ -138,12 +179,27 @@ static void note_lights(const Glimpse *seen, HdProblems *notes) {
             because(seen, notes, "lights[%d] is inside solids[%d], which is opaque", i, in);
     }
     if (!is_on)
-        because(seen, notes, "%s", "none of lights and edge_lights has an intensity and a colour");
+        because(seen, notes, "%s",
+                hd_scene_light_count(scene) == 0
+                    ? "the scene has no lights"
+                    : "none of lights and edge_lights has an intensity and a colour");
     else if (eye_in >= 0 && !is_with_eye)
         because(seen, notes, "camera.eye is inside solids[%d], which is opaque", eye_in);
 }
 
-static void note_reasons(const Glimpse *seen, HdProblems *notes) {
+/* Returns whether more reflections and transmissions make the picture brighter. */
+static bool is_too_shallow(const Glimpse *seen, HdCurve curve) {
+    HdScene deep = *seen->scene; /* what it owns stays with the other */
+    Glimpse deeper = {.scene = &deep, .frame = seen->frame};
+    HdError ignored;
+    if (deep.depth >= SMALL_DEPTH)
+        return false;
+    deep.depth = SMALL_DEPTH;
+    return look(&deeper, curve, &ignored) == HD_OK && deeper.bright >= min_share * deeper.hits;
+}
+
+static void note_reasons(const Glimpse *seen, HdCurve curve, HdProblems *notes) {
+    const bool is_coloured = any_material(seen->scene, shows_colour);
     const double exposure = seen->scene->exposure;
     const int before = notes->count;
     if (seen->bright == 0 && exposure <= max_exposure * seen->largest) {
@@ -151,29 +207,42 @@ static void note_reasons(const Glimpse *seen, HdProblems *notes) {
                 exposure, exposure / seen->largest);
         return;
     }
-    if (!any_shows_light(seen->scene))
+    if (is_too_shallow(seen, curve)) {
+        because(seen, notes, "image.depth is %d, too small to see through glass or in mirrors",
+                seen->scene->depth);
+        return;
+    }
+    if (!any_material(seen->scene, shows_light))
         because(seen, notes, "%s",
                 "no material shows light: all lack ambient, diffuse and specular, or a colour");
+    if (!is_coloured && any_material(seen->scene, is_mirror) &&
+        !is_bright(curve, exposure * hd_largest(seen->scene->background)))
+        because(seen, notes, "%s", "mirrors and glass show background, which is black");
     note_lights(seen, notes);
     if (notes->count == before && seen->bright == 0)
         because(seen, notes, "%s",
-                "no light reaches it: lights are behind it, behind what is opaque or the floor, or "
-                "end before it");
+                is_coloured ? "no light reaches it: lights are behind it, behind what is opaque or "
+                              "the floor, or end before it"
+                            : "materials have only specular, and no highlight is in view: give "
+                              "them diffuse");
 }
 
 void hd_note_darkness(const HdScene *scene, HdCurve curve, int frame, HdProblems *notes) {
     const int objects = scene->solid_count + scene->instance_count + scene->floor.present;
+    const int before = notes->count;
     const bool is_dark = !is_bright(curve, scene->exposure * hd_largest(scene->background));
     Glimpse seen = {.scene = scene, .frame = frame};
     HdError ignored;
     if (scene->crop.whole_width > 0 || look(&seen, curve, &ignored) != HD_OK)
         return;
     if (seen.hits > 0 && seen.bright < min_share * seen.hits)
-        note_reasons(&seen, notes);
+        note_reasons(&seen, curve, notes);
     /* A film may begin with an empty view, and a picture of the background may be meant. */
     if (seen.hits == 0 && (is_dark || (scene->frame_count == 1 && objects > 0)))
         hd_problem(notes,
                    "nothing is in view in frame %d%s: look at camera.eye, camera.target and "
                    "camera.field_of_view",
                    frame, is_dark ? ", and background is black" : "");
+    if (notes->count == before)
+        note_objects(scene, notes);
 }
