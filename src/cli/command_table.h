@@ -5,7 +5,7 @@ ROW(HD_COMMAND_RENDER, "render", "[SCENE.json]", ".json", 1, "render a scene to 
     "Renders the frames of SCENE.json (-: standard input), or of the built-in scene, and prints "
     "the name of each output.\n\n"
     "An output is a picture (" HD_PICTURE_ENDINGS "), a numbered sequence of pictures such as "
-    "out/%04d.png or out/####.png, or a film (" HD_FILM_ENDINGS "), which FFmpeg makes. A picture "
+    "out/%04d.png or out/####.png, or a film (" HD_FILM_ENDINGS "). FFmpeg makes films. A picture "
     "without a number takes a single frame.\n\n"
     "A numbered .png sequence can be resumed: finished pictures with the same pixels are kept, and "
     "a film in the same run contains them too.\n\n"
@@ -68,9 +68,8 @@ ROW(HD_COMMAND_COMPARE, "compare", "FIRST SECOND", NULL, 2,
     "--fail-above.")
 ROW(HD_COMMAND_HELP, "help", "[TOPIC]", NULL, 1, "explain a command or a topic",
     "TOPIC is a command, or: scene, every key of a scene file; classic, the classic mode; man, the "
-    "man page in troff; "
-    "completion, completion-zsh or completion-fish, a script that completes arguments in bash, zsh "
-    "or fish.")
+    "man page in troff; completion, completion-zsh or completion-fish, a script that completes "
+    "arguments in bash, zsh or fish.")
 ROW(HD_COMMAND_COMPLETE, "complete", "-- WORD...", NULL, -1, "list completions for a shell",
     "Prints the completions of the last WORD, which may be empty: one a line, then a tab and its "
     "meaning. ':.json' stands for file names with that ending, ':' for all file names. For the "

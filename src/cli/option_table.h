@@ -143,7 +143,8 @@ ROW("--stats", NULL, "FILE",
     RENDERING, TEXT(store.statistics, "a file or -"), .takes_file = true)
 ROW("--verbose", "-v", NULL, "Report what was chosen, and why", RENDERING, FLAG(telling.verbose),
     .only_one_of = loudness)
-ROW("--quiet", "-q", NULL, "Report errors only: no progress, no notes", RENDERING,
+ROW("--quiet", "-q", NULL,
+    "Print no progress and no notes. Names of outputs still go to standard output", RENDERING,
     FLAG(telling.quiet), .only_one_of = loudness)
 ROW("--frame-lines", NULL, NULL,
     "Print a line on standard error for each frame that is stored; with --quiet nothing else",

@@ -417,7 +417,7 @@ static const char quiet_text[] =
 #define SMALLER                                                                                    \
     ": it is drawn smaller by a millionth or so, lest rounding decide which is in front\n"
 
-#define FLIGHT(frames, phi, r)                                                                     \
+#define CAMERA_PATH(frames, phi, r)                                                                \
     "camera={\"frames\": " frames ", \"eye\": {\"r0\": 9, \"z0\": 1, \"r_amplitude\": 1, "         \
     "\"phi_frequency\": " phi ", \"r_frequency\": " r "}}"
 #define JUMPS ", so the film jumps from its end to its beginning; "
@@ -449,15 +449,15 @@ TEST(test_notes) {
          "camera.eye.phi0 is -45, which are radians, not degrees: -45 degrees are -0.7854\n"},
         {quiet_text, "camera.target={\"r0\": 1, \"z_phase\": 90}",
          "camera.target.z_phase is 90, which are radians, not degrees: 90 degrees are 1.571\n"},
-        {quiet_text, FLIGHT("9", "1", "2.25"),
+        {quiet_text, CAMERA_PATH("9", "1", "2.25"),
          "camera.eye.r_frequency is 2.25" JUMPS "2 or 3 makes it a loop\n"},
-        {quiet_text, FLIGHT("9", "-1.25", "1"),
+        {quiet_text, CAMERA_PATH("9", "-1.25", "1"),
          "camera.eye.phi_frequency is -1.25" JUMPS "-2 or -1 makes it a loop\n"},
         /* one frame; whole numbers; a shift that nobody sees; a view that only passes by */
-        {quiet_text, FLIGHT("1", "1.5", "1"), ""},
-        {quiet_text, FLIGHT("9", "1", "-2"), ""},
-        {quiet_text, FLIGHT("9", "1.0001", "1"), ""},
-        {quiet_text, FLIGHT("9", "0.25", "0.5"), ""},
+        {quiet_text, CAMERA_PATH("1", "1.5", "1"), ""},
+        {quiet_text, CAMERA_PATH("9", "1", "-2"), ""},
+        {quiet_text, CAMERA_PATH("9", "1.0001", "1"), ""},
+        {quiet_text, CAMERA_PATH("9", "0.25", "0.5"), ""},
         {quiet_text, "output={\"path\": \"f.mp4\", \"bits\": 16}",
          "output.bits is 16, but output.path is a film, which has 8 bits a channel\n"},
     };
