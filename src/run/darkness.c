@@ -2,7 +2,6 @@
 #include "run/darkness.h"
 
 #include <math.h>
-#include <stdio.h>
 
 #include "base/minmax.h"
 #include "render/backends.h"
@@ -76,71 +75,46 @@ static HdStatus look(Glimpse *seen, HdCurve curve, HdError *error) {
     return status;
 }
 
-/* Tests of a material and its emission, which only materials of meshes have. */
-typedef bool MaterialTest(const HdMaterial *material, HdVec3 emission);
+/* Ways in which a material shows light. */
+enum { COLOURED = 1, SHINY = 2, MIRROR = 4 };
 
-static bool shows_colour(const HdMaterial *material, HdVec3 emission) {
-    return hd_largest(emission) > 0.0 ||
-           (material->ambient + material->diffuse > 0.0 && hd_largest(material->colour) > 0.0);
+static unsigned ways_of(const HdMaterial *material, HdVec3 emission) {
+    const double diffuse = (material->ambient + material->diffuse) * hd_largest(material->colour);
+    const double mirrors = material->reflection + material->transmission +
+                           material->inner_reflection + material->inner_transmission;
+    return (diffuse > 0.0 || hd_largest(emission) > 0.0 ? COLOURED : 0) |
+           (material->specular > 0.0 ? SHINY : 0) | (mirrors > 0.0 ? MIRROR : 0);
 }
 
-static bool shows_light(const HdMaterial *material, HdVec3 emission) {
-    return material->specular > 0.0 || shows_colour(material, emission);
-}
-
-static bool is_mirror(const HdMaterial *material, HdVec3 emission) {
-    (void)emission;
-    return material->reflection + material->transmission + material->inner_reflection +
-               material->inner_transmission >
-           0.0;
-}
-
-static bool any_of_mesh(const HdMesh *mesh, MaterialTest *test) {
-    for (int i = 0; i < mesh->material_count; i++)
-        if (test(&mesh->materials[i].material, mesh->materials[i].emission))
-            return true;
-    return false;
-}
-
-static bool any_material(const HdScene *scene, MaterialTest *test) {
+/* Returns the ways of all materials of objects. */
+static unsigned ways_in(const HdScene *scene) {
     const HdVec3 none = {0};
-    bool is_any = scene->floor.present && test(&scene->floor.material, none);
+    unsigned ways = scene->floor.present ? ways_of(&scene->floor.material, none) : 0;
     for (int i = 0; i < scene->solid_count; i++) {
         const HdSolid *solid = &scene->solids[i];
-        is_any |= test(&solid->face, none) || (solid->rim_width > 0.0 && test(&solid->rim, none));
+        ways |= ways_of(&solid->face, none);
+        ways |= solid->rim_width > 0.0 ? ways_of(&solid->rim, none) : 0;
     }
     for (int i = 0; i < scene->instance_count; i++) {
         const HdInstance *instance = &scene->instances[i];
-        is_any |= instance->has_material ? test(&instance->material, none)
-                                         : any_of_mesh(&scene->meshes[instance->mesh], test);
+        const HdMesh *mesh = &scene->meshes[instance->mesh];
+        ways |= instance->has_material ? ways_of(&instance->material, none) : 0;
+        for (int j = 0; j < mesh->material_count && !instance->has_material; j++)
+            ways |= ways_of(&mesh->materials[j].material, mesh->materials[j].emission);
     }
-    return is_any;
+    return ways;
 }
 
-/* Notes an object of which a colour is meant to be seen, but whose material shows nothing. */
-static void note_object(const char *name, int index, const HdMaterial *material,
-                        HdProblems *notes) {
-    const HdVec3 none = {0};
-    char number[16] = "";
-    if (shows_light(material, none) || is_mirror(material, none) ||
-        material->ambient + material->diffuse > 0.0 || hd_largest(material->colour) <= 0.0)
-        return;
-    if (index >= 0)
-        snprintf(number, sizeof number, "[%d]", index);
-    hd_problem(notes,
-               "%s%s shows no light: its material lacks ambient, diffuse, specular, reflection and "
-               "transmission",
-               name, number);
-}
-
-static void note_objects(const HdScene *scene, HdProblems *notes) {
-    for (int i = 0; i < scene->solid_count; i++)
-        note_object("solids", i, &scene->solids[i].face, notes);
-    for (int i = 0; i < scene->instance_count; i++)
-        if (scene->instances[i].has_material)
-            note_object("meshes", i, &scene->instances[i].material, notes);
-    if (scene->floor.present)
-        note_object("floor", -1, &scene->floor.material, notes);
+/* Notes solids whose colour is meant to be seen, but whose faces show nothing. */
+static void note_solids(const HdScene *scene, HdProblems *notes) {
+    for (int i = 0; i < scene->solid_count; i++) {
+        const HdMaterial *face = &scene->solids[i].face;
+        if (ways_of(face, (HdVec3){0}) == 0 && hd_largest(face->colour) > 0.0)
+            hd_problem(notes,
+                       "solids[%d] shows no light: its material lacks ambient, diffuse, specular, "
+                       "reflection and transmission",
+                       i);
+    }
 }
 
 static bool is_inside(const HdSolid *solid, HdVec3 point) {
@@ -192,14 +166,12 @@ static bool is_too_shallow(const Glimpse *seen, HdCurve curve) {
     HdScene deep = *seen->scene; /* what it owns stays with the other */
     Glimpse deeper = {.scene = &deep, .frame = seen->frame};
     HdError ignored;
-    if (deep.depth >= SMALL_DEPTH)
-        return false;
-    deep.depth = SMALL_DEPTH;
+    deep.depth = hd_max(deep.depth, SMALL_DEPTH);
     return look(&deeper, curve, &ignored) == HD_OK && deeper.bright >= min_share * deeper.hits;
 }
 
 static void note_reasons(const Glimpse *seen, HdCurve curve, HdProblems *notes) {
-    const bool is_coloured = any_material(seen->scene, shows_colour);
+    const unsigned ways = ways_in(seen->scene);
     const double exposure = seen->scene->exposure;
     const int before = notes->count;
     if (seen->bright == 0 && exposure <= max_exposure * seen->largest) {
@@ -212,19 +184,20 @@ static void note_reasons(const Glimpse *seen, HdCurve curve, HdProblems *notes) 
                 seen->scene->depth);
         return;
     }
-    if (!any_material(seen->scene, shows_light))
+    if ((ways & (COLOURED | SHINY)) == 0)
         because(seen, notes, "%s",
                 "no material shows light: all lack ambient, diffuse and specular, or a colour");
-    if (!is_coloured && any_material(seen->scene, is_mirror) &&
+    if ((ways & COLOURED) == 0 && (ways & MIRROR) != 0 &&
         !is_bright(curve, exposure * hd_largest(seen->scene->background)))
         because(seen, notes, "%s", "mirrors and glass show background, which is black");
     note_lights(seen, notes);
     if (notes->count == before && seen->bright == 0)
         because(seen, notes, "%s",
-                is_coloured ? "no light reaches it: lights are behind it, behind what is opaque or "
-                              "the floor, or end before it"
-                            : "materials have only specular, and no highlight is in view: give "
-                              "them diffuse");
+                (ways & COLOURED) != 0
+                    ? "no light reaches it: lights are behind it, behind what is opaque or "
+                      "the floor, or end before it"
+                    : "materials have only specular, and no highlight is in view: give "
+                      "them diffuse");
 }
 
 void hd_note_darkness(const HdScene *scene, HdCurve curve, int frame, HdProblems *notes) {
@@ -244,5 +217,5 @@ void hd_note_darkness(const HdScene *scene, HdCurve curve, int frame, HdProblems
                    "camera.field_of_view",
                    frame, is_dark ? ", and background is black" : "");
     if (notes->count == before)
-        note_objects(scene, notes);
+        note_solids(scene, notes);
 }

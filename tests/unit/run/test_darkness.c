@@ -69,7 +69,7 @@ TEST(what_is_black_has_its_reason) {
         {"materials.m={\"reflection\": 1}",
          BLACK NO_MATERIAL BLACK "mirrors and glass show background, which is black\n"},
         {"solids[0].material=\"none\"", "solids[0]" NOTHING},
-        {"floor.material=\"none\"", "floor" NOTHING},
+        {"floor.material=\"none\"", ""},
         {"materials.none.colour=[0, 0, 0]", ""},
         {"lights=[]", BLACK "the scene has no lights\n"},
         {"lights=[{\"position\": [4, -5, 6], \"intensity\": 0}]", BLACK NO_LIGHT},
