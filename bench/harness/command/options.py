@@ -75,7 +75,7 @@ class Command:
         return arguments
 
     def refuse(self, parser, unknown):
-        """Ends the program; the message says where an option of hedron belongs."""
+        """Ends the program; reports where an option of hedron belongs."""
         hint = ""
         if self.own_options is not None and unknown[0].startswith("-") and unknown[0].split("=")[0] not in self.own_options:
             hint = f"; options of hedron render go behind --, as in '{self.title()} -- --size 320x180'"
