@@ -31,7 +31,7 @@ ROW(HD_COMMAND_CHECK, "check", "SCENE.json...", ".json", -1,
 ROW(HD_COMMAND_CONVERT, "convert", "[CLASSIC_INPUT]", NULL, 1,
     "convert a classic input to a scene file",
     "Reads the input of the classic mode from a file, or from standard input, and writes the same "
-    "scene as JSON. 'hedron render' makes the same pictures of it, byte for byte.")
+    "scene as JSON. 'hedron render' makes the same pixels of it.")
 ROW(HD_COMMAND_DEVICES, "devices", "", NULL, 0,
     "list backends and devices, and why others are unavailable",
     "Lists backends and devices, and the reason if one is unavailable.")
@@ -67,13 +67,17 @@ ROW(HD_COMMAND_COMPARE, "compare", "FIRST SECOND", NULL, 2,
     "The exit code is 1 if a colour is NaN or infinite, or if the maximum display error is above "
     "--fail-above.")
 ROW(HD_COMMAND_HELP, "help", "[TOPIC]", NULL, 1, "explain a command or a topic",
-    "TOPIC is a command, or: scene, every key of a scene file; man, the man page in troff; "
-    "completion, completion-zsh or completion-fish, a script that completes arguments in bash, zsh "
-    "or fish.")
+    "TOPIC is a command, or: scene, every key of a scene file; classic, the classic mode; man, the "
+    "man page in troff; completion, completion-zsh or completion-fish, a script that completes "
+    "arguments in bash, zsh or fish.")
 ROW(HD_COMMAND_COMPLETE, "complete", "-- WORD...", NULL, -1, "list completions for a shell",
     "Prints the completions of the last WORD, which may be empty: one a line, then a tab and its "
     "meaning. ':.json' stands for file names with that ending, ':' for all file names. For the "
     "scripts of 'hedron help completion'.")
 ROW(HD_COMMAND_CLASSIC, NULL, "< INPUT", NULL, 0, "the classic mode",
     "The classic mode reads a configuration from standard input. It prints one line for each "
-    "frame, and nothing else: frame TAB milliseconds TAB rays.")
+    "frame, and nothing else: frame TAB milliseconds TAB rays.\n\n"
+    "The configuration is numbers and paths, separated by white space: frames, output path, width, "
+    "height, field of view; camera paths of eye and target; three solids; floor; lights; depth and "
+    "samples. '--default' prints an example, docs/reference/files.md explains each number, and "
+    "'hedron convert' makes a scene file of it.")

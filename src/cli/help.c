@@ -44,6 +44,16 @@ static void print_options(HdCommand command) {
     }
 }
 
+static void print_classic(void) {
+    printf("Classic mode:\n");
+    print_step("hedron [OPTIONS] < INPUT", "render a configuration from standard input");
+    print_step("hedron --default", "print such a configuration");
+    printf("\n");
+    hd_print_wrapped(hd_command_spec(HD_COMMAND_CLASSIC)->description, 0, 0);
+    printf("\nOptions of the classic mode:\n");
+    print_options(HD_COMMAND_CLASSIC);
+}
+
 static void print_program(void) {
     char usage[128];
     printf("hedron %s.\n\nStart:\n", hd_program_summary);
@@ -63,13 +73,8 @@ static void print_program(void) {
     hd_list_explained(hd_exit_codes, print_term);
     printf("\nEnvironment:\n");
     hd_list_explained(hd_variables, print_term);
-    printf("\nClassic mode:\n");
-    print_step("hedron [OPTIONS] < INPUT", "render a configuration from standard input");
-    print_step("hedron --default", "print such a configuration");
     printf("\n");
-    hd_print_wrapped(hd_command_spec(HD_COMMAND_CLASSIC)->description, 0, 0);
-    printf("\nOptions of the classic mode:\n");
-    print_options(HD_COMMAND_CLASSIC);
+    print_classic();
 }
 
 static void print_command(const HdCommandSpec *spec) {
@@ -121,6 +126,8 @@ static void print_scene_format(void) {
 static void print_topic(int topic) {
     if (topic == HD_HELP_SCENE)
         print_scene_format();
+    else if (topic == HD_HELP_CLASSIC)
+        print_classic();
     else if (topic == HD_HELP_MAN)
         hd_print_man_page();
     else if (topic == HD_HELP_BASH)

@@ -10,8 +10,8 @@ OPTION(bool gpu, "--gpu", NULL, NULL,
 OPTION(bool cpu, "--cpu", NULL, NULL, "Trace on the CPU only", HD_COMMAND_CLASSIC, FLAG(cpu),
        .only_one_of = modes)
 OPTION(bool prints_default, "--default", NULL, NULL,
-       "Print the configuration with the most colourful result, in the input format, and exit",
-       HD_COMMAND_CLASSIC, FLAG(prints_default), .only_one_of = modes)
+       "Print a colourful scene as classic input, and exit", HD_COMMAND_CLASSIC,
+       FLAG(prints_default), .only_one_of = modes)
 ROW("--variant", NULL, "N", "Which three solids the input describes",
     HD_COMMAND_CLASSIC | HD_COMMAND_CONVERT, INTEGER(scene.variant, 1, HD_CLASSIC_VARIANTS),
     .standard = "4, which is tetrahedron, octahedron, dodecahedron", .role = HD_DECIDES_PIXELS)
@@ -30,7 +30,7 @@ ROW("--layers", NULL, "LIST",
     .use = "for compositing, or to see where samples go")
 ROW("--set", NULL, "PATH=VALUE",
     "Replace a value of the scene, such as camera.field_of_view=40; up to 64 times",
-    HD_COMMAND_RENDER | HD_COMMAND_TUNE | HD_COMMAND_VIEW,
+    HD_COMMAND_RENDER | HD_COMMAND_CHECK | HD_COMMAND_TUNE | HD_COMMAND_VIEW,
     TEXTS(scene.changes, scene.change_count, HD_MAX_CHANGES), .check = check_change,
     .use = "to try a value without editing the file", .role = HD_DECIDES_PIXELS)
 OPTION(const char *frames, "--frames", "-f", "LIST", "Render only these frames, such as 0-9,20",
@@ -143,7 +143,8 @@ ROW("--stats", NULL, "FILE",
     RENDERING, TEXT(store.statistics, "a file or -"), .takes_file = true)
 ROW("--verbose", "-v", NULL, "Report what was chosen, and why", RENDERING, FLAG(telling.verbose),
     .only_one_of = loudness)
-ROW("--quiet", "-q", NULL, "Report errors only: no progress, no notes", RENDERING,
+ROW("--quiet", "-q", NULL,
+    "Print no progress and no notes. Names of outputs still go to standard output", RENDERING,
     FLAG(telling.quiet), .only_one_of = loudness)
 ROW("--frame-lines", NULL, NULL,
     "Print a line on standard error for each frame that is stored; with --quiet nothing else",

@@ -27,6 +27,7 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
 
 const HdHelpTopic hd_help_topics[HD_HELP_TOPIC_COUNT] = {
     [HD_HELP_SCENE] = {"scene", "every key of a scene file"},
+    [HD_HELP_CLASSIC] = {"classic", "the classic mode and its input"},
     [HD_HELP_MAN] = {"man", "the man page"},
     [HD_HELP_BASH] = {"completion", "completion for bash"},
     [HD_HELP_ZSH] = {"completion-zsh", "completion for zsh"},

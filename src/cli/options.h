@@ -55,6 +55,7 @@ typedef struct HdOptions {
 /* Topics of the help, except commands. */
 enum {
     HD_HELP_SCENE,
+    HD_HELP_CLASSIC,
     HD_HELP_MAN,
     HD_HELP_BASH,
     HD_HELP_ZSH,

@@ -74,10 +74,15 @@ static void print_fine(const char *name, const HdScene *scene, const HdProblems 
 }
 
 /* Prints the result, or appends it to the list, if given. */
-static HdStatus check_scene(const char *operand, json_t **list, HdError *error) {
+static HdStatus check_scene(const char *operand, const HdScenePlan *plan, json_t **list,
+                            HdError *error) {
     HdProblems notes = {.count = 0};
-    const HdSceneSource source = {
-        .folder = "", .loads_files = true, .notes = &notes, .file_notes = &notes};
+    const HdSceneSource source = {.folder = "",
+                                  .changes = plan->changes,
+                                  .change_count = plan->change_count,
+                                  .loads_files = true,
+                                  .notes = &notes,
+                                  .file_notes = &notes};
     const char *name = hd_scene_name(operand);
     HdSceneFile file;
     HdStatus status = hd_read_scene(&file, operand, &source, error);
@@ -97,7 +102,7 @@ static HdStatus check_scenes(const HdOptions *options, json_t **list, HdError *e
     HdStatus worst = HD_OK;
     int wrong = 0;
     for (int i = 0; i < options->operand_count; i++) {
-        HdStatus status = check_scene(options->operands[i], list, error);
+        HdStatus status = check_scene(options->operands[i], &options->scene, list, error);
         if (status == HD_OK)
             continue;
         wrong++;

@@ -75,31 +75,46 @@ static HdStatus look(Glimpse *seen, HdCurve curve, HdError *error) {
     return status;
 }
 
-static bool shows_light(const HdMaterial *material) {
-    return material->specular > 0.0 ||
-           (material->ambient + material->diffuse > 0.0 && hd_largest(material->colour) > 0.0);
+/* Ways in which a material shows light. */
+enum { COLOURED = 1, SHINY = 2, MIRROR = 4 };
+
+static unsigned ways_of(const HdMaterial *material, HdVec3 emission) {
+    const double diffuse = (material->ambient + material->diffuse) * hd_largest(material->colour);
+    const double mirrors = material->reflection + material->transmission +
+                           material->inner_reflection + material->inner_transmission;
+    return (diffuse > 0.0 || hd_largest(emission) > 0.0 ? COLOURED : 0) |
+           (material->specular > 0.0 ? SHINY : 0) | (mirrors > 0.0 ? MIRROR : 0);
 }
 
-static bool mesh_shows_light(const HdMesh *mesh) {
-    for (int i = 0; i < mesh->material_count; i++)
-        if (shows_light(&mesh->materials[i].material) ||
-            hd_largest(mesh->materials[i].emission) > 0.0)
-            return true;
-    return false;
-}
-
-static bool any_shows_light(const HdScene *scene) {
-    bool shows = scene->floor.present && shows_light(&scene->floor.material);
+/* Returns the ways of all materials of objects. */
+static unsigned ways_in(const HdScene *scene) {
+    const HdVec3 none = {0};
+    unsigned ways = scene->floor.present ? ways_of(&scene->floor.material, none) : 0;
     for (int i = 0; i < scene->solid_count; i++) {
         const HdSolid *solid = &scene->solids[i];
-        shows |= shows_light(&solid->face) || (solid->rim_width > 0.0 && shows_light(&solid->rim));
+        ways |= ways_of(&solid->face, none);
+        ways |= solid->rim_width > 0.0 ? ways_of(&solid->rim, none) : 0;
     }
     for (int i = 0; i < scene->instance_count; i++) {
         const HdInstance *instance = &scene->instances[i];
-        shows |= instance->has_material ? shows_light(&instance->material)
-                                        : mesh_shows_light(&scene->meshes[instance->mesh]);
+        const HdMesh *mesh = &scene->meshes[instance->mesh];
+        ways |= instance->has_material ? ways_of(&instance->material, none) : 0;
+        for (int j = 0; j < mesh->material_count && !instance->has_material; j++)
+            ways |= ways_of(&mesh->materials[j].material, mesh->materials[j].emission);
     }
-    return shows;
+    return ways;
+}
+
+/* Notes solids whose colour is meant to be seen, but whose faces show nothing. */
+static void note_solids(const HdScene *scene, HdProblems *notes) {
+    for (int i = 0; i < scene->solid_count; i++) {
+        const HdMaterial *face = &scene->solids[i].face;
+        if (ways_of(face, (HdVec3){0}) == 0 && hd_largest(face->colour) > 0.0)
+            hd_problem(notes,
+                       "solids[%d] shows no light: its material lacks ambient, diffuse, specular, "
+                       "reflection and transmission",
+                       i);
+    }
 }
 
 static bool is_inside(const HdSolid *solid, HdVec3 point) {
@@ -138,12 +153,25 @@ static void note_lights(const Glimpse *seen, HdProblems *notes) {
             because(seen, notes, "lights[%d] is inside solids[%d], which is opaque", i, in);
     }
     if (!is_on)
-        because(seen, notes, "%s", "none of lights and edge_lights has an intensity and a colour");
+        because(seen, notes, "%s",
+                hd_scene_light_count(scene) == 0
+                    ? "the scene has no lights"
+                    : "none of lights and edge_lights has an intensity and a colour");
     else if (eye_in >= 0 && !is_with_eye)
         because(seen, notes, "camera.eye is inside solids[%d], which is opaque", eye_in);
 }
 
-static void note_reasons(const Glimpse *seen, HdProblems *notes) {
+/* Returns whether more reflections and transmissions make the picture brighter. */
+static bool is_too_shallow(const Glimpse *seen, HdCurve curve) {
+    HdScene deep = *seen->scene; /* what it owns stays with the other */
+    Glimpse deeper = {.scene = &deep, .frame = seen->frame};
+    HdError ignored;
+    deep.depth = hd_max(deep.depth, SMALL_DEPTH);
+    return look(&deeper, curve, &ignored) == HD_OK && deeper.bright >= min_share * deeper.hits;
+}
+
+static void note_reasons(const Glimpse *seen, HdCurve curve, HdProblems *notes) {
+    const unsigned ways = ways_in(seen->scene);
     const double exposure = seen->scene->exposure;
     const int before = notes->count;
     if (seen->bright == 0 && exposure <= max_exposure * seen->largest) {
@@ -151,29 +179,43 @@ static void note_reasons(const Glimpse *seen, HdProblems *notes) {
                 exposure, exposure / seen->largest);
         return;
     }
-    if (!any_shows_light(seen->scene))
+    if (is_too_shallow(seen, curve)) {
+        because(seen, notes, "image.depth is %d, too small to see through glass or in mirrors",
+                seen->scene->depth);
+        return;
+    }
+    if ((ways & (COLOURED | SHINY)) == 0)
         because(seen, notes, "%s",
                 "no material shows light: all lack ambient, diffuse and specular, or a colour");
+    if ((ways & COLOURED) == 0 && (ways & MIRROR) != 0 &&
+        !is_bright(curve, exposure * hd_largest(seen->scene->background)))
+        because(seen, notes, "%s", "mirrors and glass show background, which is black");
     note_lights(seen, notes);
     if (notes->count == before && seen->bright == 0)
         because(seen, notes, "%s",
-                "no light reaches it: lights are behind it, behind what is opaque or the floor, or "
-                "end before it");
+                (ways & COLOURED) != 0
+                    ? "no light reaches it: lights are behind it, behind what is opaque or "
+                      "the floor, or end before it"
+                    : "materials have only specular, and no highlight is in view: give "
+                      "them diffuse");
 }
 
 void hd_note_darkness(const HdScene *scene, HdCurve curve, int frame, HdProblems *notes) {
     const int objects = scene->solid_count + scene->instance_count + scene->floor.present;
+    const int before = notes->count;
     const bool is_dark = !is_bright(curve, scene->exposure * hd_largest(scene->background));
     Glimpse seen = {.scene = scene, .frame = frame};
     HdError ignored;
     if (scene->crop.whole_width > 0 || look(&seen, curve, &ignored) != HD_OK)
         return;
     if (seen.hits > 0 && seen.bright < min_share * seen.hits)
-        note_reasons(&seen, notes);
+        note_reasons(&seen, curve, notes);
     /* A film may begin with an empty view, and a picture of the background may be meant. */
     if (seen.hits == 0 && (is_dark || (scene->frame_count == 1 && objects > 0)))
         hd_problem(notes,
                    "nothing is in view in frame %d%s: look at camera.eye, camera.target and "
                    "camera.field_of_view",
                    frame, is_dark ? ", and background is black" : "");
+    if (notes->count == before)
+        note_solids(scene, notes);
 }

@@ -6,9 +6,9 @@
 #include "scene/scene.h"
 
 /* Renders the frame small, in plain C on one thread, and adds a sentence to `notes` for each reason
-   why all that is in view is black or nearly so, or one that nothing is in view. Adds nothing if
-   there is more to see, if the picture is a crop or if the frame cannot be rendered. `curve` is the
-   pictures'. */
+   why all that is in view is black or nearly so, or one that nothing is in view; else one for each
+   solid whose material shows nothing. Adds nothing if the picture is a crop or if the frame cannot
+   be rendered. `curve` is the pictures'. */
 void hd_note_darkness(const HdScene *scene, HdCurve curve, int frame, HdProblems *notes);
 
 #endif

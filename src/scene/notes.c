@@ -126,11 +126,10 @@ static void note_radians(const char *path, const char *key, double angle, HdProb
 
 static void note_frequency(const char *path, const char *key, double frequency, HdProblems *notes) {
     if (frequency != floor(frequency))
-        hd_problem(
-            notes,
-            "camera.%s.%s is %.6g, so the film jumps from its end to its begin; %.0f or %.0f "
-            "makes it a loop",
-            path, key, frequency, floor(frequency), ceil(frequency));
+        hd_problem(notes,
+                   "camera.%s.%s is %.6g, so the film jumps from its end to its beginning; %.0f or "
+                   "%.0f makes it a loop",
+                   path, key, frequency, floor(frequency), ceil(frequency));
 }
 
 static void note_path(const HdPath *path, const char *name, int frames, double distance,

@@ -190,6 +190,14 @@ expect_bench_refusal 3 "--device is 'c:7'" "${fake[@]}" --device c:7
 expect_bench_refusal 1 'cannot make the folder' --hedron fake/hedron --out fake/hedron/out
 bench=$project/bench/frames
 expect_bench_refusal 2 'at least two frames' "${fake[@]}" --frames 7
+# A scene with errors: all of them are printed, and earlier results stay.
+cp -r out earlier
+echo '{"hedron": 1, "colour": 1, "size": 2}' >bad.json
+expect_bench_refusal 2 'c:0, scene: ' --hedron "$hedron" --out out --device c bad.json
+expect_stderr_contains '  size is an unknown key'
+expect_exit 0 diff -r earlier out
+echo '{"hedron": 1, "camera": {"eye": [4, 0, 0]}}' >still.json
+expect_bench_refusal 2 'the scene has one frame, 0; a still scene gets more by -- --set camera.frames=5' --hedron "$hedron" --out out --device c still.json
 bench=$project/bench/compare
 expect_bench_refusal 2 'no measurement in common' one/study.json <(sed 's/"Made up"/"Other"/' one/study.json)
 

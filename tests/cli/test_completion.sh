@@ -35,7 +35,7 @@ expect_completions '-v' -v
 expect_completions 'linear srgb' compare --curve ''
 expect_completions 'a.json b.json c.in scenes with space.json' compare a.json ''
 expect_completions '' devices ''
-expect_completions "$commands scene man completion completion-zsh completion-fish" help ''
+expect_completions "$commands scene classic man completion completion-zsh completion-fish" help ''
 expect_completions 'auto c opencl cuda' render --backend ''
 expect_completions 'c cuda' render --backend = c
 expect_completions '1 16' render --lanes 1

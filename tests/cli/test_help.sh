@@ -32,7 +32,7 @@ for words in 'render -h' 'help render' 'render --size 1x1 --help'; do
 done
 expect_help "$viewing --terminal --set" view --help
 expect_help '--help --json' devices --help
-expect_help '--help --schema --json' check --help
+expect_help '--help --schema --json --set' check --help
 expect_help '--help --output --variant' convert --help
 expect_help '--help --json --diff --fail-above --curve' compare --help
 expect_help '--help' new --help
@@ -42,6 +42,10 @@ expect_exit 0 "$hedron" help
 order=$(grep -n -E '^(Start|Usage|Classic mode|Options of the classic mode):$' "$logs/stdout" | cut -d: -f2 | tr '\n' ' ')
 [[ $order == 'Start Usage Classic mode Options of the classic mode ' ]] || fail "the parts of the help are '$order'"
 [[ $(sed -n '3,4p' "$logs/stdout") == $'Start:\n  hedron render'* ]] || fail 'the help does not begin with what to do'
+
+expect_exit 0 "$hedron" help classic
+expect_stdout_contains '--default'
+expect_stdout_contains 'docs/reference/files.md'
 
 # ---- a topic that does not exist: the error lists those that do
 expect_refusal 2 "$hedron" help nosuch

@@ -96,6 +96,8 @@ mkdir folder
 mv good.json folder/piped.json
 expect_exit 0 "$hedron" check - <folder/piped.json
 expect_stdout_contains 'standard input: fine, 2 solids'
+expect_exit 2 "$hedron" check --set image.width=0 - <folder/piped.json
+expect_stderr_contains 'image.width is 0'
 expect_exit 0 "${render[@]}" - <folder/piped.json
 expect_data picture.data 8 8
 expect_refusal 2 "${render[@]}" - < <(jq '.image.width = 0' folder/piped.json)

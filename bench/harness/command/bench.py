@@ -94,7 +94,6 @@ class Bench(Command):
         self.runnable = self.plan.runnable
         self.result = results.begin(self.name, program, arguments, entries, scene={"name": self.scene}, rows=[],
                                     measurements=self.plan.jobs, **dict.fromkeys(self.keys))
-        files.remove_old(arguments.out, self.chart_files)
 
     # ---- for subclasses
 
@@ -137,6 +136,7 @@ class Bench(Command):
 
     def save(self):
         results.write(self.file, self.result)
+        files.remove_old(self.arguments.out, self.chart_files)  # not before there is a result
 
     def work(self):
         try:

@@ -34,6 +34,7 @@ class Command:
     """Command line of a measurement or a program."""
     name = ""
     about = ""  # its purpose, for --help
+    operands = ""  # of its usage
     codes = "exit codes: 0 done, 2 wrong usage or input"
     own_options = None  # options of hedron render that it sets itself; None: it renders nothing
 
@@ -53,7 +54,7 @@ class Command:
     def parse(self, words):
         options, usage = [], None
         if self.own_options is not None:
-            usage = "%(prog)s [OPTION]... [-- HEDRON_OPTION...]"
+            usage = f"%(prog)s [OPTION]... {self.operands}[-- HEDRON_OPTION...]"
             if "--" in words:
                 split = words.index("--")
                 words, options = words[:split], words[split + 1:]

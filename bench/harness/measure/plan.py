@@ -127,7 +127,8 @@ class Plan(Rows):
                 self.keep(job, jobs.kept_run(job, repeat, interrupted.run))
             raise
         if run["code"] == 2:
-            raise Problem(2, f"{job['device']}, {job['scene']} {' '.join(job['options'])}: {run['message']}")
+            words = ' '.join([job['scene'], *job['options']])
+            raise Problem(2, f"{job['device']}, {words}: {run['said'].strip().removeprefix('hedron: ')}")
         if run["code"] != 0:
             job["reason"], job["failed"] = run["message"], run["code"] != 3
         elif not run["frames"]:

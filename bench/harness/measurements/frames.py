@@ -48,14 +48,16 @@ def trace_ms(job):
 
 class Frames(Bench):
     name = "frames"
-    about = "Time the frames of a scene, or of the built-in one, on every device."
+    about = ("Time the frames of a scene on every device: hedron renders them several times, and the median counts. The result "
+             "is a table, charts (frames.svg, frames_animation.svg) and all times (frames.json).")
+    operands = "[SCENE.json] "
     quick, repeats = None, (3,)
     chart_files = ("frames", "frames_animation")
     keys = ("frames",)
 
     def add_options(self, parser):
         super().add_options(parser)
-        parser.add_argument("scene", nargs="?", type=Path, metavar="SCENE.json")
+        parser.add_argument("scene", nargs="?", type=Path, metavar="SCENE.json", help="scene to render (default: the built-in one)")
         parser.add_argument("--frames", default="0-4", metavar="LIST",
                             help="at least two, of which the first warms up and does not count (default: 0-4); "
                                  "a still scene gets them by -- --set camera.frames=5")
@@ -70,6 +72,13 @@ class Frames(Bench):
             plan.job(label, "scene", self.arguments.frames)
         self.result.update(frames=self.arguments.frames, scene={"name": scene.stem if scene else self.scene,
                                                                 **dict.fromkeys(OF_SCENE), "rays_per_frame": None})
+
+    def measure(self):
+        try:
+            super().measure()
+        except Problem as problem:
+            still = "the scene has one frame" in str(problem)
+            raise Problem(problem.code, f"{problem}; a still scene gets more by -- --set camera.frames=5" if still else problem) from None
 
     def check(self):
         if any(len(run["frames"]) < 2 for job in self.plan.jobs for run in job["runs"]):

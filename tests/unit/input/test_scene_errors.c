@@ -420,7 +420,7 @@ static const char quiet_text[] =
 #define CAMERA_PATH(frames, phi, r)                                                                \
     "camera={\"frames\": " frames ", \"eye\": {\"r0\": 9, \"z0\": 1, \"r_amplitude\": 1, "         \
     "\"phi_frequency\": " phi ", \"r_frequency\": " r "}}"
-#define JUMPS ", so the film jumps from its end to its begin; "
+#define JUMPS ", so the film jumps from its end to its beginning; "
 
 TEST(test_notes) {
     static const struct {

@@ -19,6 +19,12 @@ static const char mesh_text[] = "{\"hedron\": 1, \"camera\": {\"eye\": [0.2, 0.2
                                 " \"lights\": [{\"position\": [0, 0, 3]}],"
                                 " \"meshes\": [{\"file\": \"g.obj\"}]}";
 
+/* A glass cube before white. */
+static const char glass_text[] =
+    "{\"hedron\": 1, \"camera\": {\"eye\": [6, -3, 2]}, \"image\": {\"width\": 64, \"height\": 64},"
+    " \"background\": [1, 1, 1], \"materials\": {\"m\": {\"transmission\": 1}},"
+    " \"solids\": [{\"kind\": \"cube\", \"material\": \"m\"}]}";
+
 static HdProblems notes;
 
 static const char *notes_on(const char *text, const char *change, int frame) {
@@ -40,7 +46,10 @@ static const char *notes_on(const char *text, const char *change, int frame) {
 #define BLACK        "all that is in view in frame 0 is black: "
 #define NEARLY_BLACK "all that is in view in frame 0 is nearly black: "
 #define NO_MATERIAL  "no material shows light: all lack ambient, diffuse and specular, or a colour\n"
-#define NO_LIGHT     "none of lights and edge_lights has an intensity and a colour\n"
+#define NOTHING                                                                                    \
+    " shows no light: its material lacks ambient, diffuse, specular, reflection and "              \
+    "transmission\n"
+#define NO_LIGHT "none of lights and edge_lights has an intensity and a colour\n"
 #define NO_WAY                                                                                     \
     "no light reaches it: lights are behind it, behind what is opaque or the floor, or end "       \
     "before "                                                                                      \
@@ -55,7 +64,14 @@ TEST(what_is_black_has_its_reason) {
         {"materials.m={}", BLACK NO_MATERIAL},
         {"materials.m={\"diffuse\": 1, \"colour\": [0, 0, 0]}", BLACK NO_MATERIAL},
         {"materials.m={\"ambient\": 0.1}", ""},
-        {"lights=[]", BLACK NO_LIGHT},
+        {"materials.m={\"specular\": 0.5}",
+         BLACK "materials have only specular, and no highlight is in view: give them diffuse\n"},
+        {"materials.m={\"reflection\": 1}",
+         BLACK NO_MATERIAL BLACK "mirrors and glass show background, which is black\n"},
+        {"solids[0].material=\"none\"", "solids[0]" NOTHING},
+        {"floor.material=\"none\"", ""},
+        {"materials.none.colour=[0, 0, 0]", ""},
+        {"lights=[]", BLACK "the scene has no lights\n"},
         {"lights=[{\"position\": [4, -5, 6], \"intensity\": 0}]", BLACK NO_LIGHT},
         {"lights[0].position=[0, 0, 0]", BLACK "lights[0] is inside solids[0], which is opaque\n"},
         {"lights[0].position=[0, 0, -5]", BLACK NO_WAY},
@@ -80,6 +96,9 @@ TEST(a_bright_background_hides_nothing) {
              cube_text);
     assert_string_equal(notes_on(text, NULL, 0), "");
     assert_string_equal(notes_on(text, "materials.m={}", 0), BLACK NO_MATERIAL);
+    assert_string_equal(notes_on(glass_text, NULL, 0), "");
+    assert_string_equal(notes_on(glass_text, "image.depth=0", 0),
+                        BLACK "image.depth is 0, too small to see through glass or in mirrors\n");
     snprintf(change, sizeof change, away, "");
     assert_string_equal(notes_on(text, change, 0), "nothing is in view in frame 0" LOOK);
     snprintf(change, sizeof change, away, ", \"frames\": 2");
