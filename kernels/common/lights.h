@@ -20,8 +20,8 @@ typedef struct {
     vmask active;
 } LitPoints;
 
-/* Masks of a light or a cluster have a bit for each of the first objects that cannot occlude, and
-   this one if the cluster is culled. */
+/* The mask of a light or cluster has a bit for each of the first objects, set if it cannot occlude,
+   and this one, set if the cluster is culled. */
 #define CLUSTER_IS_CULLED ((int)1 << HD_MASKED_OBJECTS)
 
 FN int cannot_occlude(int nonoccluders, int object) {
@@ -110,9 +110,9 @@ FN vmask culled_clusters(const PointSphere *sphere, const Clusters *clusters) {
     return lt(clusters->reach + size + slack, distance) | lt(max_height + slack, splat(R(0.0)));
 }
 
-/* Returns clusters that one plane separates, with all segments to the points, from a sphere about
-   the solid. The plane is perpendicular to the line from the solid's centre, which places are
-   relative to, to the middle segment. */
+/* Returns the clusters that a plane separates, with all segments to the points, from a sphere about
+   the solid. The plane is perpendicular to the line from the solid's centre, the local origin, to
+   the middle segment. */
 FN vmask unoccluded_clusters(vreal solid_radius, const PointSphere *sphere, Vec3 middle,
                              const Clusters *clusters) {
     Vec3 way = vec3_sub(clusters->place, middle);
@@ -263,7 +263,7 @@ FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const rea
     *light = vec3_select(crossing, filtered, *light);
 }
 
-/* Returns where the segments enter a solid; only planes matter that a point is outside of. */
+/* Returns where the segments enter a solid; only planes that a point is outside of matter. */
 FN Crossing segment_entry(SCENE_PARAMETERS GLOBAL const Object *solid, uint some_outside,
                           GLOBAL const real *light_row, const vreal *coordinates) {
     Crossing entry = crossing(R(0.0), R(1.0), 0); /* at the point */
@@ -278,7 +278,7 @@ FN Crossing segment_entry(SCENE_PARAMETERS GLOBAL const Object *solid, uint some
     return entry;
 }
 
-/* Returns where the segments leave a solid; only planes matter that the light is outside of. Points
+/* Returns where the segments leave a solid; only planes that the light is outside of matter. Points
    whose segments cross are inside of these planes, so no slope is negative. */
 FN Crossing segment_exit(SCENE_PARAMETERS GLOBAL const Object *solid, uint light_outside,
                          GLOBAL const real *light_row, const vreal *coordinates) {
@@ -298,7 +298,7 @@ FN Crossing segment_exit(SCENE_PARAMETERS GLOBAL const Object *solid, uint light
 }
 
 /* Filters `light` by one solid on the segments from the points to the light. A segment misses it if
-   neither end is inside of one plane, which settles most without arithmetic. */
+   neither end is inside some one plane, which settles most cases without arithmetic. */
 FN void cross_solid(SCENE_PARAMETERS int object, GLOBAL const LightSides *sides,
                     GLOBAL const real *light_row, const vreal *coordinates, vint outside_planes,
                     uint some_outside, vmask open, Vec3 *light) {

@@ -248,7 +248,7 @@ FN void trace_and_shade(SCENE_PARAMETERS const Ray *ray, int level, Sample *samp
 
 /* Adds to `sample` the ray trees of eye rays in `direction` (unit) in the lanes of `alive`. At most
    one ray for each depth waits on the stack. The inner loop descends until no ray continues, the
-   outer one pops the next: so threads of a warp descend together. */
+   outer one pops the next, so that the threads of a warp descend together. */
 FN void trace(SCENE_PARAMETERS Vec3 direction, vmask alive, Sample *sample) {
     Ray stack[DEPTH_BOUND(view)];
     int stack_level[DEPTH_BOUND(view)];

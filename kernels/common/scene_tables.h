@@ -282,8 +282,8 @@ HD_ASSERT_SIZE(View, 16, 12);
     X(Light, lights)                                                                               \
     /* [object * light_count + light]: the light relative to the object */                         \
     X(Vector, light_offsets)                                                                       \
-    /* [light * plane_count + plane]: n.L of a solid's plane, exactly that of an edge light's      \
-       own faces; the distance to a floor's plane */                                               \
+    /* [light * plane_count + plane]: n.L of a solid's plane, which is exactly `distance` for the  \
+       own faces of an edge light; the distance to a floor's plane */                              \
     X(real, light_coordinates)                                                                     \
     /* [light * object_count + object], of solids only */                                          \
     X(LightSides, light_sides)                                                                     \

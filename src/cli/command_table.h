@@ -16,10 +16,10 @@ ROW(HD_COMMAND_VIEW, "view", "[SCENE.json]", ".json", 1,
     "Shows SCENE.json, or the built-in scene, live. Space plays the camera path, mouse and arrows "
     "turn the view, h lists all keys. While something moves, hedron adapts size and samples to the "
     "device. A view that stands still is refined to the bytes of 'hedron render'.\n\n"
-    "hedron shows each version of the file that is saved. An error in it appears over the last "
+    "Whenever the file is saved, hedron reloads it. An error in it appears over the last "
     "good picture. Names of saved pictures (p) and cameras to paste into a scene (c) go to "
     "standard output.\n\n"
-    "The program hedron-view does this. It needs SDL 2 for the window and chafa for --terminal.")
+    "This runs the program hedron-view, which needs SDL 2 for a window, chafa for --terminal.")
 ROW(HD_COMMAND_NEW, "new", "[SCENE.json]", ".json", 1, "write a scene with comments to start from",
     "Writes a small scene with comments to SCENE.json (default: scene.json). A file that exists is "
     "never overwritten. 'hedron help scene' explains every key.")
@@ -37,8 +37,8 @@ ROW(HD_COMMAND_DEVICES, "devices", "", NULL, 0,
     "Lists backends and devices, and the reason if one is unavailable.")
 ROW(HD_COMMAND_SELFTEST, "selftest", "", NULL, 0, "test whether devices compute correctly",
     "Tests every device, or those of --device and --backend, in float and, if the device has it, "
-    "in double. The arithmetic of the kernels, on a million hard operands, is compared with the C "
-    "backend. Frames of kernels of every kind are compared with known hashes.\n\n"
+    "in double. It compares the arithmetic of the kernels on a million hard operands with the C "
+    "backend, and frames by every kind of kernel with known hashes.\n\n"
     "The report of a device has its driver, the compiler of its kernels, the tests, the first "
     "mismatch, the times, and a hash of all but the times. hedron remembers the result for this "
     "driver, and 'hedron render' skips a device that computes wrongly.\n\n"
@@ -47,7 +47,7 @@ ROW(HD_COMMAND_TUNE, "tune", "[SCENE.json]", ".json", 1,
     "measure and remember the fastest settings",
     "Measures the pipelines on the device that 'hedron render' would use for SCENE.json (-: "
     "standard input) or the built-in scene. It also varies the lanes of a CPU, and the work groups "
-    "and registers of a GPU. What --pipeline, --lanes, --block or --grid fix stays.\n\n"
+    "and registers of a GPU. It keeps what --pipeline, --lanes, --block or --grid set.\n\n"
     "It prints the time of a picture for each candidate and the ratio to the default. The best "
     "goes to the cache folder: 'hedron render' uses it for similar scenes with the same options. "
     "Strict pictures keep their bytes.")

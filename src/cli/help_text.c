@@ -53,7 +53,7 @@ const HdExplained hd_variables[] = {
      "File of the NVRTC library that compiles for CUDA; off: none. Default: the newest one that "
      "suits the driver. hedron also looks in CUDA_HOME, CUDA_PATH, VIRTUAL_ENV and CONDA_PREFIX."},
     {"HEDRON_FFMPEG_PATIENCE",
-     "Whole seconds that FFmpeg may stand still, 1 to 86400. Default: 600. Use: more for a slow "
+     "Whole seconds that FFmpeg may be idle, 1 to 86400. Default: 600. Use: more for a slow "
      "disk."},
     {"HEDRON_STOP_PATIENCE",
      "Seconds from a signal to the end of the program, even if something hangs, 0.1 to 86400. "
@@ -70,9 +70,9 @@ const char hd_scene_rules[] =
     "for editors. --set reaches each value by its path: '--set solids[0].kind=cube'.";
 
 const char hd_option_rules[] =
-    "In parentheses are the commands that take an option; without them it belongs to render, view, "
-    "tune and the classic mode. Options stand before or after names of files; behind '--' there "
-    "are only names. If an option comes twice, its last value counts, unless it can be repeated.";
+    "Parentheses hold the commands that take an option; without them it belongs to render, view, "
+    "tune and the classic mode. Options stand before or after names of files; after '--' there "
+    "are only names. If an option is given twice, its last value counts, unless it is repeatable.";
 
 /* Returns whether a word may not begin a line, since Markdown would make a list or heading of it:
    "+", "-", "#", "1.". */

@@ -24,8 +24,8 @@ ROW("--output", "-o", "SCENE", "Scene file to write", HD_COMMAND_CONVERT,
     TEXTS(store.names, store.count, 1), .expected = "the name of a file",
     .standard = "standard output", .takes_file = true)
 ROW("--layers", NULL, "LIST",
-    "More channels for OpenEXR: depth and normal of the first hit, its object number, samples "
-    "taken by the pixel, bound on its truncation error",
+    "Extra channels for OpenEXR: depth, normal and object number of the first hit, number of "
+    "samples in the pixel, bound on its truncation error",
     HD_COMMAND_RENDER, .type = HD_OPTION_SET, AT(store.layers), .choices = hd_layer_names,
     .use = "for compositing, or to see where samples go")
 ROW("--set", NULL, "PATH=VALUE",
@@ -112,8 +112,8 @@ ROW("--block", NULL, "N", "Threads of a GPU's work group", SHOWING,
 ROW("--grid", NULL, "N", "Maximum number of work groups in one GPU launch", SHOWING,
     INTEGER(devices.render.grid, 1, HD_MAX_GRID), .standard = OF_DEVICE)
 ROW("--max-launch", NULL, "MS",
-    "Maximum duration of one GPU launch, in ms. A display of that GPU stands still meanwhile",
-    SHOWING, REAL(devices.render.launch_ms, HD_MIN_LAUNCH_MS, HD_MAX_LAUNCH_MS),
+    "Maximum duration of one GPU launch, in ms. A display on that GPU freezes meanwhile", SHOWING,
+    REAL(devices.render.launch_ms, HD_MIN_LAUNCH_MS, HD_MAX_LAUNCH_MS),
     .standard = "50 if the GPU may drive a display, else 500", .use = "less for a smooth desktop")
 ROW("--geometry", NULL, "NAME",
     "solids: half-spaces with patterns on their faces; triangles: everything as triangles, which "
@@ -125,8 +125,8 @@ ROW("--divisions", NULL, "N",
     SHOWING, INTEGER(scene.divisions, 1, HD_MAX_DIVISIONS), .standard = "1",
     .role = HD_DECIDES_PIXELS)
 ROW("--accel", NULL, "NAME",
-    "Search for triangles. brute: all of them; bvh: by a bounding volume hierarchy; auto: brute "
-    "for a handful",
+    "Search for triangles. brute: test all; bvh: by a bounding volume hierarchy; auto: brute for "
+    "a mesh of up to 8",
     SHOWING, CHOICE(scene.accel, "auto", "brute", "bvh"), .standard = "auto",
     .role = HD_DECIDES_PIXELS)
 ROW("--precision", NULL, "P", "Precision of the kernels", SHOWING,

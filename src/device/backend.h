@@ -12,7 +12,7 @@
 #include "kernels/common/kernel_arguments.h"
 #include "tables/table.h"
 
-/* Frames in flight, at most: submitted and not collected yet. */
+/* Maximum number of frames in flight: submitted, not yet collected. */
 enum { HD_FRAMES_IN_FLIGHT = 2 };
 
 /* Devices that may share a sequence, at most. */
@@ -122,7 +122,7 @@ struct HdBackend {
     bool needs_no_driver;   /* available on every machine, and starts at once */
     bool uses_host_threads; /* uses the program's own threads (HdRenderOptions) */
     const HdRendererFunctions *functions;
-    const void *driver; /* table by which backends that share functions differ */
+    const void *driver; /* driver's table, for backends that share functions */
 
     /* Must fill at most `capacity` devices, numbered from 0, without their backend, and their
        count. With no device it must fail: with HD_UNAVAILABLE if a library or driver is missing,

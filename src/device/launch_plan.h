@@ -27,7 +27,7 @@
 
 /* Work is counted in the kernel's units: samples, or rays of a wavefront. */
 typedef struct HdLaunchSize {
-    int limit;         /* work of the next launch, at most */
+    int limit;         /* maximum work of the next launch */
     int least, most;   /* bounds of the limit; smaller launches take no less time */
     int ceiling;       /* reduced upper bound after a launch that took too long; otherwise `most` */
     int fewest_groups; /* thread groups of a launch, at least: fewer leave units idle */
@@ -35,7 +35,7 @@ typedef struct HdLaunchSize {
     double tail;       /* seconds of the slowest threads, whatever the launch; 0: not seen */
     bool too_long;     /* a launch of this frame took too long */
     bool has_tail;     /* a smaller one took about as long */
-    double slow_work, slow_seconds; /* of a launch that took too long, for comparison */
+    double slow_work, slow_seconds; /* those of a launch that took too long, to compare */
 } HdLaunchSize;
 
 enum { HD_MAX_LAUNCH_WORK = 1 << 28 };
@@ -58,8 +58,8 @@ int hd_launch_size_items(const HdLaunchSize *size, int left, int work, int grain
 
 /* Learns from a launch: the next ones have at most double its work, or less if it took too long. If
    a much smaller one takes about as long, the slowest threads dominate and cutting does not help:
-   launches may then take half as long again. Launches much smaller than the limit serve only the
-   latter, the smallest not at all. */
+   launches may then take half as long again. Launches much smaller than the limit serve only to
+   detect that, the smallest not at all. */
 void hd_launch_size_note(HdLaunchSize *size, double work, double seconds);
 
 /* ---- the queue of a wavefront, and the order in which a device with thread groups traces ray

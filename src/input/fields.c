@@ -209,7 +209,7 @@ static const HdField edge_light_fields[] = {
      .count_offset = offsetof(HdEdgeLights, colour_count), .said = "edge lights' colour",
      .is_light = true, MEASURE("linear RGB"), EXAMPLE("[[1, 0.1, 0], [0, 0.3, 1]]"), WHITE},
     {AT(HdEdgeLights, intensity, "intensity",
-        "Factor of the colour for the light that each casts; 0: it lights nothing"),
+        "Factor of the colour for the light that each casts; 0: it casts none"),
      NUMBER(0.0, HD_MAX_NUMBER), .said = "edge lights' intensity", DEFAULT(0.0)},
     {AT(HdEdgeLights, disc_radius, "disc_radius", "Radius of the visible disc of each light"),
      NUMBER(0.0, HD_MAX_NUMBER), WORLD, .said = "edge lights' disc radius", DEFAULT(0.0)},
@@ -296,7 +296,7 @@ static bool has_texture(const void *owner) {
 
 static const HdField floor_fields[] = {
     {AT(HdSceneFile, scene.floor.corners, "corners",
-        "Corners of a flat, convex quadrilateral in their order; the first is the texture's top "
+        "Corners of a flat, convex quadrilateral, in order; the first is the texture's top "
         "left"),
      .type = HD_FIELD_VECTORS, .low = -HD_MAX_NUMBER, .high = HD_MAX_NUMBER, .least = 4, .most = 4,
      WORLD, EXAMPLE("[[-5, 5, -1], [5, 5, -1], [5, -5, -1], [-5, -5, -1]]"), .said = "corner",

@@ -25,7 +25,7 @@ typedef enum HdFieldType {
     HD_FIELD_INTEGER,  /* int */
     HD_FIELD_NUMBER,   /* double */
     HD_FIELD_VECTOR,   /* [x, y, z]; HdVec3 */
-    HD_FIELD_UNSCALED, /* the same without the factor of the next field, which has its offset; */
+    HD_FIELD_UNSCALED, /* vector without its factor, the next field with the same offset; */
     HD_FIELD_FACTOR,   /* number */
     HD_FIELD_VECTORS,  /* array of vectors; HdVec3[most], and their number if it varies */
     HD_FIELD_CHOICE,   /* one of `choices`; int or an enum */
@@ -62,7 +62,7 @@ typedef struct HdField {
     double standard[3];         /* default; of a required field a valid stand-in */
     size_t offset;              /* offset in the struct of the field's object */
     size_t count_offset;        /* offset of the element count; 0: always `most` */
-    int least, most;            /* numbers of elements */
+    int least, most;            /* minimum and maximum number of elements */
     const HdChoice *choices;
     const HdObjectType *object;
     size_t flag_offset;     /* offset of the bool that says if it is given; 0: none */

@@ -25,7 +25,7 @@ typedef struct HdFrameTimes {
     HdSpan convert; /* conversion to 8 bits, if a film needs it and the device has not done it */
     HdSpan store;   /* encoding and writing pictures */
     HdSpan film;    /* sending it to FFmpeg, for all films */
-    double longest_launch; /* seconds, of a GPU kernel; negative: unknown, or no GPU */
+    double longest_launch; /* longest GPU launch, in seconds; negative: unknown, or no GPU */
 } HdFrameTimes;
 
 /* Properties of a stored frame. */

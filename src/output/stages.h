@@ -17,7 +17,7 @@ typedef struct HdStage {
        and at the end. A failure counts as the last item's. NULL: no work is deferred. */
     HdStatus (*settle)(void *context, HdError *error);
     void *context;
-    int threads;    /* number of threads, at least 1; one gets one item at a time, in order */
+    int threads;    /* number of threads, at least 1; a single one gets the items in order */
     unsigned after; /* a bit for each earlier stage that must finish the item first */
 } HdStage;
 
@@ -43,9 +43,9 @@ HdStatus hd_stages_start(HdStages **stages, const HdStage *list, int count, int 
    before the first failed one are submitted. */
 int hd_stages_claim(HdStages *stages, const HdClaimer *claimer, bool waits);
 
-/* Waits until a claimed item has capacity, as all stages have finished the item `capacity` before
-   it. Returns false if the item is not wanted, as it or an earlier one failed or the stages were
-   stopped. */
+/* Waits until a claimed item has capacity: until all stages have finished the item `capacity`
+   places before it. Returns false if the item is not wanted, as it or an earlier one failed or the
+   stages were stopped. */
 bool hd_stages_wait(HdStages *stages, int item);
 
 /* Submits a claimed item that has capacity to the stages. */

@@ -25,9 +25,9 @@ typedef struct HdFrameScheduler {
 } HdFrameScheduler;
 
 /* Returns whether worker `number` should claim a frame now: whether it would finish one of the
-   `left` remaining frames (1 or more) before the others. A worker of unknown speed claims one
-   frame. CPUs wait until every GPU's speed is known, for they may be hundreds of times slower. A
-   single worker claims all. */
+   `left` remaining frames (1 or more) before the others finish them all. A worker of unknown speed
+   claims one frame. CPUs wait until every GPU's speed is known, for they may be hundreds of times
+   slower. A single worker claims all. */
 bool hd_scheduler_wants(HdFrameScheduler *scheduler, int number, int left, double now);
 
 /* Set a worker's time per frame; mark it as gone. */

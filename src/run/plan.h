@@ -16,8 +16,8 @@ typedef struct HdPlannedArea {
     int width, height, left, top;
 } HdPlannedArea;
 
-/* The scene and its overrides (load_scene.h). Members that are 0, or negative if 0 is a value,
-   leave the scene's value. */
+/* The scene and its overrides (load_scene.h). A member that is 0, or negative if 0 is a valid
+   value, keeps the scene's value. */
 typedef struct HdScenePlan {
     const char *path; /* "-": standard input; NULL: the built-in scene */
     bool is_classic;  /* classic input of that variant, on standard input */

@@ -73,7 +73,7 @@ static void free_tables(Run *run) {
         hd_scene_tables_free(&run->tables[run->table_count - 1]);
 }
 
-/* Frees the tables after the last renderer. */
+/* Uploads the scene to a renderer; the last one frees the tables. */
 static HdStatus upload(Run *run, int number, HdError *error) {
     const HdSequence *sequence = run->sequence;
     HdRenderer *renderer = renderer_of(run, number);
@@ -92,7 +92,7 @@ static HdStatus upload(Run *run, int number, HdError *error) {
     return status;
 }
 
-/* Next to GPUs a CPU may be so slow that its first frame would delay them all. */
+/* Times a CPU beside GPUs, since its first frame might take longer than all of theirs. */
 static HdStatus estimate_pace(Run *run, int number, HdError *error) {
     const HdSequence *sequence = run->sequence;
     const HdFrameList *missing = &sequence->resume->missing;
@@ -204,7 +204,7 @@ static void release_all(Worker *worker) {
     }
 }
 
-/* Reports the failure to the store and returns true, unless another device may do better. */
+/* Reports the failure to the store and returns true; false if another device may succeed. */
 static bool report_failure(Worker *worker, int place, HdStatus status, const HdError *error) {
     if (status == HD_INTERRUPTED || hd_renderer_has_failed(worker->maker.renderer))
         return false;
@@ -212,8 +212,8 @@ static bool report_failure(Worker *worker, int place, HdStatus status, const HdE
     return true;
 }
 
-/* If the store no longer wants the oldest frame, another worker may still fail at an earlier one,
-   so this worker must be free to claim that. */
+/* Collects the oldest frame. If the store does not want it, releases all frames: another worker may
+   fail at an earlier one, which this worker must be free to claim. */
 static HdStatus finish_oldest(Worker *worker, HdError *error) {
     int place = in_flight_of(worker, worker->ended)->place;
     if (hd_stages_wait(worker->run->stages, place)) {
@@ -236,8 +236,8 @@ static bool wants(void *context, int left) {
 }
 
 /* Claims a frame, or returns a negative number. A single worker claims ahead of the capacity. One
-   of several may get an earlier frame than those it has begun, which others wait for, so it claims
-   only frames that it can finish. */
+   of several may have to claim an earlier frame, which the others wait for, so it claims only what
+   it can finish. */
 static int claim_frame(Worker *worker) {
     const HdClaimer claimer = {
         .wants = wants,
@@ -274,7 +274,7 @@ static HdStatus begin_frame(Worker *worker, int place, HdError *error) {
     return status;
 }
 
-/* If the device accepts no more frames, it may still finish those in flight. */
+/* Traces all frames. A device that accepts no more may still finish those in flight. */
 static HdStatus trace(Worker *worker, HdError *error) {
     HdStatus status = HD_OK, beginning = HD_OK;
     HdError of_beginning;
@@ -295,8 +295,8 @@ static HdStatus trace(Worker *worker, HdError *error) {
 }
 
 /* Traces frames until the store has none left. Reports failures of frames to the store. Fails if
-   the device fails (hd_renderer_has_failed) or before the first frame, which is the device's fault,
-   and with HD_INTERRUPTED after a signal; then releases the frames in flight. */
+   the device fails (hd_renderer_has_failed) or before the first frame, which counts as the device's
+   fault; with HD_INTERRUPTED after a signal. Then releases the frames in flight. */
 static HdStatus trace_frames(const Member *member, bool *is_fault_of_device, HdError *error) {
     const HdSequence *sequence = member->run->sequence;
     HdRenderer *renderer = renderer_of(member->run, member->number);

@@ -8,7 +8,7 @@
 #include "scene/contact.h"
 #include "scene/scene.h"
 
-/* Degrees. Every angle in radians is less. */
+/* Degrees; less was probably given in radians, in which no field of view exceeds pi. */
 static const double narrow_field_of_view = 5.0;
 
 /* The cosine between a floor's normal and the z axis; below it the floor is rather a wall. */
@@ -101,20 +101,19 @@ static void note_contacts(const HdScene *scene, HdProblems *notes) {
             count_pairs(&touching, i, "lights", first, lights);
     }
     if (touching.count > 0)
-        hd_problem(
-            notes,
-            "solids[%d] touches %s%s: it is drawn smaller by a millionth or so, lest rounding "
-            "decide which is in front",
-            touching.solid, touching.other, others_of(&touching, others));
+        hd_problem(notes,
+                   "solids[%d] touches %s%s: it is drawn smaller by a millionth or so, so that "
+                   "rounding does not decide which is in front",
+                   touching.solid, touching.other, others_of(&touching, others));
     if (overlapping.count > 0)
         hd_problem(notes, "solids[%d] overlaps %s%s: each has all of its faces there",
                    overlapping.solid, overlapping.other, others_of(&overlapping, others));
 }
 
-/* A picture that shifts by less is not seen to jump, as a share of the distance to the target. */
+/* Least visible jump of a path, as a share of the distance between eye and target. */
 static const double least_jump = 1e-3;
 
-/* What turns or swings less often in a film is not meant to come back. */
+/* Turns or swings in a film; with fewer, a path is not meant to return to its start. */
 static const double least_rounds = 0.9;
 
 static void note_radians(const char *path, const char *key, double angle, HdProblems *notes) {

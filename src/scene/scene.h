@@ -104,7 +104,7 @@ typedef enum HdSampling {
     HD_SAMPLING_REFERENCE /* a low-discrepancy set, dense and the same in every pixel */
 } HdSampling;
 
-/* The picture's position in a larger one: the whole's pixel (left, top) is its first pixel. */
+/* The picture's position in a larger one: its first pixel is the larger one's (left, top). */
 typedef struct HdCrop {
     int whole_width, whole_height; /* size of the larger one; 0: no crop */
     int left, top;
@@ -120,7 +120,7 @@ typedef struct HdScene {
     HdSampling sampling;
     double max_error; /* largest truncation error of a pixel, in 1/255 units; 0: no limit */
     int depth;        /* maximum ray depth; primary rays have depth 0 */
-    double cutoff;    /* least weight, below which in every channel a ray ends; 0: off */
+    double cutoff;    /* weight below which, in every channel, a ray ends; 0: off */
     double exposure;
     HdVec3 background;
     int solid_count;
@@ -161,7 +161,7 @@ HdVec3 hd_floor_centre(const HdFloor *floor);
 /* Counts point lights and edge lights of a valid scene, also those that light nothing. */
 int hd_scene_light_count(const HdScene *scene);
 
-/* Counts of these the ones that light something and whose falloff has no end. */
+/* Counts those of these lights that light something and whose falloff has no end. */
 int hd_scene_endless_light_count(const HdScene *scene);
 
 /* Counts the triangles of all meshes, each mesh once. */

@@ -28,9 +28,9 @@ typedef struct HdSceneTables {
     int lanes; /* lanes of the kernels' packets; wide nodes have as many children */
     int plane_count, light_count;
     int depth;
-    int node_stack;       /* of the hierarchies of meshes; 0: no meshes */
+    int node_stack;       /* stack entries to traverse mesh hierarchies; 0: no meshes */
     bool refracts;        /* whether some material has an index of refraction other than 1 */
-    bool lit_from_behind; /* whether some material is */
+    bool lit_from_behind; /* whether some material is lit from behind */
     bool many_lights;     /* enough for packets of one lane to cull runs */
     bool small_tables;    /* whether they fit HD_SMALL_SCENE_TABLES and HD_SMALL_FRAME_TABLES */
     bool bounded;         /* whether pixels have an error bound */
@@ -66,7 +66,7 @@ enum { HD_LISTED_WIDTH = 8 }; /* width in pixels of the frame that entries form,
    "triangles". */
 const char *hd_scene_table_content(int table);
 
-/* Raises what compiled tables need of kernels to that of `like`: planes, depth, stack of nodes,
+/* Raises the kernel needs of compiled tables to those of `like`: planes, depth, stack of nodes,
    refraction, light from behind, many lights and error bound. Tables stay small only if `like` is.
    */
 void hd_scene_tables_raise(HdSceneTables *tables, const HdSceneTables *like);
@@ -99,10 +99,10 @@ HdStatus hd_check_budget(const HdSceneTables *tables, const HdMemoryBudget *capa
    a message: "scene's triangles". */
 HdStatus hd_table_allocate(HdTable *table, const char *what, HdError *error);
 
-/* Compiles a scene that hd_scene_validate accepted; rounds geometry to the kernels' precision after
-   computing it, and differences of centres, in double. `lanes` is that of hd_renderer_lanes;
-   without meshes any number does. Fails with HD_UNAVAILABLE if the tables need more than this
-   machine's memory, with HD_FAILED if the allocation fails. */
+/* Compiles a scene that hd_scene_validate accepted; computes geometry and differences of centres in
+   double, then rounds them to the kernels' precision. `lanes` is that of hd_renderer_lanes; without
+   meshes any number does. Fails with HD_UNAVAILABLE if the tables need more than this machine's
+   memory, with HD_FAILED if the allocation fails. */
 HdStatus hd_compile_scene(HdSceneTables *tables, const HdScene *scene, HdPrecision precision,
                           int lanes, HdError *error);
 

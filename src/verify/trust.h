@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Uploads scenes to renderers; all rendering for a user goes through it. First settles the device's
-   arithmetic (probe.h). Newly compiled strict kernels must then render the golden frames for that
-   purpose that they support with the right hashes. If the megakernel fails, the wavefront replaces
-   it with a warning (warnings.h). Kernels that pass are kept on disk (kernel_cache.h). Renderers
+   arithmetic (probe.h). Newly compiled strict kernels must then render those golden frames of this
+   test that they support, with the right hashes. If the megakernel fails, the wavefront replaces it
+   with a warning (warnings.h). Kernels that pass are kept on disk (kernel_cache.h). Renderers
    refuse frames by others (hd_renderer_submit). */
 #ifndef HD_VERIFY_TRUST_H
 #define HD_VERIFY_TRUST_H

@@ -36,7 +36,7 @@ void hd_gpu_release(const HdGpu *gpu, HdGpuMemory *memory);
 typedef struct HdGpuWaveQueue {
     HdGpuMemory buffers[HD_WAVE_BUFFERS];
     HdGpuMemory taken;    /* counter of used places */
-    HdGpuMemory reported; /* host memory that it is read into */
+    HdGpuMemory reported; /* host memory into which the counter is read */
     HdWavePlan plan;
     size_t bytes; /* limit for each of its workers */
     bool is_cut;  /* the device refused more */
@@ -59,12 +59,12 @@ void hd_gpu_wave_queue_release(HdGpuWaveQueue *queue, const HdGpu *gpu);
 
 typedef struct HdGpuProgram {
     HdKernelCache cache;
-    bool is_built;      /* for the cache's shape */
+    bool is_built;      /* whether the kernels of the cache's shape exist */
     bool probes_by_fma; /* the probe's kernel, if built, divides by fma */
     int block;          /* threads of a group as requested; 0: as many as the kernels allow */
     int registers;      /* registers of a thread as requested; 0: automatic */
     int nvidia_arch;    /* as in HdDevice */
-    int group_size;     /* of a launch; 1: threads do not work in groups */
+    int group_size;     /* threads of a group in a launch; 1: no groups */
 } HdGpuProgram;
 
 /* Provides kernels for a scene's needs. The cache reads them later: `gpu` must stay in place. */
@@ -90,7 +90,7 @@ typedef struct HdGpuFrameInFlight {
     bool encodes;
     const HdFrameTables *of; /* tables of the frame */
     int items, reported;     /* items of the frame, and how many were reported as done */
-    double submitted;        /* by hd_monotonic_seconds */
+    double submitted;        /* time of submission, by hd_monotonic_seconds */
     int launches;            /* launches of the tracing kernel */
     HdGpuEvent first, later; /* events of the first launch and of the last of the others */
     HdGpuEvent *untimed;     /* event of the launch not timed yet; NULL: none */

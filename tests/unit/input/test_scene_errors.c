@@ -415,7 +415,8 @@ static const char quiet_text[] =
     "   \"material\": \"m\"}}";
 
 #define SMALLER                                                                                    \
-    ": it is drawn smaller by a millionth or so, lest rounding decide which is in front\n"
+    ": it is drawn smaller by a millionth or so, so that rounding does not decide which is in "    \
+    "front\n"
 
 #define CAMERA_PATH(frames, phi, r)                                                                \
     "camera={\"frames\": " frames ", \"eye\": {\"r0\": 9, \"z0\": 1, \"r_amplitude\": 1, "         \
