@@ -92,7 +92,7 @@ wrong() { # WORDS OPTION...
 wrong '--reference has samples of its own: leave out --aa' --reference --aa adaptive
 wrong "max_error is 1e-300, expected 0, or a number from 0.001 to 255" --set image.max_error=1e-300
 wrong "--crop is '8x8+1+1x', expected WIDTHxHEIGHT+X+Y such as 64x64+320+200" --crop 8x8+1+1x
-wrong 'the picture has 64 x 48 pixels' --size 64x48 --crop 8x8+57+0 --frames 0
+wrong 'the area ends outside the picture of 64 x 48 pixels' --size 64x48 --crop 8x8+57+0 --frames 0
 
 # ---- solids that touch: the picture is that of an invisibly small gap
 # expect_gap SOLIDS LIGHT: of a scene whose cubes lie $gap apart, or are smaller by it.
