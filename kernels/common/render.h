@@ -96,6 +96,10 @@ FN vmask sample_directions(SAMPLE_PARAMETERS int item, int first, Vec3 *directio
     vint row, column;
     if (view->listed) {
         listed_samples(SAMPLE_ARGUMENTS within, &alive, &x, &y, &column, &row);
+    } else if (view->patterned) {
+        vint place = load_ints(sample_places + first % samples);
+        column = place & 0xffff;
+        row = (place >> 16) & 0xffff;
     } else {
         row = divide_int(within, n);
         column = within - row * n;

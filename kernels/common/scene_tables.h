@@ -228,7 +228,9 @@ typedef struct ALIGNED_16 {
    count half steps of a sample grid from the middle of the whole picture. The grid has grid_side x
    grid_side places for samples in each pixel.
 
-   An ordinary frame samples all places of the grid, row by row. In a listed frame, pixel e is
+   An ordinary frame samples all places of the grid, row by row. In a patterned frame, each pixel has
+   the places sample_places[i] = column | row << 16 of its grid; the list is repeated to
+   HD_PATTERN_SPARE more elements, for packets across pixels. In a listed frame, pixel e is
    entries[2 e] = x | y << 16 of the whole picture. Its samples are sample_places[entries[2 e + 1] +
    i] = column | row << 16 of the pixel's grid; it has none if entries[2 e + 1] is negative. */
 typedef struct ALIGNED_16 {
@@ -248,8 +250,11 @@ typedef struct ALIGNED_16 {
     int depth;
     int pixel_shift; /* bits that a sample loses when it is added to a pixel's sum */
     int bound_shift; /* likewise for its error bound */
-    int unused_int[2];
+    int patterned;
+    int unused_int;
 } View;
+
+enum { HD_PATTERN_SPARE = 16 };
 
 #define HD_ASSERT_SIZE(type, reals, ints)                                                          \
     typedef char hd_size_of_##type##_is_as_documented                                              \
@@ -326,7 +331,7 @@ HD_ASSERT_SIZE(View, 16, 12);
     X(View, view)                                                                                  \
     /* [to]: the eye minus the centre of `to` */                                                   \
     X(Vector, eye_offsets)                                                                         \
-    /* of a listed frame (View) */                                                                 \
+    /* of a listed or patterned frame */                                                           \
     X(int, entries)                                                                                \
     /* likewise */                                                                                 \
     X(int, sample_places)

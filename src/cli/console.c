@@ -230,7 +230,8 @@ static void note_meshes(const HdScene *scene) {
 
 static void note_accuracy(const HdScene *scene) {
     static const char *const samplings[] = {
-        [HD_SAMPLING_GRID] = "all samples of each pixel",
+        [HD_SAMPLING_GRID] = "a grid of samples in each pixel",
+        [HD_SAMPLING_MULTIJITTER] = "multi-jittered samples in each pixel",
         [HD_SAMPLING_ADAPTIVE] = "as many samples as each pixel needs",
         [HD_SAMPLING_REFERENCE] = "dense samples",
     };

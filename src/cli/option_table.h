@@ -60,10 +60,12 @@ ROW("--cutoff", NULL, "W", "End rays whose weight is below W in every channel; 0
     REAL(scene.cutoff, 0.0, 1.0), .below_high = true, .standard = OF_SCENE,
     .role = HD_DECIDES_NUMBERS)
 ROW("--aa", NULL, "NAME",
-    "Antialiasing. grid: all N x N samples in each pixel; adaptive: as many of them as the pixel "
-    "needs, by an estimate without guarantee",
-    RENDERING | HD_COMMAND_VIEW, CHOICE(scene.sampling, "grid", "adaptive"), .standard = OF_SCENE,
-    .use = "adaptive for many samples", .role = HD_DECIDES_PIXELS)
+    "Antialiasing by N x N samples. grid: in the middles of N x N cells; multijitter: also one in "
+    "each of N * N columns and rows, with 0.7 to 0.85 of the error; adaptive: as many samples of "
+    "the "
+    "grid as the pixel needs, by an estimate without guarantee",
+    RENDERING | HD_COMMAND_VIEW, CHOICE(scene.sampling, "grid", "multijitter", "adaptive"),
+    .standard = OF_SCENE, .use = "adaptive for many samples", .role = HD_DECIDES_PIXELS)
 ROW("--max-error", NULL, "E",
     "Maximum truncation error of a pixel, in 1/255 units. Depth, cut-off and lights follow from it "
     "instead of from the scene. With '--aa adaptive' also the target of the sampling error",

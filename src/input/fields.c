@@ -56,8 +56,10 @@ static const HdChoice normals[] = {
 #define KIND_CHOICE(kind, name) {name, kind},
 static const HdChoice kinds[] = {HD_SOLID_KINDS(KIND_CHOICE){NULL, 0}};
 
-static const HdChoice samplings[] = {
-    {"grid", HD_SAMPLING_GRID}, {"adaptive", HD_SAMPLING_ADAPTIVE}, {NULL, 0}};
+static const HdChoice samplings[] = {{"multijitter", HD_SAMPLING_MULTIJITTER},
+                                     {"grid", HD_SAMPLING_GRID},
+                                     {"adaptive", HD_SAMPLING_ADAPTIVE},
+                                     {NULL, 0}};
 _Static_assert(sizeof(HdSampling) == sizeof(int), "an HdSampling is as large as an int");
 
 static const HdField image_fields[] = {
@@ -73,8 +75,10 @@ static const HdField image_fields[] = {
         "Rays end when their weight is below this in every channel; 0: never"),
      NUMBER(0.0, 1.0), .below_high = true, DEFAULT(0.0)},
     {AT(HdScene, sampling, "aa",
-        "Antialiasing: the whole grid of n x n samples, or as many of them as the pixel needs"),
-     CHOICE(samplings, HD_SAMPLING_GRID)},
+        "Antialiasing: multijitter has one sample in each of n x n cells and in each of their "
+        "columns "
+        "and rows, grid the middles of the cells, adaptive as many of those as the pixel needs"),
+     CHOICE(samplings, HD_SAMPLING_MULTIJITTER)},
     {AT(HdScene, max_error, "max_error",
         "Maximum truncation error of a pixel; 0: off. Otherwise rays and lights end by this bound, "
         "and depth and cutoff are ignored unless the command line has them"),

@@ -10,6 +10,7 @@
 #include "base/minmax.h"
 #include "kernels/host/shared.h"
 #include "scene/light_bound.h"
+#include "scene/sample_pattern.h"
 #include "system/thread_pool.h"
 
 /* ---- samples ---- */
@@ -106,6 +107,12 @@ HdStatus hd_sample_set_dense(HdSampleSet *set, int side, HdError *error) {
         int y = dense_place(side, row, row_of[column], next_random(&state));
         set->places[i] = x | y << 16;
     }
+    return HD_OK;
+}
+
+HdStatus hd_sample_set_multijitter(HdSampleSet *set, int side, HdError *error) {
+    HD_TRY(create(set, side * side, side * side, error));
+    hd_multijitter(side, set->places);
     return HD_OK;
 }
 

@@ -28,6 +28,9 @@ HdStatus hd_sample_set_grid(HdSampleSet *set, int side, HdError *error);
 enum { HD_DENSE_GRID = 4096 };
 HdStatus hd_sample_set_dense(HdSampleSet *set, int side, HdError *error);
 
+/* Fills the set with the positions of hd_multijitter for a grid of side x side cells. */
+HdStatus hd_sample_set_multijitter(HdSampleSet *set, int side, HdError *error);
+
 void hd_sample_set_free(HdSampleSet *set);
 
 /* Returns the radiance, after exposure, that may be missing from a pixel or sample whose darkest

@@ -96,8 +96,10 @@ static HdStatus fill_refinement(HdRefinement *r, const HdFrameMaker *maker, HdEr
     const size_t pixels = (size_t)scene->width * (size_t)scene->height;
     r->width = scene->width;
     r->height = scene->height;
-    HD_TRY(scene->sampling == HD_SAMPLING_REFERENCE ? hd_sample_set_dense(&r->samples, side, error)
-                                                    : hd_sample_set_grid(&r->samples, side, error));
+    HD_TRY((scene->sampling == HD_SAMPLING_REFERENCE ? hd_sample_set_dense
+            : scene->sampling == HD_SAMPLING_MULTIJITTER
+                ? hd_sample_set_multijitter
+                : hd_sample_set_grid)(&r->samples, side, error));
     HD_TRY(hd_thread_pool_create(&r->threads, hd_min(hd_processor_count(), MAX_THREADS), error));
     r->passes = (HdBoundPasses){.scene = scene,
                                 .renderer = maker->renderer,

@@ -8,7 +8,8 @@
 #include "system/thread_pool.h"
 
 bool hd_scene_has_error_bound(const HdScene *scene) {
-    return scene->sampling != HD_SAMPLING_GRID || scene->max_error > 0.0;
+    return scene->sampling == HD_SAMPLING_ADAPTIVE || scene->sampling == HD_SAMPLING_REFERENCE ||
+           scene->max_error > 0.0;
 }
 
 bool hd_scene_has_deep_trees(const HdScene *scene) {
@@ -21,7 +22,8 @@ void hd_scene_drop_error_bound(HdScene *scene) {
     enum { USUAL_DEPTH = 16 };
     if (scene->max_error > 0.0 && scene->depth > USUAL_DEPTH)
         scene->depth = USUAL_DEPTH;
-    scene->sampling = HD_SAMPLING_GRID;
+    if (scene->sampling != HD_SAMPLING_MULTIJITTER)
+        scene->sampling = HD_SAMPLING_GRID;
     scene->max_error = 0.0;
 }
 

@@ -99,9 +99,10 @@ typedef struct HdPath {
 
 /* Positions and number of a pixel's samples. */
 typedef enum HdSampling {
-    HD_SAMPLING_GRID,     /* all positions of a grid */
-    HD_SAMPLING_ADAPTIVE, /* positions of that grid, as many as the pixel needs */
-    HD_SAMPLING_REFERENCE /* a low-discrepancy set, dense and the same in every pixel */
+    HD_SAMPLING_GRID,        /* all positions of a grid */
+    HD_SAMPLING_MULTIJITTER, /* one position in each cell of that grid (sample_pattern.h) */
+    HD_SAMPLING_ADAPTIVE,    /* positions of the grid, as many as the pixel needs */
+    HD_SAMPLING_REFERENCE    /* a low-discrepancy set, dense and the same in every pixel */
 } HdSampling;
 
 /* The picture's position in a larger one: its first pixel is the larger one's (left, top). */

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/sample_pattern.h"
 #include "system/machine.h"
 
 _Static_assert(HD_SCENE_TABLE_COUNT <= sizeof((HdSceneTables){0}.table) / sizeof(HdTable),
@@ -184,7 +185,7 @@ static void fill_view(View *view, const HdFrameTables *tables, const HdScene *sc
     const HdCrop *crop = &scene->crop;
     int whole_width = crop->whole_width > 0 ? crop->whole_width : scene->width;
     int whole_height = crop->whole_height > 0 ? crop->whole_height : scene->height;
-    int side = list != NULL ? list->grid_side : scene->samples_per_side;
+    int side = list != NULL ? list->grid_side : hd_sample_lattice(scene);
     double step = camera->tangent_of_half_fov / ((double)whole_width * (double)side);
     hd_store3(view->forward, camera->forward);
     hd_store3(view->right, hd_scale(camera->right, step));
@@ -198,6 +199,7 @@ static void fill_view(View *view, const HdFrameTables *tables, const HdScene *sc
     view->first_row = 1 - whole_height * side + 2 * crop->top * side;
     view->depth = scene->depth;
     view->listed = list != NULL;
+    view->patterned = list == NULL && scene->sampling == HD_SAMPLING_MULTIJITTER;
     fill_fixed_point(view, scene, tables->samples);
     if (list != NULL) {
         view->bound_cutoff = (real)list->bound_cutoff;
@@ -217,6 +219,13 @@ static void fill_list(const HdFrameTables *tables, const HdSampleList *list) {
            tables->table[HD_TABLE_sample_places].bytes);
 }
 
+static void fill_pattern(const HdFrameTables *tables, int samples_per_side) {
+    int *places = tables->table[HD_TABLE_sample_places].data;
+    hd_multijitter(samples_per_side, places);
+    for (int i = 0; i < HD_PATTERN_SPARE; i++)
+        places[tables->samples + i] = places[i % tables->samples];
+}
+
 HdStatus NAMED(hd_compile_frame)(HdFrameTables *tables, const HdScene *scene,
                                  const HdCamera *camera, const HdSampleList *list, HdError *error) {
     int object_count = hd_object_count(scene);
@@ -227,12 +236,16 @@ HdStatus NAMED(hd_compile_frame)(HdFrameTables *tables, const HdScene *scene,
         tables->table[HD_TABLE_entries].bytes =
             2 * sizeof(int) * (size_t)tables->width * (size_t)tables->height;
         tables->table[HD_TABLE_sample_places].bytes = sizeof(int) * (size_t)list->place_count;
+    } else if (scene->sampling == HD_SAMPLING_MULTIJITTER) {
+        tables->table[HD_TABLE_sample_places].bytes = sizeof(int) * ((size_t)tables->samples + HD_PATTERN_SPARE);
     }
     for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
         HD_TRY(hd_table_allocate(&tables->table[i], "tables of a frame", error));
     fill_view(tables->table[HD_TABLE_view].data, tables, scene, camera, list);
     if (list != NULL)
         fill_list(tables, list);
+    else if (scene->sampling == HD_SAMPLING_MULTIJITTER)
+        fill_pattern(tables, scene->samples_per_side);
     Vector *offsets = tables->table[HD_TABLE_eye_offsets].data;
     for (int object = 0; object < object_count; object++)
         offsets[object] = hd_as_vector(hd_sub(camera->eye, hd_object_centre(scene, object)));

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "render/backends.h"
+#include "scene/sample_pattern.h"
 #include "verify/trust.h"
 
 enum { DEVICE, PLAIN_C, SIDES };
@@ -49,9 +50,9 @@ static void forget_frames(Search *search) {
 
 /* ---- the comparison ---- */
 
-/* Splits each sample of a grid into a pixel. */
+/* Makes each position of the pixels' grid a pixel. */
 static void split_samples(HdScene *scene) {
-    int side = scene->samples_per_side;
+    int side = hd_sample_lattice(scene);
     HdCrop *crop = &scene->crop;
     scene->width *= side;
     scene->height *= side;
@@ -60,6 +61,7 @@ static void split_samples(HdScene *scene) {
     crop->left *= side;
     crop->top *= side;
     scene->samples_per_side = 1;
+    scene->sampling = HD_SAMPLING_GRID;
 }
 
 static HdStatus compare(Search *search, int depth, bool splits, bool *differs, HdError *error) {
@@ -69,7 +71,7 @@ static HdStatus compare(Search *search, int depth, bool splits, bool *differs, H
     if (status != HD_OK)
         return status;
     search->depth = scene.depth;
-    search->side = scene.samples_per_side;
+    search->side = hd_sample_lattice(&scene);
     search->is_bounded = hd_scene_has_error_bound(&scene);
     if (depth != AS_IT_IS)
         scene.depth = depth;

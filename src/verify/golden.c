@@ -365,6 +365,20 @@ static void crop_of_reference(HdScene *scene) {
     scene->height /= 2;
 }
 
+/* ---- multi-jittered samples ---- */
+
+static void crop_of_multijitter(HdScene *scene) {
+    everything(scene);
+    scene->sampling = HD_SAMPLING_MULTIJITTER;
+    scene->crop =
+        (HdCrop){2 * scene->width, 2 * scene->height, scene->width / 3, scene->height / 4};
+}
+
+static void bounded_multijitter(HdScene *scene) {
+    scene->sampling = HD_SAMPLING_MULTIJITTER;
+    scene->max_error = 2.0;
+}
+
 /* ---- the list ---- */
 
 #define SOLID(kind) .base = one_solid, .variant = HD_##kind
@@ -430,6 +444,11 @@ const HdGoldenFrame hd_golden_frames[] = {
     {.name = "mesh-far-from-origin", .base = bumpy_sphere, .is_far = true},
     {.name = "adaptive-and-bounded", TEXTURED, SIZE(80, 48, 4, 24), .change = adaptive_and_bounded},
     {.name = "crop-of-reference", .base = many_instances, .change = crop_of_reference},
+    {.name = "crop-of-multijitter", TEXTURED, SIZE(45, 31, 3, 8), .change = crop_of_multijitter},
+    {.name = "bounded-multijitter",
+     SOLID(DODECAHEDRON),
+     SIZE(40, 24, 5, 12),
+     .change = bounded_multijitter},
     {.name = "paper-cube", SOLID(HEXAHEDRON), .change = lanterns, .tests_build = true},
     {.name = "plain-instances", FEW_INSTANCES, .change = without_refraction},
     {.name = "paper-instances", FEW_INSTANCES, .change = paper_instances},

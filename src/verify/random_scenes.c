@@ -249,8 +249,10 @@ static void draw_picture(Random *rng, HdScene *scene) {
         scene->cutoff = from_to(rng, 0.001, 0.02);
     scene->background = vector(rng, 0.0, 0.4);
     scene->exposure = chance(rng, 0.5) ? 1.0 : from_to(rng, 0.5, 2.0);
-    if (!rng->kind->is_bounded)
+    if (!rng->kind->is_bounded) {
+        scene->sampling = chance(rng, 0.5) ? HD_SAMPLING_MULTIJITTER : HD_SAMPLING_GRID;
         return;
+    }
     if (chance(rng, 0.7))
         scene->sampling = HD_SAMPLING_ADAPTIVE;
     if (scene->sampling != HD_SAMPLING_ADAPTIVE || chance(rng, 0.5)) {

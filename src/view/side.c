@@ -452,8 +452,7 @@ static void change_scene(HdViewSide *side, HdViewSetting setting, int by) {
     else if (setting == HD_VIEW_SAMPLES)
         plan->samples = hd_min(hd_max(scene->samples_per_side + by, 1), HD_MAX_SAMPLES_PER_SIDE);
     else
-        plan->sampling =
-            scene->sampling == HD_SAMPLING_ADAPTIVE ? HD_SAMPLING_GRID : HD_SAMPLING_ADAPTIVE;
+        plan->sampling = (int)(scene->sampling + 1) % HD_SAMPLING_REFERENCE;
 }
 
 void hd_view_side_change(HdViewSide *side, HdViewSetting setting, int by) {

@@ -343,7 +343,7 @@ static const char *const key_lines[] = {
     "f        float or double",
     "[ ]      less or more depth",
     "n m      fewer or more samples",
-    "x        adaptive sampling, or the grid",
+    "x        grid, multi-jittered or adaptive samples",
     "2        split: two settings and their difference",
     "tab      the other side of the split, for the keys above",
     "g G      less or more of the difference",
@@ -417,6 +417,7 @@ add(Lines *lines, const char *format, ...) {
 }
 
 static void add_settings(Lines *lines, HdViewer *viewer, int number) {
+    static const char *const samplings[] = {"grid", "multijitter", "adaptive"};
     HdViewSide *side = &viewer->sides[number];
     const HdScene *scene = &side->file.scene;
     const bool is_split = viewer->side_count > 1;
@@ -428,8 +429,7 @@ static void add_settings(Lines *lines, HdViewer *viewer, int number) {
     add(lines, "%s%s", prefix, device);
     add(lines, "%s%s, depth %d, %s, %d x %d samples", prefix,
         side->devices.render.precision == HD_PRECISION_DOUBLE ? "double" : "float", scene->depth,
-        scene->sampling == HD_SAMPLING_ADAPTIVE ? "adaptive" : "grid", scene->samples_per_side,
-        scene->samples_per_side);
+        samplings[scene->sampling], scene->samples_per_side, scene->samples_per_side);
     if (problem[0] != '\0')
         add(lines, "! %s", problem);
     if (side->file_error[0] != '\0' && number == 0)

@@ -113,7 +113,7 @@ adaptive=("${render[@]}" --aa adaptive --max-error 1.5 --samples 4 --layers "$al
 expect_exit 0 "${adaptive[@]}" --backend c -o adaptive.exr --stats lines.jsonl
 expect_exr adaptive.exr '(lambda line, bound: sum(what("samples")) == line["rays"]["primary"] and set(what("samples")) == {1, 16}
     and 0 < bound <= 1.5 and abs(bound - line["missing"]["largest"]) < 1e-6)(json.load(open("lines.jsonl")), max(what("bound")))'
-expect_exit 0 "${render[@]}" --samples 4 --layers depth,normal,object -o grid.exr
+expect_exit 0 "${render[@]}" --aa grid --samples 4 --layers depth,normal,object -o grid.exr
 expect_exit 0 "$hedron" compare --json adaptive.exr grid.exr
 expect_output_json 'len(j["channels"]) == 6 and all(c["largest"] == 0 for c in j["channels"])'
 # ---- the same bytes from every backend

@@ -192,7 +192,7 @@ class Maker:
         """Returns the keys of the scene, and the number of a frame of it."""
         overlapping = self.chance(0.25)
         keys = {"hedron": 1, "materials": self.materials, "solids": self.solids(overlapping),
-                "image": {"width": WIDTH, "height": HEIGHT, "samples": self.dice.choice([1, 1, 1, 2, 3]),
+                "image": {"aa": "grid", "width": WIDTH, "height": HEIGHT, "samples": self.dice.choice([1, 1, 1, 2, 3]),
                           "depth": self.dice.choice([0, 3, 4, 5, 6]), "cutoff": self.dice.choice([0, 0.03]),
                           "exposure": self.number(0.5, 2)},
                 "background": self.colour(0),

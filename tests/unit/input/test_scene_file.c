@@ -60,6 +60,7 @@ TEST(test_every_key) {
         .scene = {.width = 320,
                   .height = 200,
                   .samples_per_side = 2,
+                  .sampling = HD_SAMPLING_MULTIJITTER,
                   .depth = 5,
                   .cutoff = 0.01,
                   .exposure = 1.5,
