@@ -45,7 +45,7 @@ render plain
 expect_all plain.jsonl '.missing == null'
 
 # ---- adaptive: seven tenths of the samples, and 99.9 % of the pixels within 2 steps of the grid's
-render grid --samples 4 --size 640x480
+render grid --samples 4 --size 640x480 --aa grid
 render adaptive --samples 4 --size 640x480 --aa adaptive
 compare adaptive grid
 expect_all compared.json '.display.rmse > 0 and .display.p999 <= 2'
