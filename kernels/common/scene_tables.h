@@ -228,8 +228,8 @@ typedef struct ALIGNED_16 {
    count half steps of a sample grid from the middle of the whole picture. The grid has grid_side x
    grid_side places for samples in each pixel.
 
-   An ordinary frame samples all places of the grid, row by row. In a patterned frame, each pixel has
-   the places sample_places[i] = column | row << 16 of its grid; the list is repeated to
+   An ordinary frame samples all places of the grid, row by row. In a patterned frame, each pixel
+   has the places sample_places[i] = column | row << 16 of its grid; the list is repeated to
    HD_PATTERN_SPARE more elements, for packets across pixels. In a listed frame, pixel e is
    entries[2 e] = x | y << 16 of the whole picture. Its samples are sample_places[entries[2 e + 1] +
    i] = column | row << 16 of the pixel's grid; it has none if entries[2 e + 1] is negative. */

@@ -237,7 +237,8 @@ HdStatus NAMED(hd_compile_frame)(HdFrameTables *tables, const HdScene *scene,
             2 * sizeof(int) * (size_t)tables->width * (size_t)tables->height;
         tables->table[HD_TABLE_sample_places].bytes = sizeof(int) * (size_t)list->place_count;
     } else if (scene->sampling == HD_SAMPLING_MULTIJITTER) {
-        tables->table[HD_TABLE_sample_places].bytes = sizeof(int) * ((size_t)tables->samples + HD_PATTERN_SPARE);
+        tables->table[HD_TABLE_sample_places].bytes =
+            sizeof(int) * ((size_t)tables->samples + HD_PATTERN_SPARE);
     }
     for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
         HD_TRY(hd_table_allocate(&tables->table[i], "tables of a frame", error));

@@ -80,13 +80,14 @@ TEST(test_values_that_are_hard_to_print) {
     expect_scene(&first, least_text, NULL);
     char *text = expect_round_trip();
     assert_string_equal(
-        text, "{\n  \"hedron\": 1,\n  \"image\": {\n    \"width\": 640,\n    \"height\": 480,\n"
-              "    \"samples\": 3,\n    \"depth\": 8,\n    \"cutoff\": 0,\n    \"aa\": \"multijitter\",\n"
-              "    \"max_error\": 0,\n    \"exposure\": 1\n  },\n"
-              "  \"camera\": {\n    \"field_of_view\": 60,\n    \"frames\": 1,\n"
-              "    \"eye\": [30, 0, 0],\n    \"target\": [0, 0, 0]\n  },\n"
-              "  \"output\": {\n    \"frames_per_second\": 30,\n    \"curve\": \"srgb\",\n"
-              "    \"bits\": 8\n  },\n  \"materials\": {}\n}\n");
+        text,
+        "{\n  \"hedron\": 1,\n  \"image\": {\n    \"width\": 640,\n    \"height\": 480,\n"
+        "    \"samples\": 3,\n    \"depth\": 8,\n    \"cutoff\": 0,\n    \"aa\": \"multijitter\",\n"
+        "    \"max_error\": 0,\n    \"exposure\": 1\n  },\n"
+        "  \"camera\": {\n    \"field_of_view\": 60,\n    \"frames\": 1,\n"
+        "    \"eye\": [30, 0, 0],\n    \"target\": [0, 0, 0]\n  },\n"
+        "  \"output\": {\n    \"frames_per_second\": 30,\n    \"curve\": \"srgb\",\n"
+        "    \"bits\": 8\n  },\n  \"materials\": {}\n}\n");
     free(text);
 }
 
