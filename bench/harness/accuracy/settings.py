@@ -21,6 +21,7 @@ class Setting:
 
 FAMILIES = {
     "grid": "grid N x N, the scene's depth and cut-off",
+    "multijitter": "N x N multi-jittered samples, the scene's depth and cut-off",
     "adaptive": "adaptive, up to N x N, the scene's depth and cut-off",
     "full": f"grid N x N, depth {FULL_DEPTH}, no cut-off",
     "deep": "adaptive, up to N x N, depth 30, cut-off 0.001",
@@ -51,14 +52,15 @@ def by_value(family, option, values, word, *others):
 def settings(quick):
     """Returns {family: [Setting]}, each list by its work."""
     sides = SIDES_QUICKLY if quick else SIDES
-    at_side = ("--samples", str(SIDE))
-    adaptive = ("--aa", "adaptive")
+    grid, adaptive = ("--aa", "grid"), ("--aa", "adaptive")
+    at_side = ("--samples", str(SIDE), *grid)
     return {
-        "grid": by_side("grid", sides),
+        "grid": by_side("grid", sides, *grid),
+        "multijitter": by_side("multijitter", sides[1:], "--aa", "multijitter"),
         "adaptive": by_side("adaptive", sides[1:], *adaptive),
-        "full": by_side("full", sides, "--depth", str(FULL_DEPTH), "--cutoff", "0"),
+        "full": by_side("full", sides, *grid, "--depth", str(FULL_DEPTH), "--cutoff", "0"),
         "deep": by_side("deep", sides[1:], *BOUNDED, *adaptive),
-        "fine": by_side("fine", sides[1:], *LESS_BOUNDED),
+        "fine": by_side("fine", sides[1:], *grid, *LESS_BOUNDED),
         "depth": by_value("depth", "--depth", (4, 30) if quick else (2, 4, 8, 20, 30), "depth ", *at_side),
         "cutoff": by_value("cutoff", "--cutoff", (0.03, 0.003) if quick else (0.1, 0.03, 0.01, 0.003, 0.001, 0.0003),
                            "cut-off ", *at_side, "--depth", "30"),

@@ -22,7 +22,7 @@ EQUAL_ERROR = Target(1 / 3, 1 / 10, False)
 SIZE, SIZE_OF_GPUS = {False: (128, 96), True: (64, 48)}, (640, 360)
 ON_ALL_SCENES = ("arithmetic", "truncation", "adaptive")
 # Scenes besides the built-in one; of several frames each, because the neighbours of the first give the time.
-FRONT_SCENES, FRONT_FAMILIES = ("five", "official", "starter"), ("grid", "adaptive", "fine", "deep", "promise")
+FRONT_SCENES, FRONT_FAMILIES = ("five", "official", "starter"), ("grid", "multijitter", "adaptive", "fine", "deep", "promise")
 HEAD = ["setting", "device", "ms [q1..q3]", "RMSE", "largest", "M rays", "front", "recommended"]
 
 
@@ -148,6 +148,8 @@ class Accuracy(Bench):
                                              "over the errors that both have")
                 self.add_equal_error(label, "equal_error_sampling",
                                      "  of adaptive sampling alone, against the grid of the same depth", ("adaptive",), "grid")
+                self.add_equal_error(label, "equal_error_pattern",
+                                     "  of multi-jittered samples alone, against the grid", ("multijitter",), "grid")
             self.result.update({key: self.memory[key] for key in ("truth", "points", "equal_error", "not_tried")})
         self.add_fronts()
         self.add_not_finite()
