@@ -61,9 +61,8 @@ ROW("--cutoff", NULL, "W", "End rays whose weight is below W in every channel; 0
     .role = HD_DECIDES_NUMBERS)
 ROW("--aa", NULL, "NAME",
     "Antialiasing by N x N samples. grid: in the middles of N x N cells; multijitter: also one in "
-    "each of N * N columns and rows, with 0.7 to 0.85 of the error; adaptive: as many samples of "
-    "the "
-    "grid as the pixel needs, by an estimate without guarantee",
+    "each of N * N columns and rows, with about 0.8 of the error in the mean; adaptive: as many "
+    "samples of the grid as the pixel needs, by an estimate without guarantee",
     RENDERING | HD_COMMAND_VIEW, CHOICE(scene.sampling, "grid", "multijitter", "adaptive"),
     .standard = OF_SCENE, .use = "adaptive for many samples", .role = HD_DECIDES_PIXELS)
 ROW("--max-error", NULL, "E",

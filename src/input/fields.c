@@ -76,8 +76,8 @@ static const HdField image_fields[] = {
      NUMBER(0.0, 1.0), .below_high = true, DEFAULT(0.0)},
     {AT(HdScene, sampling, "aa",
         "Antialiasing: multijitter has one sample in each of n x n cells and in each of their "
-        "columns "
-        "and rows, grid the middles of the cells, adaptive as many of those as the pixel needs"),
+        "columns and rows, grid one in the middle of each cell, adaptive as many of the grid's as "
+        "needed"),
      CHOICE(samplings, HD_SAMPLING_MULTIJITTER)},
     {AT(HdScene, max_error, "max_error",
         "Maximum truncation error of a pixel; 0: off. Otherwise rays and lights end by this bound, "

@@ -8,8 +8,8 @@
 #include "image/curve.h"
 #include "system/thread_pool.h"
 
-/* Distinct samples on a grid: column | row << 16. The first 1, 4, 16, ... samples cover the pixel
-   as evenly as a grid of that size. */
+/* Distinct samples on a grid: column | row << 16. Of a set from hd_sample_set_grid, the first 1, 4,
+   16, ... samples cover the pixel as evenly as a grid of that size. */
 typedef struct HdSampleSet {
     int *places; /* owned */
     int count;

@@ -359,7 +359,7 @@ static void fill_frame(HdRefinement *r, HdFrame *frame) {
     frame->mean_bound = sum / (double)pixels;
 }
 
-/* Coverage comes from the grid's samples, however many a pixel has. */
+/* Coverage comes from all n x n samples, however many a pixel has. */
 static HdStatus find_first_hits(const HdFrameMaker *maker, const HdCamera *camera, HdFrame *frame,
                                 HdError *error) {
     HdFrameTables tables;

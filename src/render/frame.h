@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Renders one frame of a scene that is on a renderer (verify/trust.h): each sample of the grid, or
-   with an error bound (hd_scene_has_error_bound) as many samples as each pixel needs.
+/* Renders one frame of a scene that is on a renderer (verify/trust.h): all its
+   samples, or with an error bound (hd_scene_has_error_bound) as many as each pixel needs.
 
    Adaptive sampling (after Whitted 1980, section 6) starts with one sample per pixel. A pixel gets
    16 if a neighbour differs in the picture or is uneven; then 64, 256, ... up to the whole grid,

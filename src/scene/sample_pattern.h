@@ -11,9 +11,10 @@ int hd_sample_lattice(const HdScene *scene);
 
 /* Fills `places` with the n * n positions column | row << 16 of a pattern on a lattice of n * n
    columns and rows: one in each cell of a grid of n x n, row by row, and one in each column and row
-   (Chiu, Shirley, Wang 1994; the same order in all rows of cells and in all columns, as in Kensler
-   2013). An edge that is nearly upright or level crosses n * n different columns or rows, of a grid
-   only n. The orders were found by search. 1 <= n <= HD_MAX_SAMPLES_PER_SIDE. */
+   (Chiu, Shirley, Wang 1994; except for n = 3 and 4 with one order for all rows of cells and one
+   for all columns of cells, as in Kensler 2013). An edge that is nearly upright or level crosses n
+   * n different columns or rows, of a grid only n. The orders were found by search. 1 <= n <=
+   HD_MAX_SAMPLES_PER_SIDE. */
 void hd_multijitter(int n, int *places);
 
 #endif

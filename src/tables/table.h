@@ -106,7 +106,7 @@ HdStatus hd_table_allocate(HdTable *table, const char *what, HdError *error);
 HdStatus hd_compile_scene(HdSceneTables *tables, const HdScene *scene, HdPrecision precision,
                           int lanes, HdError *error);
 
-/* Compiles one frame of the same scene: the samples of the grid (`list` is NULL) or, in a scene
+/* Compiles one frame of the same scene: all of its samples (`list` is NULL) or, in a scene
    with an error bound, the listed ones, at least 1. */
 HdStatus hd_compile_frame(HdFrameTables *tables, const HdScene *scene, const HdCamera *camera,
                           HdPrecision precision, const HdSampleList *list, HdError *error);

@@ -251,10 +251,10 @@ static void draw_picture(Random *rng, HdScene *scene) {
     scene->exposure = chance(rng, 0.5) ? 1.0 : from_to(rng, 0.5, 2.0);
     if (!rng->kind->is_bounded) {
         scene->sampling = chance(rng, 0.5) ? HD_SAMPLING_MULTIJITTER : HD_SAMPLING_GRID;
+        scene->samples_per_side += scene->sampling == HD_SAMPLING_MULTIJITTER && chance(rng, 0.5);
         return;
     }
-    if (chance(rng, 0.7))
-        scene->sampling = HD_SAMPLING_ADAPTIVE;
+    scene->sampling = chance(rng, 0.7) ? HD_SAMPLING_ADAPTIVE : HD_SAMPLING_MULTIJITTER;
     if (scene->sampling != HD_SAMPLING_ADAPTIVE || chance(rng, 0.5)) {
         scene->max_error = from_to(rng, 1.0, 16.0);
         scene->cutoff = 0.0;

@@ -63,7 +63,7 @@ static const struct {
     {"--max-launch", "1|12.5|10000", "|0|0.5|-1|10001|abc"},
     {"--precision", "float|double", "|single|Float|64"},
     {"--math", "strict|fast", "|loose|Strict"},
-    {"--aa", "grid|adaptive", "|Grid|1"},
+    {"--aa", "grid|multijitter|adaptive", "|Grid|1"},
     {"--backend", "auto|c|opencl|cuda", "|vulkan|C| c"},
     {"--set", "a=1|a.b=", "|abc|=1"},
     {"--stats", "-|a.jsonl", ""},
