@@ -182,10 +182,9 @@ static HdStatus estimate(HdCandidates *candidates, double enough, HdError *error
     HdDevice device;
     HdRenderer *renderer;
     HdTrial trial;
-    int count;
     plain.floor.texture = (HdTexture){0};
     job.scene = &plain;
-    HD_TRY(hd_backend_enumerate(hd_backend_always_there(), &device, 1, &count, error));
+    HD_TRY(hd_find_plain_device(&device, error));
     HD_TRY(hd_trial_open(&renderer, &device, candidates->selection.options, &job, error));
     HdStatus status = hd_trial(renderer, &job, &selection, &trial, error);
     candidates->frame_seconds = trial.frame_seconds;

@@ -10,14 +10,14 @@
 /* A command line up to the word that is being typed. */
 typedef struct Line {
     const HdCommandSpec *command;
-    const HdOptionSpec *option; /* whose value is being typed; NULL: none's */
-    const char *kept, *typed;   /* of the word: "--name=", or "", and the rest */
+    const HdOptionSpec *option; /* option whose value is being typed, or NULL */
+    const char *kept, *typed;   /* parts of the word: "--name=" or "", and the rest */
     int kept_length;
-    bool is_first;      /* a command may stand there */
-    bool only_operands; /* after "--" */
+    bool is_first;      /* the word may be a command */
+    bool only_operands; /* "--" came before */
 } Line;
 
-/* ---- what the words before say ---- */
+/* ---- the words before ---- */
 
 /* Returns the option of the line's command that a word names, or NULL. */
 static const HdOptionSpec *find_option(const Line *line, const char *word, const char **value) {
@@ -58,9 +58,9 @@ static Line read_line(char *const *words, int count) {
     return line;
 }
 
-/* ---- what may follow ---- */
+/* ---- completions ---- */
 
-/* Prints it if it begins with what is typed. */
+/* Prints a completion, if it begins with the typed text. */
 static void offer(const Line *line, const char *word, const char *about) {
     if (strncmp(word, line->typed, strlen(line->typed)) != 0)
         return;
@@ -99,7 +99,7 @@ static void offer_devices(const Line *line) {
     }
 }
 
-/* Of a set, what follows the last comma, after the words before it. */
+/* Offers the choices of an option; of a set, those after the last comma. */
 static void offer_choices(const Line *line) {
     const char *comma = line->option->type == HD_OPTION_SET ? strrchr(line->typed, ',') : NULL;
     Line last = *line;
@@ -111,7 +111,7 @@ static void offer_choices(const Line *line) {
         offer(&last, *choice, "");
 }
 
-/* "image.aa=", and behind the sign the words that the value may be. */
+/* Offers "image.aa=", and after the sign the words of the value. */
 static void offer_path(const Line *line, const char *object, const HdField *field) {
     char text[256];
     if (field->type == HD_FIELD_LIST || field->type == HD_FIELD_MATERIALS ||
@@ -128,7 +128,7 @@ static void offer_path(const Line *line, const char *object, const HdField *fiel
     }
 }
 
-/* Paths of values that are not in lists, whatever the scene. */
+/* Offers the paths of all values that are not in lists. */
 static void offer_paths(const Line *line) {
     for (int i = 0; i < hd_scene_fields.field_count; i++) {
         const HdField *field = &hd_scene_fields.fields[i];

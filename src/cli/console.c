@@ -22,12 +22,12 @@ enum { BAR_WIDTH = 24, SECONDS_BETWEEN_LINES = 5, MAX_HOURS = 99999, USUAL_COLUM
    lines: a frame of an hour gets a hundred of them. */
 static const double LONG_FRAME = 1.0, POLL_INTERVAL = 0.2, MIN_PART = 0.01;
 
-/* Seconds of preparing devices that are worth a word in the last line. */
-static const double LEAST_PREPARING = 0.1;
+/* Seconds of preparing devices from which on the last line mentions it. */
+static const double MIN_PREPARING = 0.1;
 
 /* ---- progress ---- */
 
-/* "m:ss", or "h:mm:ss" from an hour on; rounded to the nearest second. */
+/* Writes "m:ss", or "h:mm:ss" from an hour on, rounded to the nearest second. */
 static void format_time(double seconds, char text[32]) {
     const double most = MAX_HOURS * 3600.0;
     long whole = (long)((seconds < most ? seconds : most) + 0.5);
@@ -41,7 +41,7 @@ static double frames_of(const HdProgress *progress) {
     return progress->done + progress->part;
 }
 
-/* Without what came before the first frame: opening devices, building kernels. */
+/* Returns the seconds without opening devices and building kernels before the first frame. */
 static double seconds_rendering(const HdProgress *progress) {
     return progress->seconds - progress->seconds_preparing;
 }
@@ -67,7 +67,7 @@ void hd_progress_line(const HdProgress *progress, char text[128]) {
                     seconds > 0.0 ? progress->done / seconds : 0.0);
     format_time(is_end ? progress->seconds : seconds_left(progress), time);
     hd_add_text(text, 128, ", ", "%s %s", time, is_end ? "in all" : "left");
-    if (is_end && progress->seconds_preparing >= LEAST_PREPARING)
+    if (is_end && progress->seconds_preparing >= MIN_PREPARING)
         hd_add_text(text, 128, ", ", "%.1f s of it to prepare", progress->seconds_preparing);
 }
 
@@ -103,9 +103,9 @@ static bool is_frame_long(const HdConsole *console, double now) {
     return console->tracing_from > 0.0 && now - console->frame_seconds >= LONG_FRAME;
 }
 
-/* Frames that are traced and not stored yet are under way too. What a device lost with a frame is
-   counted all the same, so that it may seem to be more than is left. */
-static double part_under_way(const HdConsole *console) {
+/* Returns the frames that are traced but not stored, in frames. It also counts the work that a lost
+   device did on a frame, so it may exceed what is left. */
+static double part_in_flight(const HdConsole *console) {
     const double part = hd_watch_frames(console->watch) - console->rendered;
     const double most = console->total - console->rendered - 0.01;
     return part > most ? most : part;
@@ -119,8 +119,8 @@ static HdProgress progress_of(const HdConsole *console, double now) {
     };
     if (console->tracing_from > 0.0)
         progress.seconds_preparing = console->tracing_from - console->start_seconds;
-    if (is_frame_long(console, now) && part_under_way(console) > 0.0)
-        progress.part = part_under_way(console);
+    if (is_frame_long(console, now) && part_in_flight(console) > 0.0)
+        progress.part = part_in_flight(console);
     return progress;
 }
 
@@ -137,7 +137,7 @@ static void update(HdConsole *console) {
     const HdProgress progress = progress_of(console, now);
     hd_progress_line(&progress, line);
     if (console->form == HD_PROGRESS_BAR) {
-        /* In the last column some terminals begin a new line. */
+        /* some terminals begin a new line after the last column */
         hd_progress_bar(&progress, line, terminal_columns() - 1, bar);
         draw(bar);
     } else if (progress.done < progress.total &&
@@ -173,7 +173,7 @@ static void *watch(void *argument) {
     return NULL;
 }
 
-/* Without a thread only whole frames are reported. */
+/* If the thread cannot start, only whole frames are reported. */
 void hd_console_watch(HdConsole *console, const HdWatch *frames) {
     if (!console->quiet && isatty(STDERR_FILENO))
         hd_interrupt_announce(console->form == HD_PROGRESS_BAR
@@ -191,26 +191,26 @@ void hd_console_hold(HdConsole *console) {
         hd_console_clear(console);
 }
 
-/* ---- the begin ---- */
+/* ---- start ---- */
 
-/* A bar on a terminal that can redraw a line. Elsewhere plain lines where they are wanted. */
-static HdProgressForm choose_form(const HdTelling *telling) {
+/* Chooses a bar on a terminal that can redraw a line; elsewhere plain lines, if wanted. */
+static HdProgressForm choose_form(const HdReportPlan *reporting) {
     const char *terminal = getenv("TERM");
     bool can_redraw = terminal != NULL && strcmp(terminal, "dumb") != 0;
-    if (telling->tells_frames)
+    if (reporting->reports_frames)
         return HD_PROGRESS_FRAMES;
-    if (telling->quiet)
+    if (reporting->quiet)
         return HD_PROGRESS_NONE;
     if (can_redraw && isatty(STDERR_FILENO))
         return HD_PROGRESS_BAR;
-    return telling->wants_lines ? HD_PROGRESS_LINES : HD_PROGRESS_NONE;
+    return reporting->wants_lines ? HD_PROGRESS_LINES : HD_PROGRESS_NONE;
 }
 
-void hd_console_open(HdConsole *console, const HdTelling *telling) {
+void hd_console_open(HdConsole *console, const HdReportPlan *reporting) {
     *console = (HdConsole){
-        .verbose = telling->verbose,
-        .quiet = telling->quiet,
-        .form = choose_form(telling),
+        .verbose = reporting->verbose,
+        .quiet = reporting->quiet,
+        .form = choose_form(reporting),
         .mutex = PTHREAD_MUTEX_INITIALIZER,
         .over = PTHREAD_COND_INITIALIZER,
     };
@@ -381,7 +381,7 @@ void hd_console_release(HdConsole *console, const HdStoredFrame *stored) {
     pthread_mutex_unlock(&console->mutex);
 }
 
-/* ---- the end ---- */
+/* ---- end ---- */
 
 static void note_changes(const HdDeviceTeam *team, const char (*lines)[HD_RENDERER_LINE]) {
     for (int i = 0; i < team->count; i++) {
@@ -402,7 +402,7 @@ static void end_watch(HdConsole *console) {
         pthread_join(console->watcher, NULL);
 }
 
-/* After all frames: a last plain line, with the rays of all of them for each second. */
+/* Writes the last plain line, with the rays of all frames per second. */
 static void report_rate(const HdConsole *console) {
     char line[128];
     HdProgress all = progress_of(console, hd_monotonic_seconds());
@@ -424,7 +424,7 @@ void hd_console_end(HdConsole *console, const HdScene *scene, const HdDeviceTeam
         report_rate(console);
     if (console->verbose)
         note_changes(team, lines);
-    /* More may be missing from a picture than the scene allows. */
+    /* A picture may exceed the scene's limit. */
     if (status == HD_OK && !console->quiet && scene->max_error > 0.0 &&
         console->missing > scene->max_error)
         fprintf(stderr,

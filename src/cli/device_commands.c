@@ -283,7 +283,7 @@ static HdStatus measure(Run *run, const HdJob *job, HdError *error) {
         .job = job,
     };
     HdConsole console;
-    hd_console_open(&console, &run->options->telling);
+    hd_console_open(&console, &run->options->reporting);
     hd_console_prepare(&console, "measuring");
     HdStatus status = hd_open_devices(&run->team, &selection, error);
     hd_close_devices(&run->team);

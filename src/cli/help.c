@@ -88,7 +88,7 @@ static void print_command(const HdCommandSpec *spec) {
 
 /* ---- scenes ---- */
 
-static const char min_scene[] =
+static const char small_scene[] =
     "  {\n"
     "    \"hedron\": 1,\n"
     "    \"camera\": {\"eye\": [4, -3, 2]},\n"
@@ -116,7 +116,7 @@ static void print_object(const HdObjectType *type, const char *path) {
 }
 
 static void print_scene_format(void) {
-    printf("A scene is a file in JSON. A small one:\n\n%s\n", min_scene);
+    printf("A scene is a file in JSON. A small one:\n\n%s\n", small_scene);
     hd_print_wrapped(hd_scene_rules, 0, 0);
     hd_visit_scene(print_object);
 }

@@ -18,7 +18,7 @@ extern const HdExplained hd_first_steps[], hd_examples[], hd_exit_codes[], hd_va
 
 extern const char hd_program_summary[];
 
-/* What holds for every scene file; paragraphs, separated by empty lines. */
+/* Rules for every scene file; paragraphs, separated by empty lines. */
 extern const char hd_scene_rules[];
 
 /* Prints words up to the width of a line, then indents the next one. `column` is where the line
@@ -50,7 +50,7 @@ extern const char hd_option_rules[];
 typedef void HdObjectVisit(const HdObjectType *type, const char *path);
 void hd_visit_scene(HdObjectVisit *visit);
 
-/* The other forms of help: the man page in troff, and the pages of docs/reference in Markdown. */
+/* Print the man page in troff, and the pages of docs/reference in Markdown. */
 void hd_print_man_page(void);
 void hd_print_scene_reference(void);
 void hd_print_command_reference(void);

@@ -63,8 +63,9 @@ ROW("--aa", NULL, "NAME",
     "Antialiasing by N x N samples. grid: in the middles of N x N cells; multijitter: also one in "
     "each of N * N columns and rows, with about 0.8 of the error in the mean; adaptive: as many "
     "samples of the grid as the pixel needs, by an estimate without guarantee",
-    RENDERING | HD_COMMAND_VIEW, CHOICE(scene.sampling, "grid", "multijitter", "adaptive"),
-    .standard = OF_SCENE, .use = "adaptive for many samples", .role = HD_DECIDES_PIXELS)
+    RENDERING | HD_COMMAND_VIEW, .type = HD_OPTION_CHOICE, AT(scene.sampling),
+    .choices = hd_sampling_names, .standard = OF_SCENE, .use = "adaptive for many samples",
+    .role = HD_DECIDES_PIXELS)
 ROW("--max-error", NULL, "E",
     "Maximum truncation error of a pixel, in 1/255 units. Depth, cut-off and lights follow from it "
     "instead of from the scene. With '--aa adaptive' also the target of the sampling error",
@@ -142,14 +143,14 @@ ROW("--stats", NULL, "FILE",
     "Write a line of JSON for each frame, with its times and rays, to FILE; -: standard output, "
     "which then has nothing else",
     RENDERING, TEXT(store.statistics, "a file or -"), .takes_file = true)
-ROW("--verbose", "-v", NULL, "Report what was chosen, and why", RENDERING, FLAG(telling.verbose),
+ROW("--verbose", "-v", NULL, "Report what was chosen, and why", RENDERING, FLAG(reporting.verbose),
     .only_one_of = loudness)
 ROW("--quiet", "-q", NULL,
     "Print no progress and no notes. Names of outputs still go to standard output", RENDERING,
-    FLAG(telling.quiet), .only_one_of = loudness)
+    FLAG(reporting.quiet), .only_one_of = loudness)
 ROW("--frame-lines", NULL, NULL,
     "Print a line on standard error for each frame that is stored; with --quiet nothing else",
-    HD_COMMAND_RENDER, FLAG(telling.tells_frames), .use = "for programs that watch a run")
+    HD_COMMAND_RENDER, FLAG(reporting.reports_frames), .use = "for programs that watch a run")
 OPTION(bool schema, "--schema", NULL, NULL, "Print the JSON Schema of scene files, and exit",
        HD_COMMAND_CHECK, FLAG(schema), .use = "for completion in an editor")
 OPTION(bool json, "--json", NULL, NULL, "Print the result as JSON",

@@ -624,7 +624,7 @@ static void complete_plan(HdOptions *options) {
         scene->path = "-";
         options->devices.kind = options->cpu ? HD_ONLY_CPU : HD_PREFER_GPU;
     }
-    options->telling.wants_lines = options->command == HD_COMMAND_RENDER;
+    options->reporting.wants_lines = options->command == HD_COMMAND_RENDER;
 }
 
 HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdError *error) {
@@ -650,13 +650,13 @@ HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdErr
 
 /* ---- the program ---- */
 
-/* Whether the reader of standard output has closed its end of a pipe. */
+/* Returns whether the reader of standard output has closed its end of a pipe. */
 static bool is_output_closed(void) {
     struct pollfd output = {.fd = STDOUT_FILENO, .events = POLLOUT};
     return poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
 }
 
-/* Ends by the signal of a closed pipe, silently, as programs do that do not ignore it. */
+/* Ends the program by SIGPIPE, silently, as if it were not ignored. */
 static void end_by_closed_pipe(void) {
     sigset_t set;
     signal(SIGPIPE, SIG_DFL);
@@ -666,7 +666,7 @@ static void end_by_closed_pipe(void) {
     raise(SIGPIPE);
 }
 
-/* Whether a command does nothing but print. */
+/* Returns whether a command does nothing but print. */
 static bool only_prints(const HdOptions *options) {
     return options->prints_default ||
            (options->command & (HD_COMMAND_RENDER | HD_COMMAND_VIEW | HD_COMMAND_CLASSIC)) == 0;

@@ -42,7 +42,7 @@ typedef struct HdOptions {
     HdScenePlan scene;
     HdDevicePlan devices;
     HdStorePlan store;
-    HdTelling telling;
+    HdReportPlan reporting;
 #define ROW(...)
 #define OPTION(member, ...) member;
 #include "cli/option_table.h"

@@ -198,7 +198,7 @@ static HdStatus render_frames(Run *run, const HdOptions *options, HdError *error
         hd_console_start(&run->console, &run->resume);
         status = render_missing(run, &options->devices, error);
     }
-    if (status == HD_OK && options->telling.verbose)
+    if (status == HD_OK && options->reporting.verbose)
         explain_darkness(run);
     hd_resume_free(&run->resume);
     return status == HD_OK && !run->is_classic ? print_names(run, error) : status;
@@ -211,9 +211,9 @@ HdStatus hd_command_render(const HdOptions *options, HdError *error) {
     Run run = {.file = &file};
     HdProblems notes = {.count = 0};
     run.is_classic = options->command == HD_COMMAND_CLASSIC;
-    hd_console_open(&run.console, &options->telling);
+    hd_console_open(&run.console, &options->reporting);
     HdStatus status = hd_load_scene(&file, &options->scene, &notes, error);
-    if (!options->telling.quiet)
+    if (!options->reporting.quiet)
         hd_problems_print(&notes, stderr, "hedron", ": ");
     HD_TRY(status);
     status = hd_frame_list_parse(&run.frames, options->frames, file.scene.frame_count, error);

@@ -13,7 +13,8 @@
 /* Nanoseconds are enough for a run of days. */
 enum { SIGNIFICANT_DIGITS = 12 };
 
-/* Writing waits where the file is a pipe whose reader is slow, and opening where it has none. */
+/* Fails with HD_INTERRUPTED if a signal ended the wait: writing waits for a slow reader of a pipe,
+   opening for a missing one. */
 static HdStatus fail_to_write(const HdStatistics *statistics, HdError *error) {
     if (errno == EINTR && hd_interrupt_signal() != 0)
         return hd_fail(error, HD_INTERRUPTED, "interrupted while writing the statistics to %s",
@@ -72,21 +73,21 @@ HdStatus hd_statistics_open(HdStatistics *statistics, HdError *error) {
     HD_TRY(hd_path_make_parents(statistics->name, 0777, error));
     errno = EINTR;
     if (hd_interrupt_signal() == 0)
-        statistics->stream = fopen(statistics->name, "we"); /* children do not get it */
+        statistics->stream = fopen(statistics->name, "we"); /* closed in child processes */
     return statistics->stream != NULL ? HD_OK : fail_to_write(statistics, error);
 }
 
 HdStatus hd_statistics_add(HdStatistics *statistics, const HdScene *scene, const HdDevice *device,
                            const char *line, const HdStoredFrame *stored, HdError *error) {
-    json_t *told = hd_statistics_line(&(HdStatisticsSource){scene, device, line, stored});
-    if (told == NULL)
+    json_t *object = hd_statistics_line(&(HdStatisticsSource){scene, device, line, stored});
+    if (object == NULL)
         return HD_NO_ROOM(error, "a line of statistics");
     bool can_write = hd_wait_to_write(fileno(statistics->stream));
     errno = can_write ? 0 : EINTR;
     bool failed =
-        !can_write || json_dumpf(told, statistics->stream,
+        !can_write || json_dumpf(object, statistics->stream,
                                  JSON_COMPACT | JSON_REAL_PRECISION(SIGNIFICANT_DIGITS)) != 0;
-    json_decref(told);
+    json_decref(object);
     if (failed || fputc('\n', statistics->stream) == EOF || fflush(statistics->stream) != 0)
         return fail_to_write(statistics, error);
     return HD_OK;
@@ -94,17 +95,17 @@ HdStatus hd_statistics_add(HdStatistics *statistics, const HdScene *scene, const
 
 HdStatus hd_statistics_close(HdStatistics *statistics, HdDurability durability, HdStatus before,
                              HdError *error) {
-    HdError ignored, *told = before == HD_OK ? error : &ignored;
+    HdError ignored, *reported = before == HD_OK ? error : &ignored;
     if (statistics->stream == NULL || statistics->is_standard_output)
         return before;
     errno = 0;
-    HdStatus status = fflush(statistics->stream) == 0 ? HD_OK : fail_to_write(statistics, told);
+    HdStatus status = fflush(statistics->stream) == 0 ? HD_OK : fail_to_write(statistics, reported);
     if (status == HD_OK && durability == HD_DURABLE)
-        status = hd_sync_file(fileno(statistics->stream), statistics->name, told);
+        status = hd_sync_file(fileno(statistics->stream), statistics->name, reported);
     if (status == HD_OK && durability == HD_DURABLE)
-        status = hd_sync_folder(statistics->name, told);
+        status = hd_sync_folder(statistics->name, reported);
     errno = 0;
     if (fclose(statistics->stream) != 0 && status == HD_OK)
-        status = fail_to_write(statistics, told);
+        status = fail_to_write(statistics, reported);
     return before == HD_OK ? status : before;
 }

@@ -12,14 +12,14 @@
 #include "system/path.h"
 
 typedef struct HdStatistics {
-    FILE *stream;           /* NULL: it is not open */
-    char name[HD_MAX_PATH]; /* of the file, or for messages; "": none are wanted */
+    FILE *stream;           /* open stream, or NULL */
+    char name[HD_MAX_PATH]; /* file name, or its name in messages; "": no statistics */
     bool is_standard_output;
 } HdStatistics;
 
-/* "-" is standard output, NULL: none are wanted. Refuses a file that the run reads or writes
-   otherwise, and one that begins as JSON but not as statistics do: where FILE is forgotten, a scene
-   comes next. Nothing is opened. `scene` may be NULL. */
+/* Chooses the file: "-" is standard output, NULL none. Refuses a file that the run reads or writes
+   otherwise, and one that begins as JSON but not as statistics do: if FILE is forgotten, a scene
+   comes next. Opens nothing. `scene` may be NULL. */
 HdStatus hd_statistics_settle(HdStatistics *statistics, const char *path, const char *scene,
                               const HdOutputPlan *plan, int frame_number, HdError *error);
 
@@ -27,13 +27,12 @@ HdStatus hd_statistics_settle(HdStatistics *statistics, const char *path, const 
 HdStatus hd_statistics_open(HdStatistics *statistics, HdError *error);
 
 /* Writes and flushes one line. Numbers have a decimal point in every locale. `line` is what the
-   renderer said of itself (hd_renderer_describe). */
+   renderer's description (hd_renderer_describe). */
 HdStatus hd_statistics_add(HdStatistics *statistics, const HdScene *scene, const HdDevice *device,
                            const char *line, const HdStoredFrame *stored, HdError *error);
 
-/* Ends what was opened, if it was. With HD_DURABLE the file and its name are on the disk
-   afterwards. `before` is how the run ended, which comes back where it failed, with its error
-   untouched. */
+/* Closes the file, if it is open. With HD_DURABLE the file and its name are on the disk afterwards.
+   `before` is the run's status: a failure is returned, with its error unchanged. */
 HdStatus hd_statistics_close(HdStatistics *statistics, HdDurability durability, HdStatus before,
                              HdError *error);
 

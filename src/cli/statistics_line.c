@@ -18,6 +18,8 @@ VALUE(number, json_integer(source->stored->number))
 VALUE(resumed, json_true())
 VALUE(backend, json_string(source->device->backend->name))
 VALUE(device_index, json_integer(source->device->index))
+VALUE(device_name, hd_json_device_text(source->device->name))
+VALUE(renderer, hd_json_device_text(source->renderer))
 VALUE(width, json_integer(source->stored->frame->width))
 VALUE(height, json_integer(source->stored->frame->height))
 VALUE(samples, json_integer(source->scene->samples_per_side))
@@ -29,16 +31,6 @@ VALUE(shadow_tests, json_integer((json_int_t)source->stored->frame->shadow_tests
 VALUE(clamps, json_integer((json_int_t)source->stored->frame->clamps))
 VALUE(largest_bound, json_real(source->stored->frame->largest_bound))
 VALUE(mean_bound, json_real(source->stored->frame->mean_bound))
-
-static json_t *device_name(const Key *key, const Source *source) {
-    (void)key;
-    return hd_json_device_text(source->device->name);
-}
-
-static json_t *renderer(const Key *key, const Source *source) {
-    (void)key;
-    return hd_json_device_text(source->renderer);
-}
 
 static const HdSpan *span_of(const Key *key, const Source *source) {
     return (const HdSpan *)(const void *)((const char *)&source->stored->times + key->span);
@@ -53,11 +45,9 @@ static json_t *began(const Key *key, const Source *source) {
     return span->began < 0.0 ? json_null() : json_real(span->began);
 }
 
-static json_t *longest_launch(const Key *key, const Source *source) {
-    (void)key;
-    const double launch = source->stored->times.longest_launch;
-    return launch < 0.0 ? json_null() : json_real(1e3 * launch);
-}
+VALUE(longest_launch, source->stored->times.longest_launch < 0.0
+                          ? json_null()
+                          : json_real(1e3 * source->stored->times.longest_launch))
 
 static bool is_resumed(const Source *source) {
     return source->stored->was_finished;

@@ -9,26 +9,26 @@
 #include "scene/camera.h"
 #include "scene/contact.h"
 
-/* The kernels count positions in the picture in half samples, as floats. */
+/* The kernels count half steps of the grid of samples in the picture, as floats. */
 _Static_assert(2 * HD_MAX_IMAGE_SIDE * HD_MAX_SAMPLES_PER_SIDE < 1 << 24,
-               "every half sample of the largest picture is an exact float");
+               "every half step of the grid in the largest picture is an exact float");
 
-/* What a sum such as 0.7 + 0.3 may exceed 1 by. */
+/* Rounding by which a sum such as 0.7 + 0.3 may exceed 1. */
 static const double sum_tolerance = 1e-9;
 
-/* Adds a problem of the part that is checked: a format, without the place, and its arguments. */
-#define tell(checker, format, ...)                                                                 \
+/* Adds a problem of the checked part: a format, without the place, and its arguments. */
+#define report(checker, format, ...)                                                               \
     hd_problem((checker)->problems, "%s" format, (checker)->place, __VA_ARGS__)
 
 /* Places */
 
-/* Names the part of the scene that is checked from then on, in front of its problems; "": none. */
+/* Sets the prefix of the problems that follow: a part of the scene; "": none. */
 static void enter(HdSceneChecker *checker, const char *prose, const char *json) {
     const char *name = checker->naming == HD_NAMING_JSON ? json : prose;
     snprintf(checker->place, sizeof checker->place, "%s%s", name, name[0] != '\0' ? ": " : "");
 }
 
-/* The same for an element of a list, counted from 0. */
+/* Sets the prefix to an element of a list, counted from 0. */
 static void enter_item(HdSceneChecker *checker, const char *prose, const char *json, int index) {
     if (checker->naming == HD_NAMING_JSON)
         snprintf(checker->place, sizeof checker->place, "%s[%d]: ", json, index);
@@ -43,21 +43,21 @@ static void enter_rim(HdSceneChecker *checker, int index) {
         snprintf(checker->place, sizeof checker->place, "solid %d: rim ", index + 1);
 }
 
-/* Back to the scene as a whole. */
+/* Removes the prefix. */
 static void leave(HdSceneChecker *checker) {
     checker->place[0] = '\0';
 }
 
 /* Values */
 
-static void report_value(HdSceneChecker *checker, const char *what, double value,
-                         const char *expected) {
-    tell(checker, "%s is %.15g, expected %s", what, value, expected);
+static void report_number(HdSceneChecker *checker, const char *what, double value,
+                          const char *expected) {
+    report(checker, "%s is %.15g, expected %s", what, value, expected);
 }
 
 static void check_int(HdSceneChecker *checker, const char *what, int value, int low, int high) {
     if (value < low || value > high)
-        tell(checker, "%s is %d, expected %d to %d", what, value, low, high);
+        report(checker, "%s is %d, expected %d to %d", what, value, low, high);
 }
 
 static bool check_count(HdSceneChecker *checker, const char *what, int count, int least, int most) {
@@ -82,7 +82,7 @@ static void check_number(HdSceneChecker *checker, const HdField *field, const ch
         snprintf(expected, sizeof expected, "at least %.15g and less than %.15g", low, high);
     else
         snprintf(expected, sizeof expected, "a number from %.15g to %.15g", low, high);
-    tell(checker, "%s%s is %.15g, expected %s", what, part, value, expected);
+    report(checker, "%s%s is %.15g, expected %s", what, part, value, expected);
 }
 
 static void check_vector(HdSceneChecker *checker, const HdField *field, const char *what,
@@ -98,19 +98,19 @@ static void check_vector(HdSceneChecker *checker, const HdField *field, const ch
 static void check_vectors(HdSceneChecker *checker, const HdField *field, const HdVec3 *vectors,
                           int count) {
     char what[64];
-    snprintf(what, sizeof what, "number of %ss", field->said);
+    snprintf(what, sizeof what, "number of %ss", field->name);
     if (!check_count(checker, what, count, field->least, field->most))
         return;
     for (int i = 0; i < count; i++) {
-        snprintf(what, sizeof what, "%s %d", field->said, i + 1);
+        snprintf(what, sizeof what, "%s %d", field->name, i + 1);
         check_vector(checker, field, what, &vectors[i]);
     }
 }
 
 static void check_field(HdSceneChecker *checker, const HdField *field, const void *owner) {
     const void *place = (const char *)owner + field->offset;
-    char what[HD_SAID_SIZE];
-    hd_field_said(field, what);
+    char what[HD_FIELD_NAME_SIZE];
+    hd_field_name(field, what);
     switch (field->type) {
     case HD_FIELD_INTEGER:
         check_int(checker, what, *(const int *)place, (int)field->low, (int)field->high);
@@ -126,12 +126,12 @@ static void check_field(HdSceneChecker *checker, const HdField *field, const voi
     case HD_FIELD_VECTORS:
         check_vectors(checker, field, place, hd_field_count(field, owner));
         break;
-    default: /* has a check of its own, or no wrong value */
+    default: /* checked elsewhere, or has no wrong value */
         break;
     }
 }
 
-/* `without`: a field that has a check of its own; NULL: none. */
+/* Checks the fields of an object, except `without`, if not NULL. */
 static void check_fields(HdSceneChecker *checker, const HdObjectType *type, const void *owner,
                          const char *without) {
     for (int i = 0; i < type->field_count; i++)
@@ -140,7 +140,7 @@ static void check_fields(HdSceneChecker *checker, const HdObjectType *type, cons
             check_field(checker, &type->fields[i], owner);
 }
 
-/* Checks an object that the scene has at that key. */
+/* Checks the object at a key of the scene. */
 static void check_object(HdSceneChecker *checker, const char *key, const void *owner) {
     check_fields(checker, hd_field(&hd_scene_fields, key)->object, owner, NULL);
 }
@@ -158,7 +158,7 @@ static void check_path(HdSceneChecker *checker, const char *key, const HdPath *p
 
 /* The camera and the picture */
 
-/* A point is a path that does not swing. */
+/* Returns the cylinder path; of a fixed point one that does not swing. */
 static HdCylinderPath swings_of(const HdPath *path) {
     const HdVec3 aside = hd_vec3(path->point.x, path->point.y, 0.0);
     if (!path->is_fixed)
@@ -177,7 +177,7 @@ static bool paths_keep_apart(const HdPath *eye, const HdPath *target) {
     return gap > margin * (fabs(a.r0) + fabs(b.r0) + r_swing + fabs(a.z0) + fabs(b.z0) + z_swing);
 }
 
-/* Tells the first frame that has no camera. */
+/* Reports the first frame without a camera. */
 static void check_camera_path(HdSceneChecker *checker, const HdScene *scene) {
     const bool stands_still = scene->eye.is_fixed && scene->target.is_fixed;
     const int frames = stands_still ? 1 : scene->frame_count;
@@ -189,7 +189,7 @@ static void check_camera_path(HdSceneChecker *checker, const HdScene *scene) {
     for (int frame = 0; status == HD_OK && frame < frames; frame++)
         status = hd_camera_at(&camera, scene, frame, &error);
     if (status != HD_OK)
-        tell(checker, "%s", error.message);
+        report(checker, "%s", error.message);
 }
 
 static void check_camera(HdSceneChecker *checker, const HdScene *scene) {
@@ -204,8 +204,8 @@ static void check_camera(HdSceneChecker *checker, const HdScene *scene) {
 
 static void check_picture(HdSceneChecker *checker, const HdScene *scene) {
     if ((int64_t)scene->width * scene->height > HD_MAX_IMAGE_PIXELS)
-        tell(checker, "%d x %d pixels are too many, expected at most %d in all", scene->width,
-             scene->height, (int)HD_MAX_IMAGE_PIXELS);
+        report(checker, "%d x %d pixels are too many, expected at most %d in all", scene->width,
+               scene->height, (int)HD_MAX_IMAGE_PIXELS);
     check_object(checker, "image", scene);
     check_vector(checker, hd_field(&hd_scene_fields, "background"), "background",
                  &scene->background);
@@ -217,12 +217,12 @@ static bool is_share(double value) {
     return value >= 0.0 && value <= 1.0;
 }
 
-/* Of one side of a material, "" or "inner ". */
+/* Checks the shares of one side of a material, "" or "inner ". */
 static void check_sum(HdSceneChecker *checker, const char *side, double reflection,
                       double transmission) {
     const double sum = reflection + transmission;
     if (is_share(reflection) && is_share(transmission) && sum > 1.0 + sum_tolerance)
-        tell(checker, "%sreflection + transmission is %.15g, expected at most 1", side, sum);
+        report(checker, "%sreflection + transmission is %.15g, expected at most 1", side, sum);
 }
 
 void hd_check_material(HdSceneChecker *checker, const HdMaterial *material, bool may_refract) {
@@ -232,13 +232,13 @@ void hd_check_material(HdSceneChecker *checker, const HdMaterial *material, bool
     if (material->has_inner_side)
         check_sum(checker, "inner ", material->inner_reflection, material->inner_transmission);
     if (!may_refract && material->index_of_refraction != 1.0)
-        report_value(checker, "index of refraction", material->index_of_refraction,
-                     "1, since only a solid's faces can refract");
+        report_number(checker, "index of refraction", material->index_of_refraction,
+                      "1, since only a solid's faces can refract");
 }
 
 static void check_opaque(HdSceneChecker *checker, const char *what, double transmission) {
     if (transmission > 0.0)
-        report_value(checker, what, transmission, "0, since rims are opaque");
+        report_number(checker, what, transmission, "0, since rims are opaque");
 }
 
 static void check_rim_material(HdSceneChecker *checker, const HdMaterial *rim) {
@@ -252,11 +252,11 @@ static void check_rim_material(HdSceneChecker *checker, const HdMaterial *rim) {
 
 static void check_falloff(HdSceneChecker *checker, const HdFalloff *falloff) {
     if (falloff->distance > 0.0 && falloff->end > 0.0)
-        tell(checker, "falloff distance is %.15g and falloff end is %.15g, expected one of them",
-             falloff->distance, falloff->end);
+        report(checker, "falloff distance is %.15g and falloff end is %.15g, expected one of them",
+               falloff->distance, falloff->end);
 }
 
-/* The radius of the circle inscribed in a face of the solid with circumradius 1. */
+/* Returns the radius of the circle inscribed in a face of the solid with circumradius 1. */
 static double face_inradius(const HdPlatonic *platonic) {
     const double half_edge = platonic->edge_length / 2.0;
     return sqrt(1.0 - half_edge * half_edge - platonic->inradius * platonic->inradius);
@@ -270,7 +270,7 @@ static void check_rim_width(HdSceneChecker *checker, const HdSolid *solid,
         return;
     snprintf(expected, sizeof expected,
              "at least 0 and less than the radius of the circle in a face, %.6g", limit);
-    report_value(checker, "rim width", solid->rim_width, expected);
+    report_number(checker, "rim width", solid->rim_width, expected);
 }
 
 static void check_edge_lights(HdSceneChecker *checker, const HdEdgeLights *lights) {
@@ -327,23 +327,23 @@ static void check_solids(HdSceneChecker *checker, const HdScene *scene) {
         check_solid(checker, &scene->solids[i], i);
 }
 
-/* Whether its lights can be counted. */
+/* Returns whether the lights of the solid can be counted. */
 static bool has_sound_lights(const HdSolid *solid) {
     const int per_edge = solid->lights.per_edge, kind = (int)solid->kind;
     return kind >= 0 && kind < HD_SOLID_KIND_COUNT && per_edge >= 0 && per_edge <= HD_MAX_LIGHTS;
 }
 
-/* Whether the solid's lights alone are too many, which it then tells. */
+/* Returns, and reports, whether the lights of the solid alone are too many. */
 static bool check_light_count(HdSceneChecker *checker, int per_edge, int count, int index) {
     const bool is_json = checker->naming == HD_NAMING_JSON;
     if (count <= HD_MAX_LIGHTS)
         return false;
     enter_item(checker, "solid", "solids", index);
-    tell(checker,
-         "%s is %d, which makes %d lights on its %d edges, expected at most %d lights in "
-         "the scene",
-         is_json ? "edge_lights.per_edge" : "number of lights per edge", per_edge, count,
-         count / per_edge, (int)HD_MAX_LIGHTS);
+    report(checker,
+           "%s is %d, which makes %d lights on its %d edges, expected at most %d lights in "
+           "the scene",
+           is_json ? "edge_lights.per_edge" : "number of lights per edge", per_edge, count,
+           count / per_edge, (int)HD_MAX_LIGHTS);
     leave(checker);
     return true;
 }
@@ -359,8 +359,8 @@ static void check_all_lights(HdSceneChecker *checker, const HdScene *scene) {
         is_reported |= check_light_count(checker, scene->solids[i].lights.per_edge, count, i);
     }
     if (!is_reported && lights > HD_MAX_LIGHTS)
-        tell(checker, "number of lights, those on the edges included, is %d, expected at most %d",
-             lights, (int)HD_MAX_LIGHTS);
+        report(checker, "number of lights, those on the edges included, is %d, expected at most %d",
+               lights, (int)HD_MAX_LIGHTS);
 }
 
 /* The floor */
@@ -368,7 +368,7 @@ static void check_all_lights(HdSceneChecker *checker, const HdScene *scene) {
 /* The cross product of the diagonals is normal to both, so two opposite corners are always equally
    high above it. */
 static void check_floor_shape(HdSceneChecker *checker, const HdVec3 corner[4]) {
-    static const double flatness = 1e-5; /* of the longer diagonal */
+    static const double flatness = 1e-5; /* share of the longer diagonal */
     static const double sharpness = 1e-9;
     const HdVec3 first = hd_sub(corner[2], corner[0]);
     const HdVec3 second = hd_sub(corner[3], corner[1]);
@@ -384,20 +384,20 @@ static void check_floor_shape(HdSceneChecker *checker, const HdVec3 corner[4]) {
     }
     const double height = fabs(hd_dot(hd_sub(corner[1], corner[0]), normal)) / area;
     if (height > flatness * size) {
-        tell(checker,
-             "its diagonals pass each other %.6g apart, expected four corners in one plane "
-             "(at most %.6g apart)",
-             height, flatness * size);
+        report(checker,
+               "its diagonals pass each other %.6g apart, expected four corners in one plane "
+               "(at most %.6g apart)",
+               height, flatness * size);
         return;
     }
     for (int i = 0; i < 4; i++) {
         const HdVec3 before = hd_sub(corner[i], corner[(i + 3) % 4]);
         const HdVec3 after = hd_sub(corner[(i + 1) % 4], corner[i]);
         if (!(hd_dot(hd_cross(before, after), normal) / area > sharpness * size * size))
-            tell(checker,
-                 "corner %d is not a convex corner, expected the corners of a convex "
-                 "quadrilateral in their order around it",
-                 i + 1);
+            report(checker,
+                   "corner %d is not a convex corner, expected the corners of a convex "
+                   "quadrilateral in their order around it",
+                   i + 1);
     }
 }
 
@@ -424,16 +424,17 @@ static void check_floor(HdSceneChecker *checker, const HdFloor *floor) {
     leave(checker);
 }
 
-/* Meshes in their places */
+/* Mesh instances */
 
 static void check_reach(HdSceneChecker *checker, const char *what, double value, double low) {
     const double high = 2.0 * HD_MAX_NUMBER;
     if (!(value >= low && value <= high))
-        tell(checker, "%s is %.15g, expected a number from %.15g to %.15g", what, value, low, high);
+        report(checker, "%s is %.15g, expected a number from %.15g to %.15g", what, value, low,
+               high);
 }
 
-/* As large or small as the triangles of any valid solid or floor may be: from corner to corner of a
-   box that fits all coordinates, and from a side that the least length is the diagonal of. */
+/* Checks that a mesh instance is no larger or smaller than valid solids and floors may be: at most
+   the diagonal of a box of all coordinates, at least the side whose diagonal is the minimum. */
 static void check_size(HdSceneChecker *checker, const HdMesh *mesh, HdVec3 scale) {
     const HdVec3 sides = hd_sub(mesh->upper, mesh->lower);
     const HdVec3 far = hd_vec3(fmax(fabs(mesh->lower.x), fabs(mesh->upper.x)) * scale.x,
@@ -473,7 +474,7 @@ static bool refracts(const HdSolid *solid) {
     return solid->face.index_of_refraction != 1.0;
 }
 
-/* "solids[1] (cube)" */
+/* Writes "solids[1] (cube)". */
 static void name_solid(const HdSceneChecker *checker, const HdSolid *solid, int index,
                        char out[48]) {
     const char *kind = hd_solid_kind_name(solid->kind);
@@ -517,8 +518,7 @@ static void check_above_floor(HdSceneChecker *checker, const HdScene *scene, int
     add_overlap(checker, name, "the floor", depth);
 }
 
-/* Only refracting solids must keep clear of others, as far as all are where they are meant to be.
- */
+/* Checks that refracting solids keep clear of others, if all positions and sizes are valid. */
 static void check_overlaps(HdSceneChecker *checker, const HdScene *scene) {
     for (int i = 0; i < checker->solid_count; i++) {
         if (checker->is_solid_wrong[i])
@@ -529,7 +529,7 @@ static void check_overlaps(HdSceneChecker *checker, const HdScene *scene) {
     }
 }
 
-/* What is not there (no rim, no edge lights, no floor, no texture) is not checked. */
+/* Missing parts (rim, edge lights, floor, texture) need no check. */
 void hd_check_scene(HdSceneChecker *checker, const HdScene *scene) {
     check_camera(checker, scene);
     check_picture(checker, scene);

@@ -16,11 +16,11 @@
 #define TYPE(struct_name, table, note_text)          TYPE_OF(struct_name, table, false, note_text)
 #define COMPLETE_TYPE(struct_name, table, note_text) TYPE_OF(struct_name, table, true, note_text)
 
-/* What begins a field: its place, its key, and what it is about. */
+/* Begins a field: its offset, key and effect. */
 #define AT(struct_name, member, key_text, about_text)                                              \
     .offset = offsetof(struct_name, member), .key = (key_text), .about = (about_text)
 
-/* The same for what has no place of its own. */
+/* Begins a field without an offset. */
 #define HERE(key_text, about_text) .key = (key_text), .about = (about_text)
 
 #define NUMBER(low_number, high_number)                                                            \
@@ -56,10 +56,7 @@ static const HdChoice normals[] = {
 #define KIND_CHOICE(kind, name) {name, kind},
 static const HdChoice kinds[] = {HD_SOLID_KINDS(KIND_CHOICE){NULL, 0}};
 
-static const HdChoice samplings[] = {{"multijitter", HD_SAMPLING_MULTIJITTER},
-                                     {"grid", HD_SAMPLING_GRID},
-                                     {"adaptive", HD_SAMPLING_ADAPTIVE},
-                                     {NULL, 0}};
+static const HdChoice samplings[] = {HD_SAMPLINGS(KIND_CHOICE){NULL, 0}};
 _Static_assert(sizeof(HdSampling) == sizeof(int), "an HdSampling is as large as an int");
 
 static const HdField image_fields[] = {
@@ -68,7 +65,7 @@ static const HdField image_fields[] = {
     {AT(HdScene, height, "height", "Height of the picture"), INTEGER(1, HD_MAX_IMAGE_SIDE),
      MEASURE("pixels"), DEFAULT(480)},
     {AT(HdScene, samples_per_side, "samples", "n: each pixel is the mean of n x n samples"),
-     INTEGER(1, HD_MAX_SAMPLES_PER_SIDE), .said = "samples per side", DEFAULT(3)},
+     INTEGER(1, HD_MAX_SAMPLES_PER_SIDE), .name = "samples per side", DEFAULT(3)},
     {AT(HdScene, depth, "depth", "Maximum ray depth: reflections and transmissions in a row"),
      INTEGER(0, HD_MAX_DEPTH), DEFAULT(8)},
     {AT(HdScene, cutoff, "cutoff",
@@ -83,7 +80,7 @@ static const HdField image_fields[] = {
         "Maximum truncation error of a pixel; 0: off. Otherwise rays and lights end by this bound, "
         "and depth and cutoff are ignored unless the command line has them"),
      NUMBER(0.0, HD_MAX_ERROR), MEASURE("1/255"), .least_but_zero = HD_MIN_ERROR,
-     .said = "max_error", DEFAULT(0.0)},
+     .name = "max_error", DEFAULT(0.0)},
     {AT(HdScene, exposure, "exposure", "Factor of every pixel value"), NUMBER(0.0, HD_MAX_EXPOSURE),
      .above_low = true, DEFAULT(1.0)},
 };
@@ -120,7 +117,7 @@ static const HdField camera_fields[] = {
      NUMBER(0.0, HD_MAX_FIELD_OF_VIEW), .above_low = true, .unit = " degrees", DEGREES,
      DEFAULT(60.0)},
     {AT(HdScene, frame_count, "frames", "Number of frames in the sequence"),
-     INTEGER(1, HD_MAX_FRAMES), .said = "frame count", DEFAULT(1)},
+     INTEGER(1, HD_MAX_FRAMES), .name = "frame count", DEFAULT(1)},
     {AT(HdScene, eye, "eye", "Position of the eye: a point, or a path on a cylinder"), PATH, WORLD,
      EXAMPLE("{\"r0\": 6, \"z0\": 1.1, \"phi0\": -0.75, \"phi_frequency\": 1}"), REQUIRED,
      DEFAULT(1.0)},
@@ -207,19 +204,19 @@ static const HdObjectType rim = TYPE(HdSolid, rim_fields, NULL);
 
 static const HdField edge_light_fields[] = {
     {AT(HdEdgeLights, per_edge, "per_edge", "Lights on each edge, evenly spaced"),
-     INTEGER(0, HD_MAX_LIGHTS), .said = "number of lights per edge", REQUIRED},
+     INTEGER(0, HD_MAX_LIGHTS), .name = "number of lights per edge", REQUIRED},
     {AT(HdEdgeLights, colours, "colours", "Colours of the edges, repeated in order"),
      .type = HD_FIELD_VECTORS, .low = 0.0, .high = 1.0, .least = 1, .most = HD_MAX_EDGE_COLOURS,
-     .count_offset = offsetof(HdEdgeLights, colour_count), .said = "edge lights' colour",
+     .count_offset = offsetof(HdEdgeLights, colour_count), .name = "edge lights' colour",
      .is_light = true, MEASURE("linear RGB"), EXAMPLE("[[1, 0.1, 0], [0, 0.3, 1]]"), WHITE},
     {AT(HdEdgeLights, intensity, "intensity",
         "Factor of the colour for the light that each casts; 0: it casts none"),
-     NUMBER(0.0, HD_MAX_NUMBER), .said = "edge lights' intensity", DEFAULT(0.0)},
+     NUMBER(0.0, HD_MAX_NUMBER), .name = "edge lights' intensity", DEFAULT(0.0)},
     {AT(HdEdgeLights, disc_radius, "disc_radius", "Radius of the visible disc of each light"),
-     NUMBER(0.0, HD_MAX_NUMBER), WORLD, .said = "edge lights' disc radius", DEFAULT(0.0)},
+     NUMBER(0.0, HD_MAX_NUMBER), WORLD, .name = "edge lights' disc radius", DEFAULT(0.0)},
     {AT(HdEdgeLights, disc_radiance, "disc_radiance",
         "Factor of the colour for the disc; above 1 its distant images still shine"),
-     NUMBER(0.0, HD_MAX_NUMBER), .said = "edge lights' disc radiance", DEFAULT(0.0)},
+     NUMBER(0.0, HD_MAX_NUMBER), .name = "edge lights' disc radiance", DEFAULT(0.0)},
     FALLOFF(HdEdgeLights),
 };
 static const HdObjectType edge_lights = TYPE(HdEdgeLights, edge_light_fields, NULL);
@@ -240,7 +237,7 @@ static const HdField solid_fields[] = {
      REQUIRED},
     {AT(HdSolid, centre, "centre", "Position of the centre"), POSITION, WORLD, DEFAULT(0.0)},
     {AT(HdSolid, circumradius, "circumradius", "Distance from the centre to a vertex"), LENGTH,
-     .said = "radius", DEFAULT(1.0)},
+     .name = "radius", DEFAULT(1.0)},
     {AT(HdSolid, rotation_degrees, "rotation", ROTATION_TEXT), ROTATION, EXAMPLE("[0, 0, 30]")},
     {AT(HdSolid, face, "material", "Name of the faces' material"), MATERIAL},
     {HERE("rim", "Frame along the edges of every face"), PART(rim), .is_given = has_rim},
@@ -303,7 +300,7 @@ static const HdField floor_fields[] = {
         "Corners of a flat, convex quadrilateral, in order; the first is the texture's top "
         "left"),
      .type = HD_FIELD_VECTORS, .low = -HD_MAX_NUMBER, .high = HD_MAX_NUMBER, .least = 4, .most = 4,
-     WORLD, EXAMPLE("[[-5, 5, -1], [5, 5, -1], [5, -5, -1], [-5, -5, -1]]"), .said = "corner",
+     WORLD, EXAMPLE("[[-5, 5, -1], [5, 5, -1], [5, -5, -1], [-5, -5, -1]]"), .name = "corner",
      REQUIRED},
     {AT(HdSceneFile, scene.floor.material, "material", "Name of the floor's material"), MATERIAL},
     {HERE("texture", "Picture that tints the floor"), PART(texture), .is_given = has_texture},
@@ -326,7 +323,7 @@ static const HdField scene_fields[] = {
      .count_offset = offsetof(HdSceneFile, scene.solid_count)},
     {AT(HdSceneFile, mesh_entries, "meshes", "Meshes of triangles, each with its position"),
      .type = HD_FIELD_LIST, .object = &mesh, .most = HD_MAX_INSTANCES,
-     .said = "meshes in their places", .count_offset = offsetof(HdSceneFile, mesh_entry_count)},
+     .name = "meshes in their places", .count_offset = offsetof(HdSceneFile, mesh_entry_count)},
     {AT(HdSceneFile, scene.lights, "lights", "Point lights; edge lights count towards the limit"),
      .type = HD_FIELD_LIST, .object = &light, .most = HD_MAX_LIGHTS,
      .count_offset = offsetof(HdSceneFile, scene.light_count)},
@@ -364,9 +361,9 @@ bool hd_field_is_given(const HdField *field, const void *owner) {
     return field->is_given == NULL || field->is_given(owner);
 }
 
-void hd_field_said(const HdField *field, char out[HD_SAID_SIZE]) {
-    snprintf(out, HD_SAID_SIZE, "%s", field->said != NULL ? field->said : field->key);
-    for (char *c = out; field->said == NULL && *c != '\0'; c++)
+void hd_field_name(const HdField *field, char out[HD_FIELD_NAME_SIZE]) {
+    snprintf(out, HD_FIELD_NAME_SIZE, "%s", field->name != NULL ? field->name : field->key);
+    for (char *c = out; field->name == NULL && *c != '\0'; c++)
         if (*c == '_')
             *c = ' ';
 }

@@ -12,7 +12,7 @@
 enum {
     HD_MAX_MATERIALS = 1024,
     HD_EXPECTED_SIZE = 256,
-    HD_SAID_SIZE = 48,
+    HD_FIELD_NAME_SIZE = 48,
     HD_DESCRIPTION_SIZE = 512
 };
 
@@ -56,7 +56,7 @@ typedef struct HdField {
     double least_but_zero;      /* least value besides 0 in a valid scene; 0: no such limit */
     bool is_unseen;             /* does not affect pixels */
     bool is_light;              /* vectors are red, green and blue, not x, y and z */
-    const char *said, *unit;    /* name in the checks (NULL: its key); unit (NULL: none) */
+    const char *name, *unit;    /* name in the checks (NULL: its key); unit (NULL: none) */
     const char *measure;        /* unit of its numbers, or their space; NULL: none */
     const char *example;        /* value in JSON, for the reference; NULL: none */
     double standard[3];         /* default; of a required field a valid stand-in */
@@ -97,7 +97,7 @@ bool hd_field_may_be_absent(const HdField *field);
 bool hd_field_is_given(const HdField *field, const void *owner);
 
 /* Writes the field's name in the checks: "mirror tint". */
-void hd_field_said(const HdField *field, char out[HD_SAID_SIZE]);
+void hd_field_name(const HdField *field, char out[HD_FIELD_NAME_SIZE]);
 
 /* Returns whether the word is a number. */
 bool hd_choice_is_number(const char *word);

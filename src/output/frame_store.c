@@ -14,8 +14,8 @@
 #include "system/machine.h"
 
 enum {
-    MAX_OPEN_PICTURES =
-        128, /* each takes a descriptor until it is renamed, and as many wait for that */
+    /* Each takes a descriptor until it is renamed, and as many wait for that. */
+    MAX_OPEN_PICTURES = 128,
     SPARE_DESCRIPTORS = 2, /* for a folder, and for statistics that are opened late */
     /* More would only wait for shared memory bandwidth. */
     MAX_ENCODERS = 16,
@@ -24,8 +24,9 @@ enum {
     /* For each worker but the first: frames that others finish while it traces one. */
     FRAMES_PER_WORKER = 8
 };
-static const size_t MAX_BYTES = (size_t)1
-                                << 30; /* memory of all frames in flight, for each worker */
+
+/* Memory of all frames in flight, for each worker. */
+static const size_t MAX_BYTES = (size_t)1 << 30;
 
 /* A frame in progress. One thread at a time works on it, except films, which take it in parallel.
  */

@@ -21,4 +21,10 @@ const HdBackend *hd_backend_find(const char *name);
 /* Returns the backend that needs no driver. */
 const HdBackend *hd_backend_always_there(void);
 
+/* Finds the device of that backend: plain C. */
+static inline HdStatus hd_find_plain_device(HdDevice *device, HdError *error) {
+    int count;
+    return hd_backend_enumerate(hd_backend_always_there(), device, 1, &count, error);
+}
+
 #endif

@@ -8,33 +8,33 @@
 #include "scene/camera.h"
 #include "verify/trust.h"
 
-/* Pixels of the longer side of the small picture, and its depth, at most. */
+/* Pixels of the longer side of the small picture; its maximum depth. */
 enum { SMALL_SIDE = 96, SMALL_DEPTH = 8 };
 
-/* Rays of less weight change no pixel of it by a step. */
+/* Weight of rays below which no pixel changes by a step. */
 static const double small_cutoff = 1.0 / 256.0;
 
-/* Values below so many steps of 255 are black to the eye, and a picture is black if a smaller share
-   of what it shows is brighter. */
+/* Steps of 255 below which a value looks black; share of bright pixels below which a picture does.
+ */
 static const double min_step = 3.0, min_share = 0.01;
 
-/* A higher one is no cure: the picture is dark for another reason. */
+/* Exposure above which another reason must make the picture dark. */
 static const double max_exposure = 1e5;
 
-/* What the small picture shows. */
-typedef struct Glimpse {
+/* Small picture of a frame. */
+typedef struct Preview {
     const HdScene *scene;
     HdVec3 eye;
     int frame;
-    int hits, bright; /* pixels that show an object, and those of them that are not black */
-    double largest;   /* value of these, linear and times exposure */
-} Glimpse;
+    int hits, bright; /* pixels that show an object, and those that are not black */
+    double largest;   /* largest value of the former, linear, times exposure */
+} Preview;
 
 static bool is_bright(HdCurve curve, double value) {
     return 255.0 * hd_curve_to_display(curve, value) >= min_step;
 }
 
-static void count_pixels(Glimpse *seen, const HdFrame *frame, HdCurve curve) {
+static void count_pixels(Preview *seen, const HdFrame *frame, HdCurve curve) {
     for (ptrdiff_t i = 0; i < (ptrdiff_t)frame->width * frame->height; i++) {
         const float *rgb = frame->rgb + i * frame->floats;
         const double value = hd_largest(hd_vec3((double)rgb[0], (double)rgb[1], (double)rgb[2]));
@@ -46,15 +46,14 @@ static void count_pixels(Glimpse *seen, const HdFrame *frame, HdCurve curve) {
     }
 }
 
-static HdStatus look(Glimpse *seen, HdCurve curve, HdError *error) {
+static HdStatus render_preview(Preview *seen, HdCurve curve, HdError *error) {
     const HdRenderOptions options = {.threads = 1, .first_hits = true};
-    HdScene small = *seen->scene; /* what it owns stays with the other */
+    HdScene small = *seen->scene; /* borrows all that it points to */
     const double factor = (double)SMALL_SIDE / hd_max(small.width, small.height);
     HdRenderer *renderer;
     HdDevice device;
     HdCamera camera;
     HdFrame frame;
-    int count;
     hd_scene_drop_error_bound(&small);
     small.width = hd_max(1, (int)(factor * small.width));
     small.height = hd_max(1, (int)(factor * small.height));
@@ -62,7 +61,7 @@ static HdStatus look(Glimpse *seen, HdCurve curve, HdError *error) {
     small.depth = hd_min(small.depth, SMALL_DEPTH);
     small.cutoff = fmax(small.cutoff, small_cutoff);
     HD_TRY(hd_camera_at(&camera, &small, seen->frame, error));
-    HD_TRY(hd_backend_enumerate(hd_backend_always_there(), &device, 1, &count, error));
+    HD_TRY(hd_find_plain_device(&device, error));
     HD_TRY(hd_renderer_open(&renderer, &device, &options, error));
     const HdStatus status = hd_put_and_render(renderer, &small, &camera, NULL,
                                               HD_LAYER_BIT(HD_LAYER_ALPHA), &frame, error);
@@ -86,7 +85,7 @@ static unsigned ways_of(const HdMaterial *material, HdVec3 emission) {
            (material->specular > 0.0 ? SHINY : 0) | (mirrors > 0.0 ? MIRROR : 0);
 }
 
-/* Returns the ways of all materials of objects. */
+/* Returns the ways of the materials of all objects. */
 static unsigned ways_in(const HdScene *scene) {
     const HdVec3 none = {0};
     unsigned ways = scene->floor.present ? ways_of(&scene->floor.material, none) : 0;
@@ -105,7 +104,7 @@ static unsigned ways_in(const HdScene *scene) {
     return ways;
 }
 
-/* Notes solids whose colour is meant to be seen, but whose faces show nothing. */
+/* Notes solids whose faces have a colour but show no light. */
 static void note_solids(const HdScene *scene, HdProblems *notes) {
     for (int i = 0; i < scene->solid_count; i++) {
         const HdMaterial *face = &scene->solids[i].face;
@@ -126,7 +125,7 @@ static bool is_inside(const HdSolid *solid, HdVec3 point) {
     return is_in;
 }
 
-/* The number of the first solid around the point that lets no light through; -1: there is none. */
+/* Returns the number of the first opaque solid around the point, or -1. */
 static int find_opaque(const HdScene *scene, HdVec3 point) {
     for (int i = 0; i < scene->solid_count; i++)
         if (scene->solids[i].face.transmission == 0.0 && is_inside(&scene->solids[i], point))
@@ -135,11 +134,11 @@ static int find_opaque(const HdScene *scene, HdVec3 point) {
 }
 
 /* Adds a reason: a literal format, and its arguments. */
-#define because(seen, notes, format, ...)                                                          \
+#define NOTE_REASON(seen, notes, format, ...)                                                      \
     hd_problem(notes, "all that is in view in frame %d is %s: " format, (seen)->frame,             \
                (seen)->largest > 0.0 ? "nearly black" : "black", __VA_ARGS__)
 
-static void note_lights(const Glimpse *seen, HdProblems *notes) {
+static void note_lights(const Preview *seen, HdProblems *notes) {
     const HdScene *scene = seen->scene;
     const int eye_in = find_opaque(scene, seen->eye);
     bool is_on = false, is_with_eye = false;
@@ -150,63 +149,65 @@ static void note_lights(const Glimpse *seen, HdProblems *notes) {
         is_on |= hd_largest(scene->lights[i].intensity) > 0.0;
         is_with_eye |= in == eye_in;
         if (in >= 0 && in != eye_in)
-            because(seen, notes, "lights[%d] is inside solids[%d], which is opaque", i, in);
+            NOTE_REASON(seen, notes, "lights[%d] is inside solids[%d], which is opaque", i, in);
     }
     if (!is_on)
-        because(seen, notes, "%s",
-                hd_scene_light_count(scene) == 0
-                    ? "the scene has no lights"
-                    : "none of lights and edge_lights has an intensity and a colour");
+        NOTE_REASON(seen, notes, "%s",
+                    hd_scene_light_count(scene) == 0
+                        ? "the scene has no lights"
+                        : "none of lights and edge_lights has an intensity and a colour");
     else if (eye_in >= 0 && !is_with_eye)
-        because(seen, notes, "camera.eye is inside solids[%d], which is opaque", eye_in);
+        NOTE_REASON(seen, notes, "camera.eye is inside solids[%d], which is opaque", eye_in);
 }
 
-/* Returns whether more reflections and transmissions make the picture brighter. */
-static bool is_too_shallow(const Glimpse *seen, HdCurve curve) {
-    HdScene deep = *seen->scene; /* what it owns stays with the other */
-    Glimpse deeper = {.scene = &deep, .frame = seen->frame};
+/* Returns whether more reflections and transmissions would make the picture bright. */
+static bool is_too_shallow(const Preview *seen, HdCurve curve) {
+    HdScene deep = *seen->scene; /* borrows all that it points to */
+    Preview deeper = {.scene = &deep, .frame = seen->frame};
     HdError ignored;
-    deep.depth = hd_max(deep.depth, SMALL_DEPTH);
-    return look(&deeper, curve, &ignored) == HD_OK && deeper.bright >= min_share * deeper.hits;
+    deep.depth = SMALL_DEPTH;
+    return seen->scene->depth < SMALL_DEPTH && render_preview(&deeper, curve, &ignored) == HD_OK &&
+           deeper.bright >= min_share * deeper.hits;
 }
 
-static void note_reasons(const Glimpse *seen, HdCurve curve, HdProblems *notes) {
+static void note_reasons(const Preview *seen, HdCurve curve, HdProblems *notes) {
     const unsigned ways = ways_in(seen->scene);
     const double exposure = seen->scene->exposure;
     const int before = notes->count;
     if (seen->bright == 0 && exposure <= max_exposure * seen->largest) {
-        because(seen, notes, "image.exposure is %.3g, and with %.3g the brightest pixel is white",
-                exposure, exposure / seen->largest);
+        NOTE_REASON(seen, notes,
+                    "image.exposure is %.3g, and with %.3g the brightest pixel is white", exposure,
+                    exposure / seen->largest);
         return;
     }
     if (is_too_shallow(seen, curve)) {
-        because(seen, notes, "image.depth is %d, too small to see through glass or in mirrors",
-                seen->scene->depth);
+        NOTE_REASON(seen, notes, "image.depth is %d, too small to see through glass or in mirrors",
+                    seen->scene->depth);
         return;
     }
     if ((ways & (COLOURED | SHINY)) == 0)
-        because(seen, notes, "%s",
-                "no material shows light: all lack ambient, diffuse and specular, or a colour");
+        NOTE_REASON(seen, notes, "%s",
+                    "no material shows light: all lack ambient, diffuse and specular, or a colour");
     if ((ways & COLOURED) == 0 && (ways & MIRROR) != 0 &&
         !is_bright(curve, exposure * hd_largest(seen->scene->background)))
-        because(seen, notes, "%s", "mirrors and glass show background, which is black");
+        NOTE_REASON(seen, notes, "%s", "mirrors and glass show background, which is black");
     note_lights(seen, notes);
     if (notes->count == before && seen->bright == 0)
-        because(seen, notes, "%s",
-                (ways & COLOURED) != 0
-                    ? "no light reaches it: lights are behind it, behind what is opaque or "
-                      "the floor, or end before it"
-                    : "materials have only specular, and no highlight is in view: give "
-                      "them diffuse");
+        NOTE_REASON(seen, notes, "%s",
+                    (ways & COLOURED) != 0
+                        ? "no light reaches it: lights are behind it, behind what is opaque or "
+                          "the floor, or end before it"
+                        : "materials have only specular, and no highlight is in view: give "
+                          "them diffuse");
 }
 
 void hd_note_darkness(const HdScene *scene, HdCurve curve, int frame, HdProblems *notes) {
     const int objects = scene->solid_count + scene->instance_count + scene->floor.present;
     const int before = notes->count;
     const bool is_dark = !is_bright(curve, scene->exposure * hd_largest(scene->background));
-    Glimpse seen = {.scene = scene, .frame = frame};
+    Preview seen = {.scene = scene, .frame = frame};
     HdError ignored;
-    if (scene->crop.whole_width > 0 || look(&seen, curve, &ignored) != HD_OK)
+    if (scene->crop.whole_width > 0 || render_preview(&seen, curve, &ignored) != HD_OK)
         return;
     if (seen.hits > 0 && seen.bright < min_share * seen.hits)
         note_reasons(&seen, curve, notes);

@@ -54,10 +54,10 @@ typedef struct HdStorePlan {
 } HdStorePlan;
 
 /* Messages on standard error. */
-typedef struct HdTelling {
+typedef struct HdReportPlan {
     bool verbose, quiet;
-    bool tells_frames; /* a line for each frame, for programs */
-    bool wants_lines;  /* progress in plain lines, without a terminal */
-} HdTelling;
+    bool reports_frames; /* a line for each frame, for programs */
+    bool wants_lines;    /* progress in plain lines, without a terminal */
+} HdReportPlan;
 
 #endif

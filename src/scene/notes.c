@@ -79,7 +79,7 @@ static void count_contact(HdContact contact, int solid, const char *what, int ot
         count_pairs(overlapping, solid, what, other, 1);
 }
 
-/* ", the first of 3 such pairs" */
+/* Writes and returns ", the first of 3 such pairs". */
 static const char *others_of(const Pairs *pairs, char out[48]) {
     snprintf(out, 48, ", the first of %d such pairs", pairs->count);
     return pairs->count > 1 ? out : "";
@@ -110,11 +110,11 @@ static void note_contacts(const HdScene *scene, HdProblems *notes) {
                    overlapping.solid, overlapping.other, others_of(&overlapping, others));
 }
 
-/* Least visible jump of a path, as a share of the distance between eye and target. */
-static const double least_jump = 1e-3;
+/* Smallest visible jump of a path, as a share of the distance between eye and target. */
+static const double min_jump = 1e-3;
 
 /* Turns or swings in a film; with fewer, a path is not meant to return to its start. */
-static const double least_rounds = 0.9;
+static const double min_rounds = 0.9;
 
 static void note_radians(const char *path, const char *key, double angle, HdProblems *notes) {
     if (fabs(angle) > 2.0 * HD_PI)
@@ -143,8 +143,8 @@ static void note_path(const HdPath *path, const char *name, int frames, double d
     note_radians(name, "phi0", law->phi0, notes);
     note_radians(name, "r_phase", law->r_phase, notes);
     note_radians(name, "z_phase", law->z_phase, notes);
-    if (frames == 1 || hd_length(hd_sub(end, begin)) <= least_jump * distance ||
-        fmax(fabs(phi), fmax(fabs(r), fabs(z))) < least_rounds)
+    if (frames == 1 || hd_length(hd_sub(end, begin)) <= min_jump * distance ||
+        fmax(fabs(phi), fmax(fabs(r), fabs(z))) < min_rounds)
         return;
     note_frequency(name, "phi_frequency", phi, notes);
     note_frequency(name, "r_frequency", r, notes);

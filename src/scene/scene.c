@@ -7,6 +7,9 @@
 #include "system/machine.h"
 #include "system/thread_pool.h"
 
+#define SAMPLING_NAME(value, name) [value] = (name),
+const char *const hd_sampling_names[] = {HD_SAMPLINGS(SAMPLING_NAME) NULL};
+
 bool hd_scene_has_error_bound(const HdScene *scene) {
     return scene->sampling == HD_SAMPLING_ADAPTIVE || scene->sampling == HD_SAMPLING_REFERENCE ||
            scene->max_error > 0.0;

@@ -105,6 +105,14 @@ typedef enum HdSampling {
     HD_SAMPLING_REFERENCE    /* a low-discrepancy set, dense and the same in every pixel */
 } HdSampling;
 
+/* X(value, name): the samplings that scenes and options name, in the order of HdSampling. */
+#define HD_SAMPLINGS(X)                                                                            \
+    X(HD_SAMPLING_GRID, "grid")                                                                    \
+    X(HD_SAMPLING_MULTIJITTER, "multijitter") X(HD_SAMPLING_ADAPTIVE, "adaptive")
+
+/* Names by HdSampling; NULL ends them. */
+extern const char *const hd_sampling_names[];
+
 /* The picture's position in a larger one: its first pixel is the larger one's (left, top). */
 typedef struct HdCrop {
     int whole_width, whole_height; /* size of the larger one; 0: no crop */

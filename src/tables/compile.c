@@ -180,6 +180,11 @@ static void fill_fixed_point(View *view, const HdScene *scene, int samples) {
     view->from_fixed = (real)ldexp(1.0, view->pixel_shift - sample_bits);
 }
 
+/* Returns whether the frame's samples are those of a pattern, for all pixels alike. */
+static bool has_pattern(const HdScene *scene, const HdSampleList *list) {
+    return list == NULL && scene->sampling == HD_SAMPLING_MULTIJITTER;
+}
+
 static void fill_view(View *view, const HdFrameTables *tables, const HdScene *scene,
                       const HdCamera *camera, const HdSampleList *list) {
     const HdCrop *crop = &scene->crop;
@@ -199,7 +204,7 @@ static void fill_view(View *view, const HdFrameTables *tables, const HdScene *sc
     view->first_row = 1 - whole_height * side + 2 * crop->top * side;
     view->depth = scene->depth;
     view->listed = list != NULL;
-    view->patterned = list == NULL && scene->sampling == HD_SAMPLING_MULTIJITTER;
+    view->patterned = has_pattern(scene, list);
     fill_fixed_point(view, scene, tables->samples);
     if (list != NULL) {
         view->bound_cutoff = (real)list->bound_cutoff;
@@ -236,7 +241,7 @@ HdStatus NAMED(hd_compile_frame)(HdFrameTables *tables, const HdScene *scene,
         tables->table[HD_TABLE_entries].bytes =
             2 * sizeof(int) * (size_t)tables->width * (size_t)tables->height;
         tables->table[HD_TABLE_sample_places].bytes = sizeof(int) * (size_t)list->place_count;
-    } else if (scene->sampling == HD_SAMPLING_MULTIJITTER) {
+    } else if (has_pattern(scene, list)) {
         tables->table[HD_TABLE_sample_places].bytes =
             sizeof(int) * ((size_t)tables->samples + HD_PATTERN_SPARE);
     }
@@ -245,7 +250,7 @@ HdStatus NAMED(hd_compile_frame)(HdFrameTables *tables, const HdScene *scene,
     fill_view(tables->table[HD_TABLE_view].data, tables, scene, camera, list);
     if (list != NULL)
         fill_list(tables, list);
-    else if (scene->sampling == HD_SAMPLING_MULTIJITTER)
+    else if (has_pattern(scene, list))
         fill_pattern(tables, scene->samples_per_side);
     Vector *offsets = tables->table[HD_TABLE_eye_offsets].data;
     for (int object = 0; object < object_count; object++)

@@ -35,10 +35,9 @@ static HdStatus open_side(Search *search, int side, const HdDevice *device,
 
 static HdStatus open_sides(Search *search, HdError *error) {
     HdDevice plain;
-    int count;
     const HdMismatch *mismatch = search->mismatch;
     const HdRenderOptions options = {.precision = mismatch->options->precision};
-    HD_TRY(hd_backend_enumerate(hd_backend_always_there(), &plain, 1, &count, error));
+    HD_TRY(hd_find_plain_device(&plain, error));
     HD_TRY(open_side(search, DEVICE, mismatch->device, mismatch->options, error));
     return open_side(search, PLAIN_C, &plain, &options, error);
 }

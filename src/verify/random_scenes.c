@@ -461,9 +461,8 @@ static HdStatus report_difference(const HdRandomTest *test, HdRandomResult *resu
 
 HdStatus hd_random_test(const HdRandomTest *test, HdRandomResult *result, HdError *error) {
     Run run = {.test = test, .result = result, .error = error};
-    int count;
     *result = (HdRandomResult){0};
-    HD_TRY(hd_backend_enumerate(hd_backend_always_there(), &run.plain, 1, &count, error));
+    HD_TRY(hd_find_plain_device(&run.plain, error));
     run.worker_count = test->threads > 0 ? test->threads : hd_processor_count();
     if (run.worker_count > MAX_WORKERS)
         run.worker_count = MAX_WORKERS;

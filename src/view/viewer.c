@@ -417,7 +417,6 @@ add(Lines *lines, const char *format, ...) {
 }
 
 static void add_settings(Lines *lines, HdViewer *viewer, int number) {
-    static const char *const samplings[] = {"grid", "multijitter", "adaptive"};
     HdViewSide *side = &viewer->sides[number];
     const HdScene *scene = &side->file.scene;
     const bool is_split = viewer->side_count > 1;
@@ -429,7 +428,7 @@ static void add_settings(Lines *lines, HdViewer *viewer, int number) {
     add(lines, "%s%s", prefix, device);
     add(lines, "%s%s, depth %d, %s, %d x %d samples", prefix,
         side->devices.render.precision == HD_PRECISION_DOUBLE ? "double" : "float", scene->depth,
-        samplings[scene->sampling], scene->samples_per_side, scene->samples_per_side);
+        hd_sampling_names[scene->sampling], scene->samples_per_side, scene->samples_per_side);
     if (problem[0] != '\0')
         add(lines, "! %s", problem);
     if (side->file_error[0] != '\0' && number == 0)

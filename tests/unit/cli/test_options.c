@@ -211,7 +211,7 @@ TEST(nothing_is_the_classic_mode) {
     assert_int_equal(options.scene.size.width, 0);
     assert_true(options.scene.cutoff == -1.0);
     assert_int_equal(options.operand_count, 0);
-    assert_false(options.telling.quiet || options.telling.verbose);
+    assert_false(options.reporting.quiet || options.reporting.verbose);
 }
 
 TEST(comparisons_take_two_pictures) {
@@ -315,7 +315,8 @@ TEST(values_reach_their_members) {
     assert_string_equal(options.frames, "0-9");
     assert_string_equal(options.devices.device, "c:0");
     assert_string_equal(options.store.statistics, "-");
-    assert_true(options.store.again && options.telling.tells_frames && options.telling.verbose);
+    assert_true(options.store.again && options.reporting.reports_frames &&
+                options.reporting.verbose);
     expect_parsed("hedron render --lanes 16 --threads 2 --block 64 --grid 3 --math fast "
                   "--precision double --pipeline wavefront-uncompacted --backend opencl");
     const HdRenderOptions *render = &options.devices.render;
@@ -344,10 +345,10 @@ TEST(the_plan_is_complete) {
     assert_int_equal(options.devices.render.precision, HD_PRECISION_DOUBLE);
     assert_string_equal(scene->given, "--size 6x7");
     assert_string_equal(options.store.given, "--set a=b --size 6x7 --reference --precision double");
-    assert_true(options.telling.wants_lines && !options.store.again);
+    assert_true(options.reporting.wants_lines && !options.store.again);
     expect_parsed("hedron render --reference --samples 2 --max-error 2");
     assert_true(scene->path == NULL && scene->samples == 2 && scene->max_error == 2.0);
     expect_parsed("hedron --cpu");
-    assert_true(scene->is_classic && options.store.again && !options.telling.wants_lines);
+    assert_true(scene->is_classic && options.store.again && !options.reporting.wants_lines);
     assert_int_equal(options.devices.kind, HD_ONLY_CPU);
 }
