@@ -18,8 +18,6 @@ VALUE(number, json_integer(source->stored->number))
 VALUE(resumed, json_true())
 VALUE(backend, json_string(source->device->backend->name))
 VALUE(device_index, json_integer(source->device->index))
-VALUE(device_name, hd_json_device_text(source->device->name))
-VALUE(renderer, hd_json_device_text(source->renderer))
 VALUE(width, json_integer(source->stored->frame->width))
 VALUE(height, json_integer(source->stored->frame->height))
 VALUE(samples, json_integer(source->scene->samples_per_side))
@@ -31,6 +29,16 @@ VALUE(shadow_tests, json_integer((json_int_t)source->stored->frame->shadow_tests
 VALUE(clamps, json_integer((json_int_t)source->stored->frame->clamps))
 VALUE(largest_bound, json_real(source->stored->frame->largest_bound))
 VALUE(mean_bound, json_real(source->stored->frame->mean_bound))
+
+static json_t *device_name(const Key *key, const Source *source) {
+    (void)key;
+    return hd_json_device_text(source->device->name);
+}
+
+static json_t *renderer(const Key *key, const Source *source) {
+    (void)key;
+    return hd_json_device_text(source->renderer);
+}
 
 static const HdSpan *span_of(const Key *key, const Source *source) {
     return (const HdSpan *)(const void *)((const char *)&source->stored->times + key->span);
