@@ -75,3 +75,30 @@ HdStatus hd_problems_status(const HdProblems *problems, const char *name, HdErro
         hd_add_text(whole, sizeof whole, "\n  ", "and more of them");
     return hd_fail(error, HD_BAD_INPUT, "%s", whole);
 }
+
+void hd_fault(HdFaults *faults, const char *kind, size_t count, const char *format, ...) {
+    va_list arguments;
+    int at = 0;
+    while (at < faults->kind_count && strcmp(faults->kinds[at].kind, kind) != 0)
+        at++;
+    if (at == HD_MAX_FAULT_KINDS)
+        return;
+    if (at == faults->kind_count) {
+        faults->kind_count++;
+        faults->kinds[at].kind = kind;
+        va_start(arguments, format);
+        vsnprintf(faults->kinds[at].first, sizeof faults->kinds[at].first, format, arguments);
+        va_end(arguments);
+    }
+    faults->kinds[at].count += count;
+}
+
+void hd_faults_report(const HdFaults *faults, const char *name, HdProblems *problems) {
+    for (int i = 0; i < faults->kind_count; i++) {
+        char number[32] = "";
+        if (faults->kinds[i].count > 1)
+            snprintf(number, sizeof number, " (%zu times)", faults->kinds[i].count);
+        hd_problem(problems, "%s%s%s%s", name != NULL ? name : "", name != NULL ? ": " : "",
+                   faults->kinds[i].first, number);
+    }
+}

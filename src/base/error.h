@@ -78,4 +78,28 @@ HdStatus hd_problems_status(const HdProblems *problems, const char *name, HdErro
 /* Writes each problem as one line that starts with `name` and `kind`. */
 void hd_problems_print(const HdProblems *problems, FILE *out, const char *name, const char *kind);
 
+/* ---- faults of a file that its reader passes over ---- */
+
+enum { HD_MAX_FAULT_KINDS = 32 };
+
+/* The first fault of each kind, and their number. Zero-initialise. */
+typedef struct HdFaults {
+    int kind_count;
+    struct {
+        const char *kind;
+        size_t count;
+        char first[1024];
+    } kinds[HD_MAX_FAULT_KINDS];
+} HdFaults;
+
+/* Adds `count` faults of a kind, a text that lasts; the format describes the first one. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 4, 5)))
+#endif
+void hd_fault(HdFaults *faults, const char *kind, size_t count, const char *format, ...);
+
+/* Adds a problem for each kind, in the order of their first faults: "NAME: fault (3 times)". The
+   name may be NULL. */
+void hd_faults_report(const HdFaults *faults, const char *name, HdProblems *problems);
+
 #endif

@@ -80,6 +80,7 @@ static HdStatus check_scene(const char *operand, const HdScenePlan *plan, json_t
     const HdSceneSource source = {.folder = "",
                                   .changes = plan->changes,
                                   .change_count = plan->change_count,
+                                  .is_strict = plan->strict_files,
                                   .loads_files = true,
                                   .notes = &notes,
                                   .file_notes = &notes};

@@ -265,11 +265,14 @@ static const HdField mesh_fields[] = {
     {AT(HdMeshEntry, instance.material, "material",
         "Name of a material that replaces those of the file, except for Ke and map_Kd"),
      .type = HD_FIELD_MATERIAL, .flag_offset = offsetof(HdMeshEntry, instance.has_material)},
+    {AT(HdMeshEntry, ambient, "ambient",
+        "Factor of the file's Ka, which most programs set to 1"),
+     NUMBER(0.0, 1.0), DEFAULT(0.0)},
 };
 static const HdObjectType mesh =
     TYPE(HdMeshEntry, mesh_fields,
          "The vertices of the file are in object space. They are scaled, then rotated, then moved. "
-         "Entries with the same file, normals and crease share one mesh in memory.");
+         "Entries that differ only in their place and material share one mesh in memory.");
 
 static const HdField light_fields[] = {
     {AT(HdLight, position, "position", "Position of the light"), POSITION, WORLD,

@@ -60,6 +60,7 @@ typedef struct Loader {
     const HdSceneFile *file;
     HdScene *scene;
     HdProblems *problems, *notes;
+    HdFaults texture_faults;
     HdError *error;
     double capacity;  /* bytes left for files */
     int *first_entry; /* number of the first entry of each mesh */
@@ -78,6 +79,14 @@ static HdStatus report_mesh(Loader *loader, HdStatus status, int mesh) {
     return HD_OK;
 }
 
+/* Reports faults that readers skipped: as notes, or if strict as problems of the part. */
+static void report_faults(const Loader *loader, const HdProblems *faults, const char *part) {
+    const bool is_strict = loader->file->is_strict;
+    for (const char *line = faults->text; *line != '\0'; line += strcspn(line, "\n") + 1)
+        hd_problem(is_strict ? loader->problems : loader->notes, "%s%.*s", is_strict ? part : "",
+                   (int)strcspn(line, "\n"), line);
+}
+
 /* Assignment of entries to meshes */
 
 static int compare_numbers(double a, double b) {
@@ -93,6 +102,8 @@ static int compare_meshes(const HdMeshEntry *a, const HdMeshEntry *b) {
     const int files = strcmp(file_of(a), file_of(b));
     if (files != 0 || a->normals != b->normals)
         return files != 0 ? files : (int)a->normals - (int)b->normals;
+    if (a->ambient != b->ambient)
+        return compare_numbers(a->ambient, b->ambient);
     return a->normals == HD_NORMALS_SMOOTH ? compare_numbers(a->crease_degrees, b->crease_degrees)
                                            : 0;
 }
@@ -163,11 +174,22 @@ static void flatten(HdMesh *mesh) {
     mesh->normal_count = 0;
 }
 
-static HdStatus read_mesh(Loader *loader, HdMesh *mesh, const HdMeshEntry *entry) {
-    char path[HD_MAX_PATH];
+static HdStatus read_obj(Loader *loader, HdMesh *mesh, int number, const char *path) {
+    HdProblems faults = {.count = 0};
+    char part[64];
     const double capacity = fmin(fmax(loader->capacity, 0.0), (double)(SIZE_MAX / 2));
+    HD_TRY(hd_mesh_read_obj(mesh, path, (size_t)capacity, &faults, loader->notes, loader->error));
+    snprintf(part, sizeof part, "meshes[%d].file: ", loader->first_entry[number]);
+    report_faults(loader, &faults, part);
+    return HD_OK;
+}
+
+static HdStatus read_mesh(Loader *loader, HdMesh *mesh, int number, const HdMeshEntry *entry) {
+    char path[HD_MAX_PATH];
     HD_TRY(hd_path_expand_home(entry->file, path, loader->error));
-    HD_TRY(hd_mesh_read_obj(mesh, path, (size_t)capacity, loader->notes, loader->error));
+    HD_TRY(read_obj(loader, mesh, number, path));
+    for (int i = 0; i < mesh->material_count; i++)
+        mesh->materials[i].material.ambient *= entry->ambient;
     if (entry->normals == HD_NORMALS_FLAT)
         flatten(mesh);
     if (entry->normals == HD_NORMALS_SMOOTH)
@@ -188,7 +210,7 @@ static HdStatus read_meshes(Loader *loader) {
         if (hd_interrupt_signal() != 0)
             return hd_fail(loader->error, HD_INTERRUPTED, "interrupted while reading meshes");
         if (entry->file != NULL)
-            HD_TRY(report_mesh(loader, read_mesh(loader, &scene->meshes[i], entry), i));
+            HD_TRY(report_mesh(loader, read_mesh(loader, &scene->meshes[i], i, entry), i));
     }
     return HD_OK;
 }
@@ -206,8 +228,8 @@ static HdStatus read_picture(Loader *loader, const char *path, int *number) {
     const HdStatus status = hd_texture_read(&picture->texture, path, HD_CURVE_SRGB, loader->error);
     *number = -1;
     if (status == HD_BAD_INPUT) {
-        hd_problem(loader->notes, "%s; materials with this texture use their colour only",
-                   loader->error->message);
+        hd_fault(&loader->texture_faults, "texture", 1,
+                 "%s; materials with this texture use their colour only", loader->error->message);
         return HD_OK;
     }
     if (status != HD_OK)
@@ -252,6 +274,12 @@ static HdStatus load_pictures(Loader *loader) {
     return status;
 }
 
+static void report_texture_faults(const Loader *loader) {
+    HdProblems faults = {.count = 0};
+    hd_faults_report(&loader->texture_faults, NULL, &faults);
+    report_faults(loader, &faults, "meshes: ");
+}
+
 /* Loading */
 
 static HdStatus load(Loader *loader) {
@@ -259,6 +287,7 @@ static HdStatus load(Loader *loader) {
     HD_TRY(place_instances(loader));
     HD_TRY(read_meshes(loader));
     HD_TRY(load_pictures(loader));
+    report_texture_faults(loader);
     if (loader->problems->count > 0)
         return HD_OK;
     HD_TRY(hd_scene_build_meshes(loader->scene, loader->error));

@@ -610,6 +610,7 @@ static HdStatus build(HdSceneFile *file, json_t *root, const HdSceneSource *sour
     for (int i = 0; i < source->change_count; i++)
         hd_scene_change_apply(root, source->changes[i], &problems);
     HD_TRY(read_and_check(file, root, source, &problems, error));
+    file->is_strict = source->is_strict;
     if (source->loads_files)
         HD_TRY(load_files(file, source, &problems, error));
     if (source->notes != NULL)

@@ -28,11 +28,13 @@ typedef enum HdMeshNormals {
     HD_NORMALS_SMOOTH /* made by hd_mesh_smooth */
 } HdMeshNormals;
 
-/* A placed mesh of a scene file. Entries that agree in file, normals and crease share a mesh. */
+/* A placed mesh of a scene file. Entries that agree in file, normals, crease and ambient share a
+   mesh. */
 typedef struct HdMeshEntry {
     char *file; /* owned; path to open, "~" not expanded */
     HdMeshNormals normals;
     double crease_degrees; /* crease angle of smooth normals */
+    double ambient;        /* factor of the file's Ka */
     HdInstance instance;   /* instance without the index of its mesh */
 } HdMeshEntry;
 
@@ -43,6 +45,7 @@ typedef struct HdSceneFile {
                                  hd_scene_file_load_meshes the meshes, instances and pictures */
     int mesh_entry_count;
     HdMeshEntry *mesh_entries; /* owned */
+    bool is_strict;            /* as in HdSceneSource */
     HdOutputSettings output;
     char texture_path[HD_MAX_PATH]; /* path to open, "~" not expanded; empty: none */
     HdCurve texture_curve;
@@ -57,6 +60,7 @@ typedef struct HdSceneSource {
     const char *folder;           /* base of relative paths; "": the current folder */
     const HdSceneChange *changes; /* applied before any check; messages name them */
     int change_count;
+    bool is_strict;         /* refuse files with faults that readers could pass over */
     bool loads_files;       /* load the texture and the meshes, and report problems with them */
     HdProblems *file_notes; /* notes on unused contents of loaded mesh files; NULL: none */
     HdProblems *notes; /* notes of notes.h and of a check of the whole sequence; NULL: neither */

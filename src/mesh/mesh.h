@@ -127,16 +127,21 @@ bool hd_polygon_cut(const HdVec3 *corners, int count, int32_t (*triangles)[3]);
 enum { HD_OBJ_MAX_LINE = 65000 };
 
 /* Reads the file at `path` and the MTL files that it names, in the same folder or below. Cuts
-   polygons into triangles. Converts materials by the table in docs/reference/files.md. `texture`
-   begins with the folder of `path` or with "./"; the existence of the picture is not checked.
-   Materials without triangles may remain. Drops and counts triangles without an area. Reports what
-   is not used in `notes`, in sentences that begin with a path: missing libraries, wrong lines of
-   libraries, other kinds of maps, values made legal. HD_BAD_INPUT, with the file and, if known, the
-   line: it cannot be read, is no OBJ, or has no faces or none with an area. Also if it names
-   missing vertices, or has numbers that are not finite or beyond HD_MAX_NUMBER. Also if reading
-   takes more than `max_bytes` of memory, mesh included. HD_FAILED: the system is out of memory.
-   After an error the mesh is empty. */
-HdStatus hd_mesh_read_obj(HdMesh *mesh, const char *path, size_t max_bytes, HdProblems *notes,
-                          HdError *error);
+   polygons into triangles. Rounds vertices to float, except those of a mesh that lies farther from
+   the origin than twice its longest side. Converts materials by the table in
+   docs/reference/files.md. `texture` begins with the folder of `path` or with "./"; it names a file
+   unless none is found. Materials without triangles may remain. Drops and counts triangles without
+   an area.
+
+   Passes over what is wrong where the meaning of the rest is clear: `faults` gets a sentence for
+   each kind, with the path and the first line. `notes` gets others, which begin with a path: unused
+   statements, and materials that hide their mesh. Both may be one list.
+
+   HD_BAD_INPUT, with the file and, if known, the line: it cannot be read, is no OBJ, or has no
+   faces or none with an area. Also if a face names missing vertices, or one whose numbers are not
+   finite or beyond HD_MAX_NUMBER. Also if reading takes more than `max_bytes` of memory, mesh
+   included. HD_FAILED: the system is out of memory. After an error the mesh is empty. */
+HdStatus hd_mesh_read_obj(HdMesh *mesh, const char *path, size_t max_bytes, HdProblems *faults,
+                          HdProblems *notes, HdError *error);
 
 #endif

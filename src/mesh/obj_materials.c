@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/limits.h"
+#include "mesh/obj_files.h"
 #include "mesh/obj_reading.h"
 #include "system/path.h"
 
@@ -34,12 +35,13 @@ typedef struct Definition {
 typedef struct Libraries {
     const char *path; /* path of the mesh */
     HdObjMemory *memory;
-    HdProblems *notes;
+    HdProblems *fault_list, *notes;
+    HdFaults faults, remarks;     /* on the mesh, not yet in the lists */
     const HdNameTable *materials; /* names used by the mesh */
     Definition *definitions;      /* one for each material */
     int32_t *order;               /* numbers of the defined ones, in the order of the libraries */
     int defined_count;
-    const char *names[MAX_LIBRARIES]; /* names of the libraries requested */
+    HdSpan names[MAX_LIBRARIES]; /* names of the libraries requested */
     int count;
 } Libraries;
 
@@ -47,6 +49,7 @@ typedef struct Libraries {
 typedef struct Reader {
     Libraries *libraries;
     const char *path;
+    HdFaults faults; /* of this library, not yet in the list */
     HdSpan folder; /* folder of its texture names, below the mesh's: empty, or with a final slash */
     size_t line;
     bool is_in_material;
@@ -60,16 +63,20 @@ typedef struct Reader {
 /* ---- conversion of materials ---- */
 
 typedef struct Notes {
-    const char *place;
-    HdProblems *problems;
+    const char *name;           /* of the material */
+    HdFaults *faults, *remarks; /* values made legal; others that are seldom meant */
 } Notes;
+
+/* Arguments for "%.*s". */
+#define named(notes) hd_span_shown(hd_span_of((notes)->name)), (notes)->name
 
 static double clamp_noted(const Notes *notes, const char *name, double value, double low,
                           double high) {
     const double legal = value < low ? low : value > high ? high : value;
     if (legal != value)
-        hd_problem(notes->problems, "%s: %s is %.9g, expected %.15g to %.15g, and becomes %.15g",
-                   notes->place, name, value, low, high, legal);
+        hd_fault(notes->faults, name, 1,
+                 "material '%.*s': %s is %.9g, expected %.15g to %.15g, and becomes %.15g",
+                 named(notes), name, value, low, high, legal);
     return legal;
 }
 
@@ -107,10 +114,10 @@ static void limit_shares(const Notes *notes, HdMaterial *material) {
     const double sum = material->reflection + material->transmission;
     if (sum <= 1.0)
         return;
-    hd_problem(notes->problems,
-               "%s: Ks reflects %.6g and d or Tf transmits %.6g, expected at most 1 "
-               "together, and both are divided by %.6g",
-               notes->place, material->reflection, material->transmission, sum);
+    hd_fault(notes->remarks, "sum", 1,
+             "material '%.*s': Ks reflects %.6g and d or Tf transmits %.6g, expected at most 1 "
+             "together, and both are divided by %.6g",
+             named(notes), material->reflection, material->transmission, sum);
     material->reflection /= sum;
     material->transmission = 1.0 - material->reflection;
 }
@@ -159,65 +166,35 @@ static void make_material(const Parameters *from, HdMeshMaterial *material, cons
     material->emission = colour(notes, "Ke", from->Ke, HD_MAX_NUMBER);
 }
 
-/* ---- names of files ---- */
-
-static bool is_separator(char c) {
-    return c == '/' || c == '\\';
-}
-
-/* Returns the expected form of a file name, which must stay in its base folder or below; NULL: it
-   does. Backslashes count as slashes. */
-static const char *file_name_fault(HdSpan name) {
-    if (hd_name_fault(name) != NULL)
-        return hd_name_fault(name);
-    if (is_separator(*name.begin) || (name.end - name.begin > 1 && name.begin[1] == ':'))
-        return "a name relative to this file's folder";
-    for (const char *at = name.begin; at < name.end;) {
-        const char *end = at;
-        while (end < name.end && !is_separator(*end))
-            end++;
-        if (hd_span_is((HdSpan){at, end}, ".."))
-            return "a name in this file's folder or below it";
-        at = end < name.end ? end + 1 : end;
-    }
-    return NULL;
-}
-
-static void fix_separators(char *name) {
-    for (; *name != '\0'; name++)
-        if (*name == '\\')
-            *name = '/';
-}
-
-/* Joins the parts; free() releases the result. NULL: out of memory. */
-static char *join(HdObjMemory *memory, const HdSpan parts[3]) {
-    size_t size = 0;
-    for (int i = 0; i < 3; i++)
-        size += hd_span_size(parts[i]);
-    char *joined = hd_obj_allocate(memory, size + 1, 1), *to = joined;
-    for (int i = 0; joined != NULL && i < 3; to += hd_span_size(parts[i]), i++)
-        memcpy(to, parts[i].begin, hd_span_size(parts[i]));
-    if (joined != NULL)
-        *to = '\0';
-    return joined;
-}
-
-/* Returns the folder of the path with its last slash, or nothing. */
-static HdSpan folder_of(const char *path) {
-    const char *slash = strrchr(path, '/');
-    return (HdSpan){path, slash != NULL ? slash + 1 : path};
+/* Remarks on libraries that hide their mesh: some programs write Tr 1 for opaque, others Kd 0 with
+   a texture. */
+static void remark_hidden(const HdMeshMaterial *material, const Notes *notes) {
+    const HdMaterial *look = &material->material;
+    if (largest(material->emission) > 0.0)
+        return;
+    if (look->transmission == 1.0 && look->index_of_refraction == 1.0)
+        hd_fault(notes->remarks, "clear", 1,
+                 "material '%.*s' is invisible except for its tint: d is 0 (or Tr 1), so all light "
+                 "passes straight through",
+                 named(notes));
+    else if (material->texture != NULL && largest(look->colour) == 0.0)
+        hd_fault(notes->remarks, "black", 1,
+                 "material '%.*s' is black: Kd is 0 0 0, by which its texture is multiplied",
+                 named(notes));
 }
 
 /* ---- statements ---- */
 
-#define note(reader, format, ...)                                                                  \
-    hd_problem((reader)->libraries->notes, "%s: line %zu: " format, (reader)->path,                \
-               (reader)->line, __VA_ARGS__)
+/* Passes over a fault of this line. */
+#define pass_over(reader, kind, format, ...)                                                       \
+    hd_fault(&(reader)->faults, kind, 1, "line %zu: " format, (reader)->line, __VA_ARGS__)
 
 /* Returns the target of a definition; of two materials with one name the first counts. */
 static Definition *define(Reader *reader, HdSpan name) {
     Libraries *libraries = reader->libraries;
-    const int number = hd_name_table_find(libraries->materials, name);
+    int number = hd_name_table_find(libraries->materials, name);
+    if (number < 0)
+        number = hd_name_table_find(libraries->materials, hd_without_comment(name));
     if (number < 0 || libraries->definitions[number].is_defined)
         return &reader->unused;
     libraries->order[libraries->defined_count++] = number;
@@ -231,21 +208,22 @@ static void start_material(Reader *reader, HdSpan line) {
     reader->is_in_material = fault == NULL;
     reader->has_dissolve = false;
     if (fault != NULL)
-        note(reader, "the name of a material, expected %s; it is left out", fault);
+        pass_over(reader, "newmtl", "the name of a material, expected %s; it is left out", fault);
     else
         reader->material = define(reader, name);
 }
 
 /* Reads up to `most` numbers, at least one. Returns 0, after a note, if one is wrong. */
-static int read_numbers(Reader *reader, HdSpan keyword, HdSpan line, int most, double *values) {
+static int read_numbers(Reader *reader, const char *keyword, HdSpan line, int most,
+                        double *values) {
     for (int i = 0; i < most; i++) {
         const HdSpan word = hd_next_word(&line);
-        if (i > 0 && word.begin == word.end)
+        if (i > 0 && (word.begin == word.end || *word.begin == '#'))
             return i;
         const char *fault = hd_number_fault(word, &values[i]);
         if (fault != NULL) {
-            note(reader, "%.*s has '%.*s', expected %s; the line is left out",
-                 hd_span_shown(keyword), keyword.begin, hd_span_shown(word), word.begin, fault);
+            pass_over(reader, keyword, "%s has '%.*s', expected %s; the line is left out", keyword,
+                      hd_span_shown(word), word.begin, fault);
             return 0;
         }
     }
@@ -253,25 +231,25 @@ static int read_numbers(Reader *reader, HdSpan keyword, HdSpan line, int most, d
 }
 
 /* One number stands for all three of a colour. */
-static void keep_numbers(Reader *reader, HdSpan keyword, HdSpan line, float *to, int most) {
+static void keep_numbers(Reader *reader, const char *keyword, HdSpan line, float *to, int most) {
     double values[3];
     const int count = read_numbers(reader, keyword, line, most, values);
     if (count == 0)
         return;
     for (int i = 0; i < most; i++)
         to[i] = (float)values[i < count ? i : 0];
-    reader->has_dissolve |= hd_span_is(keyword, "d");
+    reader->has_dissolve |= strcmp(keyword, "d") == 0;
 }
 
 /* Rounds to millionths, so that 1 - 0.9 is 0.1. */
-static void keep_transparency(Reader *reader, HdSpan keyword, HdSpan line) {
+static void keep_transparency(Reader *reader, HdSpan line) {
     double value;
-    if (read_numbers(reader, keyword, line, 1, &value) == 0 || reader->has_dissolve)
+    if (read_numbers(reader, "Tr", line, 1, &value) == 0 || reader->has_dissolve)
         return;
     const double opacity = value < 0.0 ? 1.0 : value > 1.0 ? 0.0 : 1.0 - value;
     reader->material->parameters.d = (float)((int)(opacity * 1e6 + 0.5) / 1e6);
     if (value < 0.0 || value > 1.0)
-        note(reader, "Tr is %.9g, expected 0 to 1; the nearer of them is used", value);
+        pass_over(reader, "Tr", "Tr is %.9g, expected 0 to 1; the nearer of them is used", value);
 }
 
 static void keep_illum(Reader *reader, HdSpan line) {
@@ -279,50 +257,61 @@ static void keep_illum(Reader *reader, HdSpan line) {
     const HdSpan word = hd_next_word(&line);
     if (hd_number_fault(word, &value) != NULL || value < 0.0 || value > MAX_ILLUM ||
         value != (int)value)
-        note(reader, "illum is '%.*s', expected 0 to %d; the line is left out", hd_span_shown(word),
-             word.begin, (int)MAX_ILLUM);
+        pass_over(reader, "illum", "illum is '%.*s', expected 0 to %d; the line is left out",
+                  hd_span_shown(word), word.begin, (int)MAX_ILLUM);
     else
         reader->material->parameters.illum = (int)value;
 }
 
-/* Sets the texture; the last one counts. Prefixes "./" if the mesh has no folder, so that a later
+/* Returns the folders of the library's textures: "./" if the mesh has no folder, so that a later
    name can only be a file's. */
-static void set_texture(Reader *reader, HdSpan name) {
-    HdSpan folder = folder_of(reader->libraries->path);
-    if (folder.begin == folder.end)
-        folder = hd_span_of("./");
-    free(reader->material->texture);
-    reader->material->texture =
-        join(reader->libraries->memory, (const HdSpan[3]){folder, reader->folder, name});
-    if (reader->material->texture != NULL)
-        fix_separators(reader->material->texture + hd_span_size(folder));
+static HdObjPlace place_of_textures(const Reader *reader) {
+    HdSpan base = hd_obj_folder(hd_span_of(reader->libraries->path));
+    if (base.begin == base.end)
+        base = hd_span_of("./");
+    return (HdObjPlace){base, reader->folder};
 }
 
-static void keep_texture(Reader *reader, HdSpan line) {
-    const HdSpan name = hd_rest(line);
-    const char *fault = file_name_fault(name);
+/* Returns the path, also of a missing file that may be named so. NULL: none, or out of memory. */
+static char *find_texture(Reader *reader, HdSpan name) {
+    HdObjMemory *memory = reader->libraries->memory;
+    const HdObjPlace place = place_of_textures(reader);
+    const char *fault = hd_obj_file_name_fault(name);
     if (fault == NULL && *name.begin == '-')
         fault = "a name without options before it";
-    if (fault != NULL)
-        note(reader, "map_Kd is '%.*s', expected %s; there will be no texture", hd_span_shown(name),
-             name.begin, fault);
-    else if (reader->material != &reader->unused)
-        set_texture(reader, name);
+    bool is_elsewhere;
+    char *path = hd_obj_find_file(memory, &place, name, &is_elsewhere);
+    if (path != NULL && is_elsewhere)
+        pass_over(reader, "elsewhere", "map_Kd is '%.*s', which is not there; %s is used",
+                  hd_span_shown(name), name.begin, path);
+    else if (path == NULL && fault != NULL)
+        pass_over(reader, "map_Kd", "map_Kd is '%.*s', expected %s; there will be no texture",
+                  hd_span_shown(name), name.begin, fault);
+    return path != NULL || fault != NULL ? path : hd_obj_path(memory, &place, name);
+}
+
+/* The last texture counts. */
+static void keep_texture(Reader *reader, HdSpan line) {
+    char *path = reader->material != &reader->unused ? find_texture(reader, hd_rest(line)) : NULL;
+    if (path == NULL)
+        return;
+    free(reader->material->texture);
+    reader->material->texture = path;
 }
 
 static void note_unused(Reader *reader, HdSpan keyword) {
-    const size_t size = hd_span_size(keyword);
+    HdProblems *notes = reader->libraries->notes;
     for (int i = 0; i < reader->noted_count; i++)
-        if (hd_span_size(reader->noted[i]) == size &&
-            memcmp(reader->noted[i].begin, keyword.begin, size) == 0)
+        if (hd_span_equals(reader->noted[i], keyword))
             return;
     if (reader->noted_count == MAX_NOTED)
         return;
     reader->noted[reader->noted_count++] = keyword;
     if (hd_name_fault(keyword) == NULL)
-        note(reader, "%.*s is not used", hd_span_shown(keyword), keyword.begin);
+        hd_problem(notes, "%s: line %zu: %.*s is not used", reader->path, reader->line,
+                   hd_span_shown(keyword), keyword.begin);
     else
-        note(reader, "%s", "it has no statement of a material library");
+        pass_over(reader, "statement", "%s", "it has no statement of a material library");
 }
 
 static void read_statement(Reader *reader, HdSpan keyword, HdSpan line) {
@@ -335,11 +324,11 @@ static void read_statement(Reader *reader, HdSpan keyword, HdSpan line) {
                    {"Tf", to->Tf, 3}, {"Ns", &to->Ns, 1}, {"Ni", &to->Ni, 1}, {"d", &to->d, 1}};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         if (hd_span_is(keyword, numbers[i].keyword)) {
-            keep_numbers(reader, keyword, line, numbers[i].to, numbers[i].count);
+            keep_numbers(reader, numbers[i].keyword, line, numbers[i].to, numbers[i].count);
             return;
         }
     if (hd_span_is(keyword, "Tr"))
-        keep_transparency(reader, keyword, line);
+        keep_transparency(reader, line);
     else if (hd_span_is(keyword, "illum"))
         keep_illum(reader, line);
     else if (hd_span_is(keyword, "map_Kd"))
@@ -373,36 +362,28 @@ static HdSpan next_line(HdSpan *text) {
 /* Reads the first definitions of materials that the mesh names; missing parameters are as in
    `defaults`, and Tr becomes d. Notes each kind of unused statement once. */
 static void read_definitions(Reader *reader, HdSpan text) {
-    if (memchr(text.begin, '\0', (size_t)(text.end - text.begin)) != NULL) {
-        hd_problem(reader->libraries->notes, "%s: it has a NUL byte, so it is no material library",
-                   reader->path);
+    text.begin += hd_mark_size(text);
+    const char *zero = memchr(text.begin, '\0', hd_span_size(text));
+    if (zero != NULL && hd_padding_size((HdSpan){zero, text.end}) < (size_t)(text.end - zero)) {
+        hd_fault(&reader->faults, "zero", 1, "it has a NUL byte, so it is no material library");
         return;
     }
+    if (zero != NULL)
+        text.end = zero;
     for (; text.begin < text.end; reader->line++)
         take_line(reader, next_line(&text));
 }
 
 /* ---- libraries ---- */
 
-/* Returns whether to read the library; true only once for each. */
-static bool should_read(Libraries *libraries, const char *name) {
-    const HdSpan span = hd_span_of(name);
-    const char *fault = file_name_fault(span);
+static bool is_requested(const Libraries *libraries, HdSpan name) {
     for (int i = 0; i < libraries->count; i++)
-        if (strcmp(libraries->names[i], name) == 0)
-            return false;
-    if (libraries->count == MAX_LIBRARIES)
-        fault = "no more than 64 libraries";
-    if (fault != NULL) {
-        hd_problem(libraries->notes, "%s: the material library '%.*s' is not read, expected %s",
-                   libraries->path, hd_span_shown(span), name, fault);
-        return false;
-    }
-    libraries->names[libraries->count++] = name;
-    return true;
+        if (hd_span_equals(libraries->names[i], name))
+            return true;
+    return false;
 }
 
-static void read_file(Libraries *libraries, const char *path, const char *name) {
+static void read_file(Libraries *libraries, const char *path, HdSpan folder) {
     unsigned char *bytes;
     size_t size;
     HdError problem;
@@ -410,62 +391,120 @@ static void read_file(Libraries *libraries, const char *path, const char *name) 
     const size_t capacity = memory->max_bytes - memory->used;
     const int64_t most = capacity < INT32_MAX ? (int64_t)capacity : INT32_MAX;
     if (hd_file_read(path, "material library", most, &bytes, &size, &problem) != HD_OK) {
-        hd_problem(libraries->notes, "%s: %s", libraries->path, problem.message);
+        hd_fault(&libraries->faults, "library", 1, "%s", problem.message);
         return;
     }
     const char *text = (const char *)bytes;
-    Reader reader = {.libraries = libraries, .path = path, .folder = folder_of(name), .line = 1};
+    Reader reader = {.libraries = libraries, .path = path, .folder = folder, .line = 1};
     memory->used += size;
     read_definitions(&reader, (HdSpan){text, text + size});
+    hd_faults_report(&reader.faults, path, libraries->fault_list);
     hd_obj_release(memory, bytes, size);
 }
 
-/* Reads the libraries named in the `size` bytes at `names`, each name zero-terminated. */
-static void read_libraries(Libraries *libraries, char *names, size_t size) {
-    for (size_t next = 0; next < size; next += strlen(names + next) + 1) {
-        char *name = names + next;
-        fix_separators(name);
-        if (!should_read(libraries, name))
-            continue;
-        char *path = join(libraries->memory, (const HdSpan[3]){folder_of(libraries->path),
-                                                               hd_span_of(name), hd_span_of("")});
-        if (path == NULL)
-            return;
-        read_file(libraries, path, name);
-        hd_obj_release(libraries->memory, path, strlen(path) + 1);
+static HdObjPlace place_of_libraries(const Libraries *libraries) {
+    return (HdObjPlace){hd_obj_folder(hd_span_of(libraries->path)), hd_span_of("")};
+}
+
+/* Returns the path, also of a missing file that may be named so. NULL: none, or out of memory. */
+static char *find_library(Libraries *libraries, HdSpan name) {
+    const HdObjPlace place = place_of_libraries(libraries);
+    const char *fault = libraries->count == MAX_LIBRARIES ? "no more than 64 libraries"
+                                                          : hd_obj_file_name_fault(name);
+    bool is_elsewhere;
+    char *path = libraries->count < MAX_LIBRARIES
+                     ? hd_obj_find_file(libraries->memory, &place, name, &is_elsewhere)
+                     : NULL;
+    if (path != NULL && is_elsewhere)
+        hd_fault(&libraries->faults, "elsewhere", 1,
+                 "the material library '%.*s' is not there; %s is read", hd_span_shown(name),
+                 name.begin, path);
+    else if (path == NULL && fault != NULL)
+        hd_fault(&libraries->faults, "name", 1,
+                 "the material library '%.*s' is not read, expected %s", hd_span_shown(name),
+                 name.begin, fault);
+    return path != NULL || fault != NULL ? path : hd_obj_path(libraries->memory, &place, name);
+}
+
+static void read_library(Libraries *libraries, HdSpan name) {
+    char *path = !is_requested(libraries, name) ? find_library(libraries, name) : NULL;
+    if (path == NULL)
+        return;
+    libraries->names[libraries->count++] = name;
+    HdSpan folder = hd_obj_folder(hd_span_of(path));
+    folder.begin += hd_span_size(place_of_libraries(libraries).base);
+    read_file(libraries, path, folder);
+    hd_obj_release(libraries->memory, path, strlen(path) + 1);
+}
+
+/* Returns whether the words of a statement, and not all of it, name a file. */
+static bool is_list(Libraries *libraries, HdSpan names) {
+    const HdObjPlace place = place_of_libraries(libraries);
+    bool is_found = false;
+    if (libraries->count == MAX_LIBRARIES || hd_obj_has_file(libraries->memory, &place, names))
+        return false;
+    for (HdSpan word = hd_next_word(&names); word.begin < word.end && !is_found;
+         word = hd_next_word(&names))
+        is_found = hd_obj_has_file(libraries->memory, &place, word);
+    return is_found;
+}
+
+/* Reads the libraries of a statement: one name that may contain blanks, or else several. */
+static void read_named(Libraries *libraries, HdSpan names) {
+    if (is_requested(libraries, names))
+        return;
+    if (!is_list(libraries, names)) {
+        read_library(libraries, names);
+        return;
     }
+    for (HdSpan word = hd_next_word(&names); word.begin < word.end && *word.begin != '#';
+         word = hd_next_word(&names))
+        read_library(libraries, word);
+}
+
+/* Reads the libraries named in the `size` bytes at `names`, each name zero-terminated. */
+static void read_libraries(Libraries *libraries, const char *names, size_t size) {
+    for (size_t next = 0; next < size; next += strlen(names + next) + 1)
+        read_named(libraries, hd_span_of(names + next));
 }
 
 /* A material without a definition gets the default parameters. */
-static void define_materials(const Libraries *libraries, HdMesh *mesh) {
-    char place[256];
+static void define_materials(Libraries *libraries, HdMesh *mesh) {
+    Notes notes = {"", &libraries->faults, &libraries->remarks};
     for (int i = 0; i < mesh->material_count; i++)
-        make_material(&defaults, &mesh->materials[i], &(Notes){"", libraries->notes});
+        make_material(&defaults, &mesh->materials[i], &notes);
     for (int i = 0; i < libraries->defined_count; i++) {
         const int number = libraries->order[i];
         Definition *definition = &libraries->definitions[number];
         HdMeshMaterial *material = &mesh->materials[number];
-        snprintf(place, sizeof place, "%s: material '%.*s'", libraries->path,
-                 hd_span_shown(hd_span_of(material->name)), material->name);
-        make_material(&definition->parameters, material, &(Notes){place, libraries->notes});
+        notes.name = material->name;
+        make_material(&definition->parameters, material, &notes);
         material->texture = definition->texture;
         definition->texture = NULL;
+        remark_hidden(material, &notes);
     }
 }
 
-static void note_undefined(const Libraries *libraries, const HdMesh *mesh) {
-    const int count = mesh->material_count - libraries->defined_count;
-    int first = 0;
-    if (count == 0)
-        return;
-    while (libraries->definitions[first].is_defined)
-        first++;
-    const char *name = mesh->materials[first].name;
-    if (mesh->material_count == 1 && strcmp(name, HD_OBJ_NO_MATERIAL) == 0)
+/* Gives the first `count` names their stand-ins, and notes those without a definition. */
+static void stand_in(Libraries *libraries, HdNameTable *names, int count) {
+    int undefined = 0, first = 0;
+    for (int i = count - 1; i >= 0; i--) {
+        const int plain = hd_name_table_find(names, hd_without_comment(names->names[i].text));
+        if (libraries->definitions[i].is_defined)
+            continue;
+        if (plain >= 0 && libraries->definitions[plain].is_defined) {
+            names->names[i].stand_in = plain;
+            continue;
+        }
+        undefined++;
+        first = i;
+    }
+    const HdSpan name = names->names[first].text;
+    if (undefined == 0 || (count == 1 && hd_span_is(name, HD_OBJ_NO_MATERIAL)))
         return; /* the file names no material */
-    hd_problem(libraries->notes,
-               "%s: no material library defines '%.80s'%s, so the default applies: white, opaque",
-               libraries->path, name, count > 1 ? " and others that faces name" : "");
+    hd_fault(&libraries->faults, "undefined", 1,
+             "no material library defines '%.*s'%s, so the default applies: white, opaque",
+             hd_span_shown(name), name.begin, undefined > 1 ? " and others that faces name" : "");
 }
 
 /* Moves the names to the mesh. */
@@ -492,15 +531,31 @@ static bool allocate(Libraries *libraries) {
     return libraries->definitions != NULL && libraries->order != NULL;
 }
 
-bool hd_obj_read_materials(HdMesh *mesh, const char *path, HdNameTable *names, char *libraries,
-                           size_t size, HdObjMemory *memory, HdProblems *notes) {
-    Libraries all = {.path = path, .memory = memory, .notes = notes, .materials = names};
-    if (allocate(&all))
+/* Adds the names without comments behind them. */
+static bool add_plain_names(HdNameTable *names, HdObjMemory *memory) {
+    const int count = names->count;
+    for (int i = 0; i < count; i++)
+        if (hd_name_table_add(names, hd_without_comment(names->names[i].text), memory) ==
+            HD_NAME_NO_MEMORY)
+            return false;
+    return true;
+}
+
+bool hd_obj_read_materials(HdMesh *mesh, const char *path, HdNameTable *names,
+                           const char *libraries, size_t size, HdObjMemory *memory,
+                           HdProblems *faults, HdProblems *notes) {
+    Libraries all = {
+        .path = path, .memory = memory, .fault_list = faults, .notes = notes, .materials = names};
+    const int count = names->count;
+    if (add_plain_names(names, memory) && allocate(&all))
         read_libraries(&all, libraries, size);
-    if (!memory->has_refused && name_materials(names, memory, mesh)) {
-        define_materials(&all, mesh);
-        note_undefined(&all, mesh);
+    if (!memory->has_refused) {
+        stand_in(&all, names, count);
+        if (name_materials(names, memory, mesh))
+            define_materials(&all, mesh);
     }
+    hd_faults_report(&all.faults, path, faults);
+    hd_faults_report(&all.remarks, path, notes);
     for (int i = 0; all.definitions != NULL && i < names->count; i++)
         free(all.definitions[i].texture);
     free(all.definitions);

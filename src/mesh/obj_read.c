@@ -1,13 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
-
-#include <errno.h>
-#include <stdarg.h>
-#include <stdio.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesh/obj_reading.h"
+#include "mesh/obj_lines.h"
 #include "system/path.h"
 
 _Static_assert(sizeof(HdVec3) == 3 * sizeof(double), "three numbers of the text are a vector");
@@ -22,9 +18,10 @@ typedef struct Row {
 typedef enum Kind { VERTEX, UV, NORMAL, KIND_COUNT } Kind;
 
 typedef struct Elements {
-    Row row; /* 3 doubles for vertices and normals, 2 for texture coordinates, rounded to float */
+    Row row;         /* 3 doubles for vertices and normals, 2 for texture coordinates */
     int64_t highest; /* highest number named by a face, from 1; 0: none */
     size_t line_of_highest;
+    size_t first_line; /* first line that names one */
 } Elements;
 
 typedef struct Face {
@@ -37,10 +34,9 @@ typedef struct Corner {
 } Corner;
 
 typedef struct Text {
-    const char *path;
-    HdObjMemory *memory;
-    HdProblems *notes;
-    HdError *error;
+    HdObjLines lines;
+    HdProblems *fault_list, *notes;
+    HdFaults faults; /* of this file, not yet in the list */
 
     Elements elements[KIND_COUNT];
     Row faces;
@@ -50,164 +46,26 @@ typedef struct Text {
     HdNameTable names;   /* names of materials */
     Row libraries;       /* zero-terminated names, as in the file */
 
-    HdStatus status;  /* result of reading so far */
     int32_t material; /* -1: none named yet */
     bool has_noted_unused;
-    FILE *file;
-    char *buffer; /* bytes of the file not yet read; */
-    const char *next, *end;
-    char *line;         /* the current line with its continuations */
-    size_t line_number; /* number of its first line */
-    size_t lines_read;
+    size_t wrong_vertex_count;
+    size_t line_of_wrong_vertex; /* of the first one, */
+    char wrong_vertex[256];      /* and what is wrong with it */
 } Text;
-
-/* ---- lines ---- */
-
-enum { BUFFER_SIZE = 1 << 17, TEXT_SIZE = 2 * HD_OBJ_MAX_LINE + 1 };
-
-static HdStatus fail_memory(const Text *text) {
-    if (text->memory->is_over)
-        return hd_fail(text->error, HD_BAD_INPUT,
-                       "%s: reading it needs more than the %zu bytes of memory allowed", text->path,
-                       text->memory->max_bytes);
-    return hd_fail(text->error, HD_FAILED, "out of memory: no room to read the mesh %s",
-                   text->path);
-}
-
-/* Set `status` and the error, and return false. */
-static bool fail_reading(Text *text, const char *reason) {
-    text->status =
-        hd_fail(text->error, HD_BAD_INPUT, "cannot read the mesh %s: %s", text->path, reason);
-    return false;
-}
-
-static bool fail_allocation(Text *text) {
-    text->status = fail_memory(text);
-    return false;
-}
 
 /* Appends copies of `count` elements of `size` bytes to the row. */
 static inline bool append(Text *text, Row *row, size_t size, size_t count, const void *elements) {
     if (count > row->capacity - row->count) {
         const size_t capacity = row->capacity + row->capacity / 2 + count + 16;
-        void *grown = hd_obj_resize(text->memory, row->data, size, row->capacity, capacity);
+        void *grown = hd_obj_resize(text->lines.memory, row->data, size, row->capacity, capacity);
         if (grown == NULL)
-            return fail_allocation(text);
+            return hd_obj_fail_allocation(&text->lines);
         row->data = grown;
         row->capacity = capacity;
     }
     memcpy((char *)row->data + row->count * size, elements, count * size);
     row->count += count;
     return true;
-}
-
-#if defined(__GNUC__)
-__attribute__((format(printf, 3, 4)))
-#endif
-static bool
-fail_at(Text *text, size_t line, const char *format, ...) {
-    char message[512];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(message, sizeof message, format, arguments);
-    va_end(arguments);
-    text->status =
-        hd_fail(text->error, HD_BAD_INPUT, "%s: line %zu: %s", text->path, line, message);
-    return false;
-}
-
-static bool open_file(Text *text) {
-    struct stat found;
-    const char *reason;
-    text->file = hd_file_open(text->path, &found, &reason);
-    return text->file != NULL ||
-           fail_reading(text, S_ISDIR(found.st_mode) ? strerror(EISDIR) : reason);
-}
-
-static bool has_next(Text *text) {
-    if (text->next == text->end) {
-        text->next = text->buffer;
-        text->end = text->buffer + fread(text->buffer, 1, BUFFER_SIZE, text->file);
-    }
-    return text->next < text->end;
-}
-
-static bool open_text(Text *text) {
-    if (!open_file(text))
-        return false;
-    text->buffer = hd_obj_allocate(text->memory, BUFFER_SIZE, 1);
-    text->line = hd_obj_allocate(text->memory, TEXT_SIZE, 1);
-    if (text->buffer == NULL || text->line == NULL)
-        return fail_allocation(text);
-    text->next = text->end = text->buffer;
-    if (has_next(text) && text->end - text->next >= 3 && memcmp(text->next, "\xef\xbb\xbf", 3) == 0)
-        text->next += 3;
-    return true;
-}
-
-static void close_text(Text *text) {
-    if (text->file != NULL)
-        fclose(text->file);
-    hd_obj_release(text->memory, text->buffer, BUFFER_SIZE);
-    hd_obj_release(text->memory, text->line, TEXT_SIZE);
-}
-
-static bool is_comment(const char *line, size_t length) {
-    const HdSpan span = hd_rest((HdSpan){line, line + length});
-    return span.begin < span.end && *span.begin == '#';
-}
-
-/* Copies the bytes of a line, at most one more than allowed, to `line`; returns how many. */
-static size_t copy_line_bytes(Text *text, char *line) {
-    size_t length = 0;
-    const char *at;
-    do {
-        for (at = text->next; at < text->end && *at != '\n' && *at != '\r' && *at != '\0'; at++)
-            continue;
-        const size_t size = (size_t)(at - text->next), capacity = HD_OBJ_MAX_LINE + 1 - length;
-        memcpy(line + length, text->next, size < capacity ? size : capacity);
-        length += size < capacity ? size : capacity;
-        text->next = at;
-    } while (at == text->end && has_next(text));
-    return length;
-}
-
-/* Appends a line, up to "\n", "\r\n" or an old "\r", to the `*used` bytes that it continues; drops
-   comments. Returns false at the end of the file or on an error. */
-static bool join_line(Text *text, size_t *used) {
-    const bool is_there = has_next(text);
-    text->lines_read += is_there;
-    size_t length = copy_line_bytes(text, text->line + *used);
-    if (ferror(text->file))
-        return fail_reading(text, strerror(errno));
-    if (is_comment(text->line + *used, length))
-        length = 0;
-    *used += length;
-    if (length > HD_OBJ_MAX_LINE)
-        return fail_at(text, text->lines_read, "it is longer than %d bytes", HD_OBJ_MAX_LINE);
-    if (*used > HD_OBJ_MAX_LINE)
-        return fail_at(text, text->line_number, "with its continuations it is longer than %d bytes",
-                       HD_OBJ_MAX_LINE);
-    const char end = has_next(text) ? *text->next++ : '\n';
-    if (end == '\0')
-        return fail_at(text, text->lines_read, "it has a NUL byte, so it is no OBJ file");
-    if (end == '\r' && has_next(text) && *text->next == '\n')
-        text->next++;
-    return is_there;
-}
-
-/* Reads the next line without its end and comments; it is valid until the next call. Returns false
-   at the end of the file or on an error. */
-static bool next_line(Text *text, HdSpan *line) {
-    size_t used = 0;
-    text->line_number = text->lines_read + 1;
-    bool is_taken = join_line(text, &used);
-    while (is_taken && used > 0 && text->line[used - 1] == '\\') {
-        text->line[used - 1] = ' ';
-        is_taken = join_line(text, &used);
-    }
-    *line = (HdSpan){text->line, text->line + used};
-    return text->status == HD_OK && (is_taken || used > 0);
 }
 
 /* ---- statements ---- */
@@ -228,12 +86,16 @@ static const struct {
 static const char *const harmless[] = {"o",   "g",     "s",        "usemap",  "maplib",
                                        "lod", "bevel", "c_interp", "d_interp"};
 
-#define fail_line(text, ...) fail_at(text, (text)->line_number, __VA_ARGS__)
+#define fail_line(text, ...) hd_obj_fail_at(&(text)->lines, (text)->lines.line_number, __VA_ARGS__)
+
+/* Passes over a fault of this line. */
+#define pass_over(text, kind, format, ...)                                                         \
+    hd_fault(&(text)->faults, kind, 1, "line %zu: " format, (text)->lines.line_number, __VA_ARGS__)
 
 /* Hides words of a file that is no OBJ by its name or contents: they may be confidential. */
 static HdSpan quoted(const Text *text, HdSpan word) {
-    const bool is_obj =
-        text->elements[VERTEX].row.count > 0 || hd_path_has_ending(text->path, ".obj");
+    const bool is_obj = text->elements[VERTEX].row.count > text->wrong_vertex_count ||
+                        hd_path_has_ending(text->lines.path, ".obj");
     return is_obj ? word : hd_span_of("...");
 }
 
@@ -244,19 +106,46 @@ static bool is_statement_end(HdSpan word) {
     return word.begin == word.end || *word.begin == '#';
 }
 
-/* Ignores further numbers; optional numbers that are missing are 0. */
-static bool keep_numbers(Text *text, Kind kind, HdSpan line) {
-    double numbers[3] = {0.0, 0.0, 0.0};
+/* A wrong vertex is an error only if a face uses it. */
+static void pass_over_number(Text *text, Kind kind, int number, HdSpan word, const char *expected) {
+    if (kind == NORMAL)
+        pass_over(text, "vn", "number %d of a normal is '%.*s', expected %s; its corners are flat",
+                  number, shown(text, word), expected);
+    else if (kind == UV)
+        pass_over(text, "vt",
+                  "number %d of a texture coordinate is '%.*s', expected %s; it becomes 0", number,
+                  shown(text, word), expected);
+    else if (text->wrong_vertex_count++ == 0) {
+        text->line_of_wrong_vertex = text->lines.line_number;
+        snprintf(text->wrong_vertex, sizeof text->wrong_vertex,
+                 "number %d of a vertex is '%.*s', expected %s", number, shown(text, word),
+                 expected);
+    }
+}
+
+/* Ignores further numbers; optional numbers that are missing are 0. Rounds all but vertices to
+   float. A wrong vertex becomes (NaN, line, 0), other wrong elements become 0. */
+static void read_numbers(Text *text, Kind kind, HdSpan line, double numbers[3]) {
     for (int i = 0; i < kinds[kind].max_numbers; i++) {
         const HdSpan word = hd_next_word(&line);
         if (i >= kinds[kind].min_numbers && is_statement_end(word))
             break;
         const char *fault = hd_number_fault(word, &numbers[i]);
-        if (fault != NULL)
-            return fail_line(text, "number %d of a %s is '%.*s', expected %s", i + 1,
-                             kinds[kind].name, shown(text, word), fault);
-        numbers[i] = (double)(float)numbers[i];
+        if (fault != NULL) {
+            pass_over_number(text, kind, i + 1, word, fault);
+            numbers[0] = kind == VERTEX ? (double)NAN : 0.0;
+            numbers[1] = kind == VERTEX ? (double)text->lines.line_number : 0.0;
+            numbers[2] = 0.0;
+            return;
+        }
+        if (kind != VERTEX)
+            numbers[i] = (double)(float)numbers[i];
     }
+}
+
+static bool keep_numbers(Text *text, Kind kind, HdSpan line) {
+    double numbers[3] = {0.0, 0.0, 0.0};
+    read_numbers(text, kind, line, numbers);
     Row *row = &text->elements[kind].row;
     if (row->count == MAX_ELEMENTS)
         return fail_line(text, "there are more than %d %s", (int)MAX_ELEMENTS, kinds[kind].plural);
@@ -285,17 +174,26 @@ static const char *read_index(const char *at, const char *end, bool *has_digits,
 static bool keep_index(Text *text, Kind kind, int64_t number, HdSpan word, Corner *corner) {
     Elements *elements = &text->elements[kind];
     const int64_t absolute = number < 0 ? (int64_t)elements->row.count + 1 + number : number;
+    if (elements->highest == 0)
+        elements->first_line = text->lines.line_number;
     if (absolute > elements->highest) {
         elements->highest = absolute;
-        elements->line_of_highest = text->line_number;
+        elements->line_of_highest = text->lines.line_number;
     }
     corner->element[kind] = (int32_t)(absolute - 1);
     if (absolute > 0)
         return true;
-    return fail_line(text,
-                     "corner '%.*s' of a face names %s %lld, expected 1 and up, or -1 to "
-                     "-%zu counted back from here",
-                     shown(text, word), kinds[kind].name, (long long)number, elements->row.count);
+    if (kind == VERTEX || (number < 0 && elements->row.count > 0))
+        return fail_line(text,
+                         "corner '%.*s' of a face names %s %lld, expected 1 and up, or -1 to "
+                         "-%zu counted back from here",
+                         shown(text, word), kinds[kind].name, (long long)number,
+                         elements->row.count);
+    corner->element[kind] = -1;
+    pass_over(text, kinds[kind].plural,
+              "corner '%.*s' of a face names %s %lld, expected 1 and up; it counts as not given",
+              shown(text, word), kinds[kind].name, (long long)number);
+    return true;
 }
 
 /* Reads "v", "v/t", "v//n" or "v/t/n". */
@@ -329,9 +227,9 @@ static bool keep_corner(Text *text, HdSpan word) {
 }
 
 static bool set_material(Text *text, HdSpan name) {
-    const int number = hd_name_table_add(&text->names, name, text->memory);
+    const int number = hd_name_table_add(&text->names, name, text->lines.memory);
     if (number == HD_NAME_NO_MEMORY)
-        return fail_allocation(text);
+        return hd_obj_fail_allocation(&text->lines);
     if (number == HD_NAME_TOO_MANY)
         return fail_line(text, "there are more materials than fit, expected at most %d",
                          (int)HD_MAX_MESH_MATERIALS);
@@ -346,9 +244,12 @@ static bool keep_face(Text *text, HdSpan line) {
             return false;
         count++;
     }
-    if (count < 3)
-        return fail_line(text, "a face has %d corner%s, expected at least 3", (int)count,
-                         count == 1 ? "" : "s");
+    if (count < 3) {
+        pass_over(text, "f", "a face has %d corner%s, expected at least 3; it is left out",
+                  (int)count, count == 1 ? "" : "s");
+        text->corners.count -= (size_t)count;
+        return true;
+    }
     if (text->material < 0 && !set_material(text, hd_span_of(HD_OBJ_NO_MATERIAL)))
         return false;
     if (!append(text, &text->faces, sizeof(Face), 1, &(Face){count, text->material}))
@@ -361,15 +262,24 @@ static bool keep_face(Text *text, HdSpan line) {
     return true;
 }
 
-static bool keep_name(Text *text, HdSpan line, const char *what, bool is_library) {
+static bool keep_material(Text *text, HdSpan line) {
     const HdSpan name = hd_rest(line);
     const char *fault = hd_name_fault(name);
-    if (fault != NULL)
-        return fail_line(text, "the name of a %s, expected %s", what, fault);
-    if (!is_library)
+    if (fault == NULL)
         return set_material(text, name);
-    return append(text, &text->libraries, 1, hd_span_size(name), name.begin) &&
-           append(text, &text->libraries, 1, 1, "");
+    pass_over(text, "usemtl", "the name of a material, expected %s; the default one applies",
+              fault);
+    return set_material(text, hd_span_of(HD_OBJ_NO_MATERIAL));
+}
+
+static bool keep_library(Text *text, HdSpan line) {
+    const HdSpan name = hd_rest(line);
+    const char *fault = hd_name_fault(name);
+    if (fault == NULL)
+        return append(text, &text->libraries, 1, hd_span_size(name), name.begin) &&
+               append(text, &text->libraries, 1, 1, "");
+    pass_over(text, "mtllib", "the name of a material library, expected %s; it is left out", fault);
+    return true;
 }
 
 /* Notes the first unused statement. Files of other kinds seldom begin with a word. */
@@ -384,7 +294,7 @@ static bool note_unused(Text *text, HdSpan word) {
     if (!text->has_noted_unused)
         hd_problem(text->notes,
                    "%s: line %zu: statements such as '%.*s' are not used, only faces (f) are",
-                   text->path, text->line_number, shown(text, word));
+                   text->lines.path, text->lines.line_number, shown(text, word));
     text->has_noted_unused = true;
     return true;
 }
@@ -402,37 +312,89 @@ static bool take_line(Text *text, HdSpan line) {
     if (hd_span_is(word, "vt"))
         return keep_numbers(text, UV, line);
     if (hd_span_is(word, "usemtl"))
-        return keep_name(text, line, "material", false);
+        return keep_material(text, line);
     if (hd_span_is(word, "mtllib"))
-        return keep_name(text, line, "material library", true);
+        return keep_library(text, line);
     return note_unused(text, word);
+}
+
+/* If the file has no element of the kind, indices into its list count as not given. */
+static void pass_over_missing(Text *text, Kind kind) {
+    Elements *elements = &text->elements[kind];
+    Corner *corners = text->corners.data;
+    size_t count = 0;
+    if (elements->row.count > 0 || elements->highest == 0)
+        return;
+    for (size_t i = 0; i < text->corners.count; i++) {
+        count += corners[i].element[kind] >= 0;
+        corners[i].element[kind] = -1;
+    }
+    elements->highest = 0;
+    hd_fault(&text->faults, kinds[kind].name, count,
+             "line %zu: a face names a %s, and there are none; it counts as not given",
+             elements->first_line, kinds[kind].name);
+}
+
+static bool fail_vertex(Text *text, HdVec3 vertex) {
+    const size_t line = (size_t)vertex.y;
+    return hd_obj_fail_at(&text->lines, line, "%s",
+                          line == text->line_of_wrong_vertex
+                              ? text->wrong_vertex
+                              : "a vertex that a face uses, expected three decimal numbers");
+}
+
+/* Returns whether no face uses a vertex with wrong numbers. */
+static bool check_vertices(Text *text) {
+    HdVec3 *vertices = text->elements[VERTEX].row.data;
+    const Corner *corners = text->corners.data;
+    if (text->wrong_vertex_count == 0)
+        return true;
+    for (size_t i = 0; i < text->corners.count; i++)
+        if (isnan(vertices[corners[i].element[VERTEX]].x))
+            return fail_vertex(text, vertices[corners[i].element[VERTEX]]);
+    for (size_t i = 0; i < text->elements[VERTEX].row.count; i++)
+        if (isnan(vertices[i].x))
+            vertices[i] = hd_vec3(0.0, 0.0, 0.0);
+    hd_fault(&text->faults, "v", text->wrong_vertex_count, "line %zu: %s; no face uses it",
+             text->line_of_wrong_vertex, text->wrong_vertex);
+    return true;
+}
+
+static bool check_indices(Text *text) {
+    for (int kind = 0; kind < KIND_COUNT; kind++) {
+        const Elements *elements = &text->elements[kind];
+        if (elements->highest > (int64_t)elements->row.count)
+            return hd_obj_fail_at(&text->lines, elements->line_of_highest,
+                                  "a face names %s %lld, and there are %zu %s", kinds[kind].name,
+                                  (long long)elements->highest, elements->row.count,
+                                  kinds[kind].plural);
+    }
+    return true;
 }
 
 /* Checks the whole file: whether it has faces, and the elements that they name. */
 static HdStatus finish(Text *text) {
-    for (int kind = 0; text->status == HD_OK && kind < KIND_COUNT; kind++) {
-        const Elements *elements = &text->elements[kind];
-        if (elements->highest > (int64_t)elements->row.count)
-            fail_at(text, elements->line_of_highest, "a face names %s %lld, and there are %zu %s",
-                    kinds[kind].name, (long long)elements->highest, elements->row.count,
-                    kinds[kind].plural);
-    }
-    if (text->status == HD_OK && text->faces.count == 0)
-        fail_reading(text, text->elements[VERTEX].row.count > 0
-                               ? "it has vertices, but no faces"
-                               : "it has no faces, so it is empty or no OBJ file "
-                                 "(of other formats, such as STL, PLY and glTF, "
-                                 "Blender or assimp can make one)");
-    return text->status;
+    if (text->lines.status != HD_OK)
+        return text->lines.status;
+    pass_over_missing(text, UV);
+    pass_over_missing(text, NORMAL);
+    if (check_indices(text) && check_vertices(text) && text->faces.count == 0)
+        hd_obj_fail_reading(&text->lines,
+                            text->elements[VERTEX].row.count > text->wrong_vertex_count
+                                ? "it has vertices, but no faces"
+                                : "it has no faces, so it is empty or no OBJ file "
+                                  "(of other formats, such as STL, PLY and glTF, "
+                                  "Blender or assimp can make one)");
+    return text->lines.status;
 }
 
 static HdStatus read_text(Text *text) {
     HdSpan line;
     text->material = -1;
-    if (open_text(text))
-        while (next_line(text, &line) && take_line(text, line))
+    if (hd_obj_lines_open(&text->lines))
+        while (hd_obj_lines_next(&text->lines, &line) && take_line(text, line))
             continue;
-    close_text(text);
+    hd_obj_lines_close(&text->lines);
     return finish(text);
 }
 
@@ -440,7 +402,7 @@ static HdStatus read_text(Text *text) {
 static void *release_numbers(Text *text, Kind kind) {
     Row *row = &text->elements[kind].row;
     const size_t size = (size_t)kinds[kind].max_numbers * sizeof(double);
-    void *fitting = hd_obj_resize(text->memory, row->data, size, row->capacity, row->count);
+    void *fitting = hd_obj_resize(text->lines.memory, row->data, size, row->capacity, row->count);
     void *numbers = fitting != NULL ? fitting : row->data;
     row->data = NULL;
     return numbers;
@@ -473,7 +435,7 @@ static void move_elements(Text *text, HdMesh *mesh) {
 }
 
 static bool allocate_triangles(const Text *text, HdMesh *mesh) {
-    HdObjMemory *memory = text->memory;
+    HdObjMemory *memory = text->lines.memory;
     const size_t count = (size_t)text->triangle_count;
     mesh->corners = hd_obj_allocate(memory, count, sizeof *mesh->corners);
     if (mesh->normals != NULL)
@@ -508,18 +470,37 @@ static void add_triangle(HdMesh *mesh, const Corner *corners, const int32_t chos
         mesh->material_of[triangle] = material;
 }
 
+/* Rounds the vertices to float, unless they lie so far from the origin that this loses digits of
+   the shape. */
+static void round_vertices(const Text *text, HdMesh *mesh) {
+    static const double farthest = 4.0; /* in halves of the longest side */
+    const Corner *corners = text->corners.data;
+    HdVec3 lower = mesh->vertices[corners[0].element[VERTEX]], upper = lower;
+    for (size_t i = 1; i < text->corners.count; i++) {
+        const HdVec3 at = mesh->vertices[corners[i].element[VERTEX]];
+        lower = hd_vec3(fmin(lower.x, at.x), fmin(lower.y, at.y), fmin(lower.z, at.z));
+        upper = hd_vec3(fmax(upper.x, at.x), fmax(upper.y, at.y), fmax(upper.z, at.z));
+    }
+    const double half_side = 0.5 * hd_largest(hd_sub(upper, lower));
+    if (fmax(hd_largest(lower), hd_largest(upper)) > farthest * half_side)
+        return;
+    /* One by one: GCC 12 drops the conversions of a whole vector. */
+    double *numbers = &mesh->vertices[0].x;
+    for (size_t i = 0; i < 3 * (size_t)mesh->vertex_count; i++)
+        numbers[i] = (double)(float)numbers[i];
+}
+
 /* Capacity for the largest polygon. */
 typedef struct Polygon {
     HdVec3 *points;
     int32_t (*triangles)[3];
 } Polygon;
 
-static bool cut_face(HdMesh *mesh, const Polygon *capacity, const Corner *corners,
-                     const Face *face) {
+static bool cut_face(HdMesh *mesh, const Polygon *capacity, const Corner *corners, int count,
+                     int32_t material) {
     static const int32_t in_order[3] = {0, 1, 2};
-    const int count = face->corner_count;
     if (count == 3) {
-        add_triangle(mesh, corners, in_order, face->material);
+        add_triangle(mesh, corners, in_order, material);
         return true;
     }
     for (int i = 0; i < count; i++)
@@ -527,7 +508,7 @@ static bool cut_face(HdMesh *mesh, const Polygon *capacity, const Corner *corner
     if (!hd_polygon_cut(capacity->points, count, capacity->triangles))
         return false;
     for (int i = 0; i < count - 2; i++)
-        add_triangle(mesh, corners, capacity->triangles[i], face->material);
+        add_triangle(mesh, corners, capacity->triangles[i], material);
     return true;
 }
 
@@ -535,23 +516,26 @@ static HdStatus add_faces(const Text *text, HdMesh *mesh, const Polygon *capacit
     const Corner *corners = text->corners.data;
     for (size_t i = 0; i < text->faces.count; i++) {
         const Face *face = (const Face *)text->faces.data + i;
-        if (!cut_face(mesh, capacity, corners, face))
-            return hd_fail(text->error, HD_BAD_INPUT,
+        const int32_t material = text->names.names[face->material].stand_in;
+        if (!cut_face(mesh, capacity, corners, face->corner_count, material))
+            return hd_fail(text->lines.error, HD_BAD_INPUT,
                            "%s: face %zu is not convex and has %d corners, expected at most %d",
-                           text->path, i + 1, (int)face->corner_count, (int)HD_MAX_CONCAVE_CORNERS);
+                           text->lines.path, i + 1, (int)face->corner_count,
+                           (int)HD_MAX_CONCAVE_CORNERS);
         corners += face->corner_count;
     }
     return HD_OK;
 }
 
 static HdStatus take_faces(const Text *text, HdMesh *mesh) {
-    HdObjMemory *memory = text->memory;
+    HdObjMemory *memory = text->lines.memory;
     const size_t most = (size_t)text->max_corners;
     const Polygon capacity = {hd_obj_allocate(memory, most, sizeof *capacity.points),
                               hd_obj_allocate(memory, most, sizeof *capacity.triangles)};
     const bool has_memory =
         capacity.points != NULL && capacity.triangles != NULL && allocate_triangles(text, mesh);
-    const HdStatus status = has_memory ? add_faces(text, mesh, &capacity) : fail_memory(text);
+    const HdStatus status =
+        has_memory ? add_faces(text, mesh, &capacity) : hd_obj_fail_memory(&text->lines);
     free(capacity.points);
     free(capacity.triangles);
     return status;
@@ -559,22 +543,27 @@ static HdStatus take_faces(const Text *text, HdMesh *mesh) {
 
 static HdStatus take_mesh(Text *text, HdMesh *mesh) {
     move_elements(text, mesh);
-    if (!hd_obj_read_materials(mesh, text->path, &text->names, text->libraries.data,
-                               text->libraries.count, text->memory, text->notes))
-        return fail_memory(text);
+    round_vertices(text, mesh);
+    hd_faults_report(&text->faults, text->lines.path, text->fault_list);
+    if (!hd_obj_read_materials(mesh, text->lines.path, &text->names, text->libraries.data,
+                               text->libraries.count, text->lines.memory, text->fault_list,
+                               text->notes))
+        return hd_obj_fail_memory(&text->lines);
     HD_TRY(take_faces(text, mesh));
     const int count = mesh->triangle_count;
     hd_mesh_drop_degenerate(mesh);
     if (mesh->triangle_count == 0)
-        return hd_fail(text->error, HD_BAD_INPUT, "%s: none of its %d triangles has an area",
-                       text->path, count);
+        return hd_fail(text->lines.error, HD_BAD_INPUT, "%s: none of its %d triangles has an area",
+                       text->lines.path, count);
     return HD_OK;
 }
 
-HdStatus hd_mesh_read_obj(HdMesh *mesh, const char *path, size_t max_bytes, HdProblems *notes,
-                          HdError *error) {
+HdStatus hd_mesh_read_obj(HdMesh *mesh, const char *path, size_t max_bytes, HdProblems *faults,
+                          HdProblems *notes, HdError *error) {
     HdObjMemory memory = {.max_bytes = max_bytes};
-    Text text = {.path = path, .memory = &memory, .notes = notes, .error = error};
+    Text text = {.lines = {.path = path, .memory = &memory, .error = error},
+                 .fault_list = faults,
+                 .notes = notes};
     *mesh = (HdMesh){0};
     HdStatus status = read_text(&text);
     if (status == HD_OK)

@@ -59,7 +59,7 @@ bool hd_span_is(HdSpan span, const char *text) {
 }
 
 static bool is_blank(char c) {
-    return c == ' ' || c == '\t';
+    return c == ' ' || c == '\t' || c == '\x1a'; /* the last one ends files of old systems */
 }
 
 HdSpan hd_next_word(HdSpan *line) {
@@ -79,6 +79,24 @@ HdSpan hd_rest(HdSpan line) {
     while (line.begin < line.end && is_blank(line.end[-1]))
         line.end--;
     return line;
+}
+
+HdSpan hd_without_comment(HdSpan name) {
+    for (const char *at = name.begin; at + 1 < name.end; at++)
+        if (is_blank(at[0]) && at[1] == '#')
+            return hd_rest((HdSpan){name.begin, at});
+    return name;
+}
+
+size_t hd_mark_size(HdSpan text) {
+    return hd_span_size(text) >= 3 && memcmp(text.begin, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+}
+
+size_t hd_padding_size(HdSpan text) {
+    const char *at = text.begin;
+    while (at < text.end && (is_blank(*at) || *at == '\0' || *at == '\n' || *at == '\r'))
+        at++;
+    return (size_t)(at - text.begin);
 }
 
 static bool is_digit(const char *at, const char *end) {
@@ -184,7 +202,7 @@ int hd_name_table_add(HdNameTable *table, HdSpan name, HdObjMemory *memory) {
     memcpy(copy, name.begin, size);
     copy[size] = '\0';
     HdName *added = &table->names[table->count++];
-    *added = (HdName){{copy, copy + size}, copy};
+    *added = (HdName){{copy, copy + size}, copy, table->count - 1};
     return tsearch(added, &table->tree, compare_names) != NULL ? table->count - 1
                                                                : HD_NAME_NO_MEMORY;
 }

@@ -48,11 +48,25 @@ static inline HdSpan hd_span_of(const char *text) {
 
 bool hd_span_is(HdSpan span, const char *text);
 
-/* Takes the next word of a line, up to blanks or tabs; empty at the end. */
+static inline bool hd_span_equals(HdSpan a, HdSpan b) {
+    return hd_span_size(a) == hd_span_size(b) && memcmp(a.begin, b.begin, hd_span_size(a)) == 0;
+}
+
+/* Takes the next word of a line, up to a blank, tab or end mark (0x1A); empty at the end. */
 HdSpan hd_next_word(HdSpan *line);
 
 /* Returns the rest of a line without blanks and tabs around it. */
 HdSpan hd_rest(HdSpan line);
+
+/* Returns a name without " # ..." behind it. */
+HdSpan hd_without_comment(HdSpan name);
+
+/* Returns the size of the byte order mark that the text begins with; 0: none. */
+size_t hd_mark_size(HdSpan text);
+
+/* Returns the number of zero bytes, end marks (0x1A), blanks and line ends that the text begins
+   with. */
+size_t hd_padding_size(HdSpan text);
 
 /* Parses a number. Returns NULL, or the expected form: decimal, magnitude at most HD_MAX_NUMBER, at
    most 64 characters. `*value` is exact up to the rounding of a few operations. It is 0 if its
@@ -65,7 +79,8 @@ const char *hd_name_fault(HdSpan name);
 
 typedef struct HdName {
     HdSpan text;
-    char *owned; /* zero-terminated copy; a new owner sets NULL */
+    char *owned;      /* zero-terminated copy; a new owner sets NULL */
+    int32_t stand_in; /* number of the material that faces with this name get */
 } HdName;
 
 /* Zero-initialise. */
@@ -90,9 +105,11 @@ void hd_name_table_free(HdNameTable *table);
 #define HD_OBJ_NO_MATERIAL "default"
 
 /* Moves `names` to the mesh at `path` as materials, defined by the libraries or else white and
-   opaque. `libraries` are zero-terminated names in `size` bytes. Reports unused statements in
-   `notes`. Returns false if out of memory. */
-bool hd_obj_read_materials(HdMesh *mesh, const char *path, HdNameTable *names, char *libraries,
-                           size_t size, HdObjMemory *memory, HdProblems *notes);
+   opaque. A name that no library defines with the comment behind it gets a stand-in without, among
+   further materials. `libraries` are zero-terminated names in `size` bytes. Reports wrong
+   statements in `faults`, others without effect in `notes`. Returns false if out of memory. */
+bool hd_obj_read_materials(HdMesh *mesh, const char *path, HdNameTable *names,
+                           const char *libraries, size_t size, HdObjMemory *memory,
+                           HdProblems *faults, HdProblems *notes);
 
 #endif

@@ -136,6 +136,7 @@ HdStatus hd_load_scene(HdSceneFile *file, const HdScenePlan *plan, HdProblems *n
     const HdSceneSource source = {.folder = "",
                                   .changes = plan->changes,
                                   .change_count = plan->change_count,
+                                  .is_strict = plan->strict_files,
                                   .loads_files = true,
                                   .file_notes = notes};
     HdStatus status = plan->is_classic ? hd_read_classic(file, "-", plan->variant, error)

@@ -24,6 +24,7 @@ typedef struct HdScenePlan {
     int variant;
     HdSceneChange changes[HD_MAX_CHANGES];
     int change_count;
+    bool strict_files; /* refuse meshes and libraries with faults */
     HdPlannedArea size, crop;
     int samples;   /* samples per side */
     int depth;     /* negative: the scene's */

@@ -66,6 +66,13 @@ expect_exit 0 "$hedron" check cubes.json
 expect_stdout_lines 2
 expect_stdout_contains 'cubes.json: note: cannot read the texture models/picture.png'
 
+# ---- the same as an error
+for command in check 'render --backend c -o plain.data'; do
+    # shellcheck disable=SC2086
+    expect_refusal 2 "$hedron" $command --strict-files cubes.json
+    expect_stderr_contains 'cubes.json: meshes: cannot read the texture models/picture.png'
+done
+
 # ---- errors
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n' >models/wrong.obj
 for words in 'no.obj: cannot read the mesh no.obj: No such file' 'models/wrong.obj: models/wrong.obj: line 4: '; do

@@ -166,7 +166,7 @@ class Maker:
         """Returns the shape in a place."""
         keys = {"file": f"{self.name}.obj", "position": centre, "rotation": self.point(180),
                 "scale": self.dice.choice([0.8, [0.7, 1, 0.5]]), "crease": self.dice.choice([20, 60, 180]),
-                "normals": self.dice.choice(["file", "flat", "smooth"])}
+                "normals": self.dice.choice(["file", "flat", "smooth"]), "ambient": self.dice.choice([0, 0.5])}
         if self.chance(0.5):
             keys["material"] = self.material(self.dice.choice([1, 1.4]))
         return keys

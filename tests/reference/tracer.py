@@ -351,7 +351,7 @@ class Mesh:
         self.scale = tuple(scale) if isinstance(scale, list) else (scale,) * 3
         self.turn = turning(keys.get("rotation", (0, 0, 0)))
         position = keys.get("position", (0, 0, 0))
-        looks = self.looks(model, materials.get(keys.get("material")))
+        looks = self.looks(model, materials.get(keys.get("material")), keys.get("ambient", 0))
         normals = self.corner_normals(model, keys.get("normals", "file"), keys.get("crease", 40))
         self.triangles = []
         for (name, corners), own in zip(model.faces, normals):
@@ -362,14 +362,16 @@ class Mesh:
         self.radius = max(math.dist(point, self.centre) for point in points) * 1.0001
 
     @staticmethod
-    def looks(model, replacement):
+    def looks(model, replacement, ambient):
         """Returns (material, texture, emission) of each name."""
         found, statements = {}, model.statements()
         for name in {name for name, _ in model.faces}:
             own = statements.get(name, {})
             texture = Texture(model.path.parent / own["map_Kd"], "srgb", True) if "map_Kd" in own else None
             emission = tuple(float(number) for number in own["Ke"].split()) if "Ke" in own else BLACK
-            found[name] = (replacement or Material(from_mtl(own)), texture, emission)
+            keys = from_mtl(own)
+            keys["ambient"] *= ambient
+            found[name] = (replacement or Material(keys), texture, emission)
         return found
 
     @staticmethod

@@ -67,7 +67,7 @@ static inline void expect_same_mesh(const HdMeshEntry *a, const HdMeshEntry *b) 
 #define M(member) MEMBER(HdMeshEntry, member)
     static const Member members[] = {
         M(normals),        M(crease_degrees),        M(instance.position),
-        M(instance.scale), M(instance.has_material), M(instance.rotation_degrees)};
+        M(instance.scale), M(instance.has_material), M(instance.rotation_degrees), M(ambient)};
 #undef M
     assert_string_equal(a->file, b->file);
     EXPECT_SAME(members, a, b);

@@ -50,7 +50,7 @@ static const char rich_text[] =
     "  \"meshes\": [\n"
     "    {\"file\": \"model.obj\", \"position\": [11, 12, 13], \"rotation\": [40, 50, 60],\n"
     "     \"scale\": [1, 2, 3], \"normals\": \"smooth\", \"crease\": 25, \"material\": \"dark\"},\n"
-    "    {\"file\": \"other.obj\", \"scale\": 0.5, \"normals\": \"flat\"}\n"
+    "    {\"file\": \"other.obj\", \"scale\": 0.5, \"normals\": \"flat\", \"ambient\": 0.25}\n"
     "  ],\n"
     "  \"lights\": [\n"
     "    {\"position\": [4, 5, 6], \"colour\": [1, 0.5, 0.25], \"intensity\": 3,\n"

@@ -12,6 +12,7 @@
 
 static HdSceneFile file;
 static HdProblems problems, notes;
+static bool is_strict;
 static HdError error;
 
 static void expect_vector(HdVec3 actual, double x, double y, double z) {
@@ -27,6 +28,7 @@ static void write_text(const char *path, const char *text) {
 static HdStatus load(const char *text) {
     problems = notes = (HdProblems){.count = 0};
     expect_scene(&file, text, NULL);
+    file.is_strict = is_strict;
     return hd_scene_file_load_meshes(&file, &problems, &notes, &error);
 }
 
@@ -94,7 +96,7 @@ TEST(test_entries_share_meshes) {
 
 TEST(test_every_wrong_file_is_reported) {
     write_text("a.obj", corner_text);
-    write_text("bad.obj", "v 0 0 0\nv 1 0 x\n");
+    write_text("bad.obj", "v 0 0 0\nv 1 0 x\nf 1 2 2\n");
     write_text("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
     expect_problems(
         SCENE("{\"file\": \"a.obj\"}, {\"file\": \"no.obj\"}, {\"file\": \"bad.obj\"},\n"
@@ -111,6 +113,33 @@ TEST(test_every_wrong_file_is_reported) {
                     "expected a number from 5e-13 to 2000000000000\n"
                     "meshes[2]: farthest coordinate of its mesh, scaled, is 3000300000000, "
                     "expected a number from 0 to 2000000000000\n");
+}
+
+/* Ka counts only as far as the scene asks. */
+TEST(test_ambient_and_strictness) {
+    write_text("k.mtl", "newmtl k\nKa 1 1 1\nKd nan\nPr 1\n");
+    write_text("k.obj", "mtllib k.mtl\nusemtl k\nf 1\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf\n");
+    expect_loaded(SCENE("{\"file\": \"k.obj\"}, {\"file\": \"k.obj\", \"ambient\": 0.5},"
+                        "{\"file\": \"k.obj\", \"ambient\": 0}"));
+    assert_int_equal(file.scene.mesh_count, 2);
+    expect_near(file.scene.meshes[0].materials[0].material.ambient, 0.0, 0.0);
+    expect_near(file.scene.meshes[1].materials[0].material.ambient, 0.5, 0.0);
+#define SHORT  "k.obj: line 3: a face has 1 corner, expected at least 3; it is left out (2 times)\n"
+#define WRONG  "k.mtl: line 3: Kd has 'nan', expected a decimal number; the line is left out\n"
+#define UNUSED "k.mtl: line 4: Pr is not used\n"
+    assert_string_equal(notes.text, UNUSED SHORT WRONG UNUSED SHORT WRONG);
+    hd_scene_file_free(&file);
+    is_strict = true;
+    expect_problems(SCENE("{\"file\": \"k.obj\"}"),
+                    "meshes[0].file: " SHORT "meshes[0].file: " WRONG);
+    assert_string_equal(notes.text, UNUSED);
+    write_text("k.mtl", "newmtl k\nmap_Kd no.png\nmap_Kd none.png\n");
+    write_text("k.obj", "mtllib k.mtl\nusemtl k\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    expect_problems(
+        SCENE("{\"file\": \"k.obj\"}"),
+        "meshes: cannot read the texture ./none.png: No such file or directory; materials "
+        "with this texture use their colour only\n");
+    is_strict = false;
 }
 
 static const char textured_text[] = "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
