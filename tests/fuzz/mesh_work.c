@@ -59,7 +59,7 @@ void fuzz_read_mesh(const char *path) {
     static HdError error;
     HdProblems notes = {.count = 0};
     HdMesh mesh;
-    const HdStatus status = hd_mesh_read_obj(&mesh, path, MAX_BYTES, &notes, &error);
+    const HdStatus status = hd_mesh_read_obj(&mesh, path, MAX_BYTES, &notes, &notes, &error);
     fuzz_expect_input_status(status, &error);
     if (status != HD_OK)
         return;
