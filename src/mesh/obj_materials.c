@@ -73,8 +73,9 @@ typedef struct Notes {
 static double clamp_noted(const Notes *notes, const char *name, double value, double low,
                           double high) {
     const double legal = value < low ? low : value > high ? high : value;
+    const bool is_ours = name[0] == 'N'; /* Ns and Ni have hedron's limits, not the format's */
     if (legal != value)
-        hd_fault(notes->faults, name, 1,
+        hd_fault(is_ours ? notes->remarks : notes->faults, name, 1,
                  "material '%.*s': %s is %.9g, expected %.15g to %.15g, and becomes %.15g",
                  named(notes), name, value, low, high, legal);
     return legal;
