@@ -28,11 +28,11 @@ for usage in render view new check convert devices selftest tune compare help co
 done
 for words in 'render -h' 'help render' 'render --size 1x1 --help'; do
     # shellcheck disable=SC2086 # a command and its arguments
-    expect_help "$rendering --frame-lines --output --layers --set --again --crop --reference" $words
+    expect_help "$rendering --frame-lines --output --layers --set --strict-files --again --crop --reference" $words
 done
-expect_help "$viewing --terminal --set" view --help
+expect_help "$viewing --terminal --set --strict-files" view --help
 expect_help '--help --json' devices --help
-expect_help '--help --schema --json --set' check --help
+expect_help '--help --schema --json --set --strict-files' check --help
 expect_help '--help --output --variant' convert --help
 expect_help '--help --json --diff --fail-above --curve' compare --help
 expect_help '--help' new --help
