@@ -51,12 +51,34 @@ static bool open_file(HdObjLines *lines) {
            hd_obj_fail_reading(lines, S_ISDIR(found.st_mode) ? strerror(EISDIR) : reason);
 }
 
+/* Replaces the UTF-16 in the buffer by ASCII. */
+static void narrow(HdObjLines *lines) {
+    const size_t count = (size_t)(lines->end - lines->buffer) / 2;
+    for (size_t i = 0; i < count; i++) {
+        const unsigned char low = (unsigned char)lines->buffer[2 * i + (size_t)lines->low_byte];
+        const char high = lines->buffer[2 * i + 1 - (size_t)lines->low_byte];
+        lines->buffer[i] = high == 0 && low < 0x80 ? (char)low : '?';
+    }
+    lines->end = lines->buffer + count;
+}
+
 static bool has_next(HdObjLines *lines) {
     if (lines->next == lines->end) {
         lines->next = lines->buffer;
         lines->end = lines->buffer + fread(lines->buffer, 1, BUFFER_SIZE, lines->file);
+        if (lines->is_utf16)
+            narrow(lines);
     }
     return lines->next < lines->end;
+}
+
+static void skip_mark(HdObjLines *lines) {
+    const bool has_unit = has_next(lines) && lines->end - lines->next >= 2;
+    lines->low_byte = has_unit && memcmp(lines->next, "\xfe\xff", 2) == 0;
+    lines->is_utf16 = has_unit && (lines->low_byte == 1 || memcmp(lines->next, "\xff\xfe", 2) == 0);
+    if (lines->is_utf16)
+        narrow(lines);
+    lines->next += lines->is_utf16 ? 1 : hd_mark_size((HdSpan){lines->next, lines->end});
 }
 
 bool hd_obj_lines_open(HdObjLines *lines) {
@@ -67,8 +89,7 @@ bool hd_obj_lines_open(HdObjLines *lines) {
     if (lines->buffer == NULL || lines->line == NULL)
         return hd_obj_fail_allocation(lines);
     lines->next = lines->end = lines->buffer;
-    if (has_next(lines))
-        lines->next += hd_mark_size((HdSpan){lines->next, lines->end});
+    skip_mark(lines);
     return true;
 }
 

@@ -17,12 +17,15 @@ typedef struct HdObjLines {
     size_t line_number; /* number of the current line, the first of its continuations */
     size_t lines_read;
     FILE *file;
+    bool is_utf16;
+    int low_byte; /* index of it in a unit of UTF-16 */
     char *buffer; /* bytes of the file not yet read; */
     const char *next, *end;
     char *line; /* the current line with its continuations */
 } HdObjLines;
 
-/* Opens the file behind a byte order mark. Returns false on failure, with status and error; in both
+/* Opens the file behind a byte order mark. In UTF-16, which needs the mark, characters beyond ASCII
+   are read as "?". Returns false on failure, with status and error; in both
    cases close it. */
 bool hd_obj_lines_open(HdObjLines *lines);
 

@@ -117,6 +117,20 @@ TEST(lines_come_in_many_forms) {
     }
 }
 
+TEST(utf_16_is_read_by_its_mark) {
+    static const char text[] = "# \xe9\n" TRIANGLE "f 1 2 3\n";
+    char wide[2 * sizeof text];
+    for (size_t order = 0; order < 2; order++) {
+        memset(wide, 0, sizeof wide);
+        wide[order] = '\xff', wide[1 - order] = '\xfe';
+        for (size_t i = 0; i + 1 < sizeof text; i++)
+            wide[2 + 2 * i + order] = text[i];
+        HdMesh mesh = read_bytes(wide, sizeof wide);
+        assert_true(mesh.triangle_count == 1 && mesh.vertices[1].x == 1.0);
+        hd_mesh_free(&mesh);
+    }
+}
+
 /* Comments and lines around the sizes of all buffers. */
 TEST(long_lines_and_comments_pass) {
     static char text[600000];
