@@ -67,8 +67,7 @@ expect_stdout_lines 2
 expect_stdout_contains 'cubes.json: note: cannot read the texture models/picture.png'
 
 # ---- the same as an error
-for command in check 'render --backend c -o plain.data'; do
-    # shellcheck disable=SC2086
+for command in check render; do
     expect_refusal 2 "$hedron" $command --strict-files cubes.json
     expect_stderr_contains 'cubes.json: meshes: cannot read the texture models/picture.png'
 done

@@ -121,9 +121,8 @@ TEST(test_ambient_and_strictness) {
     write_text("k.obj", "mtllib k.mtl\nusemtl k\nf 1\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf\n");
     expect_loaded(SCENE("{\"file\": \"k.obj\"}, {\"file\": \"k.obj\", \"ambient\": 0.5},"
                         "{\"file\": \"k.obj\", \"ambient\": 0}"));
-    assert_int_equal(file.scene.mesh_count, 2);
-    expect_near(file.scene.meshes[0].materials[0].material.ambient, 0.0, 0.0);
-    expect_near(file.scene.meshes[1].materials[0].material.ambient, 0.5, 0.0);
+    for (int i = 0; i < 2; i++)
+        expect_near(file.scene.meshes[i].materials[0].material.ambient, 0.5 * i, 0.0);
 #define SHORT  "k.obj: line 3: a face has 1 corner, expected at least 3; it is left out (2 times)\n"
 #define WRONG  "k.mtl: line 3: Kd has 'nan', expected a decimal number; the line is left out\n"
 #define UNUSED "k.mtl: line 4: Pr is not used\n"
@@ -133,12 +132,6 @@ TEST(test_ambient_and_strictness) {
     expect_problems(SCENE("{\"file\": \"k.obj\"}"),
                     "meshes[0].file: " SHORT "meshes[0].file: " WRONG);
     assert_string_equal(notes.text, UNUSED);
-    write_text("k.mtl", "newmtl k\nmap_Kd no.png\nmap_Kd none.png\n");
-    write_text("k.obj", "mtllib k.mtl\nusemtl k\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    expect_problems(
-        SCENE("{\"file\": \"k.obj\"}"),
-        "meshes: cannot read the texture ./none.png: No such file or directory; materials "
-        "with this texture use their colour only\n");
     is_strict = false;
 }
 
