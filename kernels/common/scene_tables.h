@@ -230,9 +230,8 @@ typedef struct ALIGNED_16 {
 
    An ordinary frame samples all places of the grid, row by row. In a patterned frame, each pixel
    has the places sample_places[i] = column | row << 16 of its grid; the list is repeated to
-   HD_PATTERN_SPARE more elements, for packets across pixels. In a listed frame, pixel e is
-   entries[2 e] = x | y << 16 of the whole picture. Its samples are sample_places[entries[2 e + 1] +
-   i] = column | row << 16 of the pixel's grid; it has none if entries[2 e + 1] is negative. */
+   HD_PATTERN_SPARE more elements, for packets across pixels. In a listed frame, which is patterned,
+   pixel e is entries[e] = x | y << 16 of the whole picture, or -1: none. */
 typedef struct ALIGNED_16 {
     real forward[3], cutoff;
     real right[3], to_fixed;  /* 2^(fraction bits of a sample) */

@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "device/kernel_source.h"
 #include "render/frame.h"
+#include "scene/sample_pattern.h"
 #include "system/cache_folder.h"
 #include "system/machine.h"
 #include "verify/trust.h"
@@ -82,7 +83,7 @@ static HdStatus render_share(HdRenderer *renderer, const HdJob *job, double shar
 }
 
 static double count_samples(const HdScene *scene) {
-    return (double)scene->samples_per_side * scene->samples_per_side * scene->width * scene->height;
+    return (double)hd_sample_count(scene) * scene->width * scene->height;
 }
 
 /* Starts with few samples, for thousands of lights make each one slow. */

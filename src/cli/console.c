@@ -12,6 +12,7 @@
 
 #include "base/text.h"
 #include "device/kernel_source.h"
+#include "scene/sample_pattern.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
@@ -232,7 +233,6 @@ static void note_accuracy(const HdScene *scene) {
     static const char *const samplings[] = {
         [HD_SAMPLING_GRID] = "a grid of samples in each pixel",
         [HD_SAMPLING_MULTIJITTER] = "multi-jittered samples in each pixel",
-        [HD_SAMPLING_ADAPTIVE] = "as many samples as each pixel needs",
         [HD_SAMPLING_REFERENCE] = "dense samples",
     };
     fprintf(stderr, "accuracy  %s; ", samplings[scene->sampling]);
@@ -252,7 +252,7 @@ static void note_scene(const char *name, const HdScene *scene) {
             name, scene->solid_count, hd_plural(scene->solid_count),
             scene->floor.present ? "a" : "no", lights, hd_plural(lights), scene->frame_count,
             hd_plural(scene->frame_count), scene->width, scene->height, scene->samples_per_side,
-            scene->samples_per_side, scene->depth);
+            hd_sample_rows(scene), scene->depth);
     if (scene->mesh_count > 0)
         note_meshes(scene);
     if (hd_scene_has_error_bound(scene))

@@ -32,7 +32,7 @@ enum { CHANNELS = 3, MESSAGE_SIZE = 256 };
 static const uint64_t MAX_CHUNK_BYTES = UINT64_C(1) << 30;
 
 /* Array of a frame that holds a channel. */
-typedef enum Source { RADIANCE, FIRST, EFFORT } Source;
+typedef enum Source { RADIANCE, FIRST, BOUNDS } Source;
 
 /* A channel of a file; r, g, b come first. */
 typedef struct Channel {
@@ -52,8 +52,7 @@ static const Channel channels[] = {
     {"normal.Y", FIRST, HD_FIRST_NORMAL + 1, HD_LAYER_NORMAL},
     {"normal.Z", FIRST, HD_FIRST_NORMAL + 2, HD_LAYER_NORMAL},
     {"object", FIRST, HD_FIRST_OBJECT, HD_LAYER_OBJECT},
-    {"samples", EFFORT, HD_EFFORT_SAMPLES, HD_LAYER_SAMPLES},
-    {"bound", EFFORT, HD_EFFORT_BOUND, HD_LAYER_BOUND},
+    {"bound", BOUNDS, 0, HD_LAYER_BOUND},
 };
 enum { ALL_CHANNELS = sizeof channels / sizeof *channels };
 
@@ -161,8 +160,8 @@ static const Channel *channel_named(const char *name) {
 static float value_of(const HdFrame *frame, const Channel *channel, size_t pixel) {
     if (channel->source == RADIANCE)
         return frame->rgb[pixel * CHANNELS + (size_t)channel->offset];
-    if (channel->source == EFFORT)
-        return frame->effort[pixel * HD_EFFORT_FLOATS + (size_t)channel->offset];
+    if (channel->source == BOUNDS)
+        return frame->bounds[pixel];
     const float *first = frame->first + pixel * (size_t)frame->first_floats;
     if (channel->layer == HD_LAYER_DEPTH && first[HD_FIRST_OBJECT] == 0.0F)
         return INFINITY;

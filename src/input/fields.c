@@ -66,15 +66,16 @@ static const HdField image_fields[] = {
      MEASURE("pixels"), DEFAULT(480)},
     {AT(HdScene, samples_per_side, "samples", "n: each pixel is the mean of n x n samples"),
      INTEGER(1, HD_MAX_SAMPLES_PER_SIDE), .name = "samples per side", DEFAULT(3)},
+    {AT(HdScene, sample_rows, "sample_rows", "With multijitter, m: n x m samples instead of n x n"),
+     INTEGER(1, HD_MAX_SAMPLES_PER_SIDE), .zero_is_absent = true},
     {AT(HdScene, depth, "depth", "Maximum ray depth: reflections and transmissions in a row"),
      INTEGER(0, HD_MAX_DEPTH), DEFAULT(8)},
     {AT(HdScene, cutoff, "cutoff",
         "Rays end when their weight is below this in every channel; 0: never"),
      NUMBER(0.0, 1.0), .below_high = true, DEFAULT(0.0)},
     {AT(HdScene, sampling, "aa",
-        "Antialiasing: multijitter has one sample in each of n x n cells and in each of their "
-        "columns and rows, grid one in the middle of each cell, adaptive as many of the grid's as "
-        "needed"),
+        "Antialiasing: multijitter has one sample in each of n x n cells and in each of n * n "
+        "columns and rows of the pixel, grid one in the middle of each cell"),
      CHOICE(samplings, HD_SAMPLING_MULTIJITTER)},
     {AT(HdScene, max_error, "max_error",
         "Maximum truncation error of a pixel; 0: off. Otherwise rays and lights end by this bound, "
@@ -352,10 +353,12 @@ bool hd_field_may_be_absent(const HdField *field) {
 
 bool hd_field_is_given(const HdField *field, const void *owner) {
     const char *begin = owner;
+    const void *value = begin + field->offset;
     if (field->type == HD_FIELD_TEXT)
         return begin[field->offset] != '\0';
     if (field->zero_is_absent)
-        return *(const double *)(const void *)(begin + field->offset) != 0.0;
+        return field->type == HD_FIELD_INTEGER ? *(const int *)value != 0
+                                               : *(const double *)value != 0.0;
     if (field->flag_offset != 0)
         return *(const bool *)(const void *)(begin + field->flag_offset);
     return field->is_given == NULL || field->is_given(owner);

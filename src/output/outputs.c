@@ -119,9 +119,8 @@ HdStatus hd_outputs_add_layers(HdOutputPlan *plan, unsigned layers, bool is_boun
         return hd_fail(error, HD_BAD_INPUT,
                        "--layers is for OpenEXR: expected an output that ends in .exr");
     if (!is_bounded && (layers & HD_LAYER_BIT(HD_LAYER_BOUND)) != 0)
-        return hd_fail(
-            error, HD_BAD_INPUT,
-            "--layers has bound, expected --max-error, --aa adaptive or --reference with it");
+        return hd_fail(error, HD_BAD_INPUT,
+                       "--layers has bound, expected --max-error or --reference with it");
     plan->request.layers |= layers;
     return HD_OK;
 }

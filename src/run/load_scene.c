@@ -85,8 +85,10 @@ static void set_numbers(HdScene *scene, const HdScenePlan *plan) {
         scene->width = plan->size.width;
         scene->height = plan->size.height;
     }
-    if (plan->samples > 0)
+    if (plan->samples > 0) {
         scene->samples_per_side = plan->samples;
+        scene->sample_rows = 0;
+    }
     if (plan->max_error > 0.0)
         scene->max_error = plan->max_error;
 }

@@ -11,8 +11,7 @@
 const char *const hd_sampling_names[] = {HD_SAMPLINGS(SAMPLING_NAME) NULL};
 
 bool hd_scene_has_error_bound(const HdScene *scene) {
-    return scene->sampling == HD_SAMPLING_ADAPTIVE || scene->sampling == HD_SAMPLING_REFERENCE ||
-           scene->max_error > 0.0;
+    return scene->sampling == HD_SAMPLING_REFERENCE || scene->max_error > 0.0;
 }
 
 bool hd_scene_has_deep_trees(const HdScene *scene) {

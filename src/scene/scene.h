@@ -97,18 +97,15 @@ typedef struct HdPath {
     HdCylinderPath cylinder;
 } HdPath;
 
-/* Positions and number of a pixel's samples. */
+/* Positions of a pixel's samples (sample_pattern.h). */
 typedef enum HdSampling {
-    HD_SAMPLING_GRID,        /* all positions of a grid */
-    HD_SAMPLING_MULTIJITTER, /* one position in each cell of that grid (sample_pattern.h) */
-    HD_SAMPLING_ADAPTIVE,    /* positions of the grid, as many as the pixel needs */
-    HD_SAMPLING_REFERENCE    /* a low-discrepancy set, dense and the same in every pixel */
+    HD_SAMPLING_GRID,        /* the middles of cells */
+    HD_SAMPLING_MULTIJITTER, /* one in each cell, and one in each of as many columns and rows */
+    HD_SAMPLING_REFERENCE    /* likewise, at random in them */
 } HdSampling;
 
 /* X(value, name): the samplings that scenes and options name, in the order of HdSampling. */
-#define HD_SAMPLINGS(X)                                                                            \
-    X(HD_SAMPLING_GRID, "grid")                                                                    \
-    X(HD_SAMPLING_MULTIJITTER, "multijitter") X(HD_SAMPLING_ADAPTIVE, "adaptive")
+#define HD_SAMPLINGS(X) X(HD_SAMPLING_GRID, "grid") X(HD_SAMPLING_MULTIJITTER, "multijitter")
 
 /* Names by HdSampling; NULL ends them. */
 extern const char *const hd_sampling_names[];
@@ -125,7 +122,8 @@ typedef struct HdScene {
     double field_of_view_degrees; /* horizontal */
     int width, height;
     HdCrop crop;
-    int samples_per_side; /* n of at most n x n samples of a pixel, or of its grid */
+    int samples_per_side; /* n of n x n samples of a pixel, or of its columns of cells */
+    int sample_rows;      /* rows of cells of HD_SAMPLING_MULTIJITTER; 0: n */
     HdSampling sampling;
     double max_error; /* largest truncation error of a pixel, in 1/255 units; 0: no limit */
     int depth;        /* maximum ray depth; primary rays have depth 0 */

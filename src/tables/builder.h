@@ -147,7 +147,7 @@ void NAMED(hd_fill_lights)(const HdBuilder *builder);
     HdStatus hd_compile_scene_##precision(HdSceneTables *tables, const HdScene *scene,             \
                                           HdError *error);                                         \
     HdStatus hd_compile_frame_##precision(HdFrameTables *tables, const HdScene *scene,             \
-                                          const HdCamera *camera, const HdSampleList *list,        \
+                                          const HdCamera *camera, const HdPixelList *list,         \
                                           HdError *error);
 HD_DECLARE_COMPILERS(float)
 HD_DECLARE_COMPILERS(double)

@@ -252,13 +252,12 @@ static void draw_picture(Random *rng, HdScene *scene) {
     if (!rng->kind->is_bounded) {
         scene->sampling = chance(rng, 0.5) ? HD_SAMPLING_MULTIJITTER : HD_SAMPLING_GRID;
         scene->samples_per_side += scene->sampling == HD_SAMPLING_MULTIJITTER && chance(rng, 0.5);
+        scene->sample_rows = chance(rng, 0.3) ? 1 + below(rng, 3) : 0;
         return;
     }
-    scene->sampling = chance(rng, 0.7) ? HD_SAMPLING_ADAPTIVE : HD_SAMPLING_MULTIJITTER;
-    if (scene->sampling != HD_SAMPLING_ADAPTIVE || chance(rng, 0.5)) {
-        scene->max_error = from_to(rng, 1.0, 16.0);
-        scene->cutoff = 0.0;
-    }
+    scene->sampling = chance(rng, 0.5) ? HD_SAMPLING_MULTIJITTER : HD_SAMPLING_GRID;
+    scene->max_error = from_to(rng, 1.0, 16.0);
+    scene->cutoff = 0.0;
 }
 
 static bool draw_scene(Random *rng, HdScene *scene, HdCamera *camera) {

@@ -98,8 +98,8 @@ mkdir 'a b'
 expected="Software: $("$hedron" --version)
 Scene: lämp.json
 Frame: 3
-Options: --set output.bits=16 --size 32x24 --samples 1 --aa adaptive --max-error 0.5"
-options=(--frames 2-3 --size 32x24 --samples 1 --quiet --aa adaptive --max-error 0.5 --set output.bits=16)
+Options: --set output.bits=16 --size 32x24 --samples 1 --aa grid --max-error 0.5"
+options=(--frames 2-3 --size 32x24 --samples 1 --quiet --aa grid --max-error 0.5 --set output.bits=16)
 expect_exit 0 "$hedron" render --backend c --lanes 1 --threads 1 "a b/lämp.json" -o 'one/%d.png' "${options[@]}"
 cp "a b/lämp.json" .
 expect_exit 0 "$hedron" render lämp.json --backend c --lanes 4 --threads 2 -o 'two/###.png' "${options[@]}" --frames 3

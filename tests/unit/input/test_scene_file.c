@@ -93,7 +93,7 @@ TEST(test_changes) {
                                             "output.path=\"7.png\"", "materials.glass.colour[1]=0",
                                             "camera.eye[2]=4",       "image.height=300",
                                             "output.bits=8.0",       "hedron=1.0",
-                                            "image.aa=adaptive",     "solids[2].kind=dodecahedron"};
+                                            "image.aa=grid",         "solids[2].kind=dodecahedron"};
     assert_int_equal(parse_scene(&file, rich_text, strlen(rich_text), changes, 14, &error), HD_OK);
     assert_int_equal(file.scene.width, 100);
     assert_int_equal(file.scene.height, 300);
@@ -102,7 +102,7 @@ TEST(test_changes) {
     expect_near(file.scene.eye.point.z, 4.0, 0.0);
     assert_int_equal(file.output.style.picture.curve, HD_CURVE_LINEAR);
     assert_int_equal(file.output.style.picture.bits, 8);
-    assert_int_equal(file.scene.sampling, HD_SAMPLING_ADAPTIVE);
+    assert_int_equal(file.scene.sampling, HD_SAMPLING_GRID);
     assert_int_equal(file.scene.solids[2].kind, HD_DODECAHEDRON);
     assert_string_equal(file.texture_path, "a=b.png");
     assert_string_equal(file.output.path, "7.png");
