@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/text.h"
+#include "cli/mesh_report.h"
 #include "device/kernel_source.h"
 #include "scene/sample_pattern.h"
 #include "system/interrupt.h"
@@ -244,7 +245,8 @@ static void note_accuracy(const HdScene *scene) {
         fprintf(stderr, "rays end by depth and cut-off\n");
 }
 
-static void note_scene(const char *name, const HdScene *scene) {
+static void note_scene(const char *name, const HdSceneFile *file, int frame) {
+    const HdScene *scene = &file->scene;
     const int lights = hd_scene_light_count(scene);
     fprintf(stderr,
             "scene     %s: %d solid%s, %s floor, %d light%s, %d frame%s of %d x %d pixels, %d x %d "
@@ -255,6 +257,7 @@ static void note_scene(const char *name, const HdScene *scene) {
             hd_sample_rows(scene), scene->depth);
     if (scene->mesh_count > 0)
         note_meshes(scene);
+    hd_mesh_report_print(stderr, "mesh      ", file, frame);
     if (hd_scene_has_error_bound(scene))
         note_accuracy(scene);
 }
@@ -268,11 +271,11 @@ static void note_outputs(const HdOutputPlan *plan, int frame_count) {
             plan->style.picture.curve == HD_CURVE_SRGB ? "sRGB" : "linear");
 }
 
-void hd_console_report_run(const HdConsole *console, const char *name, const HdScene *scene,
-                           const HdOutputPlan *plan, int frame_count) {
+void hd_console_report_run(const HdConsole *console, const char *name, const HdSceneFile *file,
+                           const HdOutputPlan *plan, const HdFrameList *frames) {
     if (console->verbose) {
-        note_scene(name, scene);
-        note_outputs(plan, frame_count);
+        note_scene(name, file, frames->frames[0]);
+        note_outputs(plan, frames->count);
     }
     if (!console->quiet && plan->film_count > 0 && plan->style.picture.bits > 8)
         fprintf(stderr, "hedron: films have 8 bits a channel, though output.bits is %d\n",

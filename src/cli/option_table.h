@@ -44,6 +44,14 @@ ROW("--no-sync", NULL, NULL,
     "cut",
     HD_COMMAND_CLASSIC | HD_COMMAND_RENDER, FLAG(store.no_sync),
     .use = "for many small frames on a slow disk")
+OPTION(const char *mesh, "--mesh", NULL, "MODEL.obj",
+       "Show this mesh on a floor, lit and wholly in view, whatever its size", HD_COMMAND_NEW,
+       TEXT(mesh, "the name of a file"), .takes_file = true)
+OPTION(
+    const char *up, "--up", NULL, "AXIS",
+    "Axis of the mesh that points up; auto: z if it stands on z=0 and not on y=0, or is far from "
+    "y=0; otherwise y",
+    HD_COMMAND_NEW, ONE_OF(HD_OPTION_WORD, up, "auto", "y", "z"), .standard = "auto")
 OPTION(bool terminal, "--terminal", NULL, NULL,
        "Show the scene in this terminal instead of a window", HD_COMMAND_VIEW, FLAG(terminal),
        .use = "over ssh, or without a display")

@@ -83,7 +83,7 @@ static void format_range(const HdField *field, char text[128]) {
         snprintf(text, 128, "%s %s, %s %s", field->above_low ? "above" : "at least", low,
                  field->below_high ? "below" : "at most", high);
     else
-        snprintf(text, 128, "%s..%s", low, high);
+        snprintf(text, 128, "%s..%s%s", low, high, field->has_sign ? " or negative" : "");
 }
 
 /* Writes type and range of a field. */

@@ -190,7 +190,7 @@ static HdStatus render_frames(Run *run, const HdOptions *options, HdError *error
     HdStatus status = settle(run, options, error);
     if (status != HD_OK)
         return status;
-    hd_console_report_run(&run->console, name, &run->file->scene, &run->outputs, run->frames.count);
+    hd_console_report_run(&run->console, name, run->file, &run->outputs, &run->frames);
     hd_escape(slash != NULL ? slash + 1 : name, escaped, sizeof escaped);
     run->outputs.scene = escaped;
     status = hd_resume_find(&run->resume, &run->outputs, &run->frames, error);

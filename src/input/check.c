@@ -81,7 +81,8 @@ static void check_number(HdSceneChecker *checker, const HdField *field, const ch
     else if (field->below_high)
         snprintf(expected, sizeof expected, "at least %.15g and less than %.15g", low, high);
     else
-        snprintf(expected, sizeof expected, "a number from %.15g to %.15g", low, high);
+        snprintf(expected, sizeof expected, "a number from %.15g to %.15g%s", low, high,
+                 field->has_sign ? ", or its negative" : "");
     report(checker, "%s%s is %.15g, expected %s", what, part, value, expected);
 }
 
@@ -455,7 +456,9 @@ static void check_instance(HdSceneChecker *checker, const HdScene *scene, int in
     check_int(checker, "number of its mesh", instance->mesh, 0, scene->mesh_count - 1);
     check_object(checker, "meshes", &entry);
     if (checker->problems->count == before)
-        check_size(checker, &scene->meshes[instance->mesh], instance->scale);
+        check_size(
+            checker, &scene->meshes[instance->mesh],
+            hd_vec3(fabs(instance->scale.x), fabs(instance->scale.y), fabs(instance->scale.z)));
     if (instance->has_material)
         hd_check_material(checker, &instance->material, true);
     leave(checker);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "input/fields.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -46,11 +47,13 @@
 /* Enums are stored as int. */
 _Static_assert(sizeof(HdSolidKind) == sizeof(int), "an HdSolidKind is as large as an int");
 _Static_assert(sizeof(HdCurve) == sizeof(int), "an HdCurve is as large as an int");
+_Static_assert(sizeof(HdUpAxis) == sizeof(int), "an HdUpAxis is as large as an int");
 _Static_assert(sizeof(HdMeshNormals) == sizeof(int), "an HdMeshNormals is as large as an int");
 
 static const HdChoice versions[] = {{"1", 1}, {NULL, 0}};
 static const HdChoice curves[] = {{"srgb", HD_CURVE_SRGB}, {"linear", HD_CURVE_LINEAR}, {NULL, 0}};
 static const HdChoice bits[] = {{"8", 8}, {"16", 16}, {"32", 32}, {NULL, 0}};
+static const HdChoice up_axes[] = {{"z", HD_UP_Z}, {"y", HD_UP_Y}, {NULL, 0}};
 static const HdChoice normals[] = {
     {"file", HD_NORMALS_FILE}, {"flat", HD_NORMALS_FLAT}, {"smooth", HD_NORMALS_SMOOTH}, {NULL, 0}};
 #define KIND_CHOICE(kind, name) {name, kind},
@@ -250,12 +253,19 @@ static const HdObjectType solid = TYPE(HdSolid, solid_fields, NULL);
 static const HdField mesh_fields[] = {
     {AT(HdMeshEntry, file, "file", "Wavefront OBJ file, relative to the scene's folder"),
      .type = HD_FIELD_FILE, EXAMPLE("\"teapot.obj\""), REQUIRED},
-    {AT(HdMeshEntry, instance.position, "position", "Position of the mesh's origin in the world"),
+    {AT(HdMeshEntry, instance.up, "up", "Axis of the object that points up"),
+     CHOICE(up_axes, HD_UP_Z)},
+    {AT(HdMeshEntry, size, "size",
+        "Length of the longest side of its box in object space; the mesh then stands on position"),
+     LENGTH, .zero_is_absent = true},
+    {AT(HdMeshEntry, instance.position, "position",
+        "Position of the mesh's origin in the world; with size, that below the middle of its box"),
      POSITION, WORLD, DEFAULT(0.0)},
     {AT(HdMeshEntry, instance.rotation_degrees, "rotation", ROTATION_TEXT), ROTATION},
     {AT(HdMeshEntry, instance.scale, "scale",
-        "Factor from object to world units: one number, or one for each axis of the object"),
-     .type = HD_FIELD_SCALE, .low = HD_MIN_LENGTH, .high = HD_MAX_NUMBER, WHITE},
+        "Factor from object to world units: one number, or one for each axis of the object. "
+        "Negative ones mirror"),
+     .type = HD_FIELD_SCALE, .low = HD_MIN_LENGTH, .high = HD_MAX_NUMBER, .has_sign = true, WHITE},
     {AT(HdMeshEntry, normals, "normals",
         "Shading normals: those of the file, flat if it has none; flat; or smooth except at "
         "creases"),
@@ -269,8 +279,8 @@ static const HdField mesh_fields[] = {
 };
 static const HdObjectType mesh =
     TYPE(HdMeshEntry, mesh_fields,
-         "The vertices of the file are in object space. They are scaled, then rotated, then moved. "
-         "Entries with the same file, normals and crease share one mesh in memory.");
+         "The vertices of the file are in object space. They are scaled, turned upright, rotated, "
+         "then moved. Entries with the same file, normals and crease share one mesh in memory.");
 
 static const HdField light_fields[] = {
     {AT(HdLight, position, "position", "Position of the light"), POSITION, WORLD,
@@ -389,6 +399,8 @@ int hd_field_count(const HdField *field, const void *owner) {
 }
 
 bool hd_field_holds(const HdField *field, double value) {
+    if (field->has_sign)
+        value = fabs(value);
     const bool from = field->above_low ? value > field->low : value >= field->low;
     const bool to = field->below_high ? value < field->high : value <= field->high;
     return from && to;
@@ -432,7 +444,8 @@ static void expected_range(const HdField *field, const char *what, char out[HD_E
         hd_short_number(field->high, high);
     }
     if (!field->above_low && !field->below_high)
-        snprintf(out, HD_EXPECTED_SIZE, "%s from %s to %s", what, low, high);
+        snprintf(out, HD_EXPECTED_SIZE, "%s from %s to %s%s", what, low, high,
+                 field->has_sign ? ", or its negative" : "");
     else
         snprintf(out, HD_EXPECTED_SIZE, "%s %s %s and %s %s", what,
                  field->above_low ? "above" : "of at least", low,

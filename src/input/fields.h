@@ -53,6 +53,7 @@ typedef struct HdField {
     bool required;
     bool above_low, below_high; /* the bound itself is out of range */
     double low, high;           /* range of the number, or of each component of a vector */
+    bool has_sign;              /* the range is that of the absolute value */
     double least_but_zero;      /* least value besides 0 in a valid scene; 0: no such limit */
     bool is_unseen;             /* does not affect pixels */
     bool is_light;              /* vectors are red, green and blue, not x, y and z */

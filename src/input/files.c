@@ -10,6 +10,7 @@
 #include "input/check.h"
 #include "input/classic.h"
 #include "mesh/mesh.h"
+#include "scene/placement.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 
@@ -254,6 +255,14 @@ static HdStatus load_pictures(Loader *loader) {
 
 /* Loading */
 
+static void fit_instances(const Loader *loader) {
+    HdScene *scene = loader->scene;
+    for (int i = 0; i < scene->instance_count; i++)
+        if (loader->file->mesh_entries[i].size > 0.0)
+            hd_instance_fit(&scene->instances[i], hd_mesh_of(scene, i),
+                            loader->file->mesh_entries[i].size);
+}
+
 static HdStatus load(Loader *loader) {
     HdSceneChecker checker = {.problems = loader->problems, .naming = HD_NAMING_JSON};
     HD_TRY(place_instances(loader));
@@ -262,6 +271,7 @@ static HdStatus load(Loader *loader) {
     if (loader->problems->count > 0)
         return HD_OK;
     HD_TRY(hd_scene_build_meshes(loader->scene, loader->error));
+    fit_instances(loader);
     hd_check_instances(&checker, loader->scene);
     return HD_OK;
 }

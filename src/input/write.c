@@ -412,9 +412,16 @@ static void print_count(Printer *printer, const char *key, double number) {
 }
 
 static void print_range(Printer *printer, const HdField *field, const char *type) {
+    const double low = field->has_sign ? -field->high : field->low;
     print_pair(printer, "type", type);
-    print_count(printer, field->above_low ? "exclusiveMinimum" : "minimum", field->low);
+    print_count(printer, field->above_low ? "exclusiveMinimum" : "minimum", low);
     print_count(printer, field->below_high ? "exclusiveMaximum" : "maximum", field->high);
+    if (!field->has_sign)
+        return;
+    put_open_at(printer, "not", '{');
+    print_count(printer, "exclusiveMinimum", -field->low);
+    print_count(printer, "exclusiveMaximum", field->low);
+    put_close(printer, '}');
 }
 
 static void open_array(Printer *printer, int least, int most) {

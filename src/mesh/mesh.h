@@ -108,6 +108,10 @@ static inline double hd_mesh_half_side(const HdMesh *mesh) {
     return 0.5 * fmax(sides.x, fmax(sides.y, sides.z));
 }
 
+/* Returns the largest product of `direction` with a corner of a built mesh, relative to the centre
+   of its box and in units of half its longest side. */
+double hd_mesh_reach(const HdMesh *mesh, HdVec3 direction);
+
 /* Frees what the mesh owns and clears it. */
 void hd_mesh_free(HdMesh *mesh);
 

@@ -63,12 +63,17 @@ typedef struct HdPicture {
     bool is_clamped; /* clamped at its border; otherwise it repeats */
 } HdPicture;
 
-/* A placed mesh: its points are scaled, then rotated as solids are, then moved. */
+/* A mesh's axis that points up. With y, (x, y, z) becomes (x, -z, y). */
+typedef enum HdUpAxis { HD_UP_Z, HD_UP_Y } HdUpAxis;
+
+/* A placed mesh: its points are scaled, then turned upright, then rotated as solids are, then
+   moved. */
 typedef struct HdInstance {
     int mesh; /* index in HdScene.meshes */
+    HdUpAxis up;
     HdVec3 position;
     HdVec3 rotation_degrees;
-    HdVec3 scale;      /* each positive */
+    HdVec3 scale;      /* none is 0; a negative one mirrors, and outer sides stay outer ones */
     bool has_material; /* `material` replaces all of the mesh's own materials */
     HdMaterial material;
 } HdInstance;

@@ -8,7 +8,7 @@
 #include "kernels/host/shared.h"
 #include "mesh/hierarchy.h"
 #include "scene/camera.h"
-#include "scene/scene.h"
+#include "scene/placement.h"
 #include "tables/table.h"
 
 #if HD_DOUBLE
@@ -67,11 +67,6 @@ typedef struct HdBuilder {
     void *table[HD_SCENE_TABLE_COUNT];
 } HdBuilder;
 
-/* The map from mesh coordinates to world space: columns . p + start. */
-typedef struct HdPlacement {
-    HdVec3 columns[3], start;
-} HdPlacement;
-
 /* The floor's frame; the normal of the diagonals fits four nearly coplanar corners best. */
 typedef struct HdFloorFrame {
     HdVec3 centre, normal, axis_a, axis_b;
@@ -111,10 +106,7 @@ HdVec3 hd_max_radiance(const HdScene *scene);
 HdStatus hd_builder_prepare_meshes(HdBuilder *builder, HdError *error);
 void hd_builder_free_meshes(HdBuilder *builder);
 
-const HdMesh *hd_mesh_of(const HdScene *scene, int instance);
 const HdMaterial *hd_material_of(const HdInstance *instance, const HdMeshMaterial *material);
-/* Returns an instance's placement in world space. */
-HdPlacement hd_placement_of(const HdScene *scene, int instance);
 /* Computes the centre of the box about all instances, in world space; returns half its longest
    side. */
 double hd_box_meshes(const HdScene *scene, HdVec3 *centre);

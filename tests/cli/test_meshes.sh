@@ -42,9 +42,21 @@ render() { # FILE SCENE OPTION...
 # ---- the report on a mesh
 expect_exit 0 "$hedron" check cubes.json
 expect_silent_stderr
-expect_stdout_lines 1 'cubes\.json: fine, 0 solids, 2 meshes of 24 triangles in 3 places, 1 light, 1 frame'
+expect_stdout_lines 4
+expect_stdout_contains 'cubes.json: fine, 0 solids, 2 meshes of 24 triangles in 3 places, 1 light, 1 frame'
+expect_stdout_contains 'cubes.json: meshes[0], models/cube.obj: 12 triangles from [-1.281713, -1.281713, -1] to'\
+' [1.281713, 1.281713, 1], 2 materials (picture, red), 1 texture; wholly in view in frame 0'
+expect_stdout_contains 'meshes[2], models/cube.obj: 12 triangles from [1.9, -0.6, -0.6] to [3.1, 0.6, 0.6], 2 materials'\
+' (picture, red), replaced by one of the scene, 1 texture; wholly in view in frame 0'
+if command -v jq >"$logs/which"; then
+    expect_exit 0 "$hedron" check --json cubes.json --set 'camera.target=[4,-9,4]'
+    jq -e '.scenes[0].places | length == 3 and (.[2] == {"file": "models/cube.obj", "triangles": 12,
+        "lower": [1.9, -0.6, -0.6], "upper": [3.1, 0.6, 0.6], "materials": ["picture", "red"], "replaced": true,
+        "textures": 1, "view": "none"})' "$logs/stdout" >"$logs/jq" || fail "check --json tells other places"
+fi
 expect_exit 0 "$hedron" render --verbose --backend c cubes.json -o all.data
 expect_stderr_contains 'meshes    2 with 24 triangles, and 2 without an area left out; in 3 places, 1 texture'
+expect_stderr_contains 'mesh      meshes[0], models/cube.obj: 12 triangles from'
 
 # ---- entries that share a mesh equal those with copies; files count from the scene's folder, not the current one
 cp models/cube.obj models/copy.obj
@@ -57,13 +69,38 @@ expect_same other.data all.data
 render other.data cubes.json --set meshes[2].crease=10
 expect_different other.data all.data
 
+# ---- a scene for a mesh wherever it is: up is guessed, the camera on all of it, the name relative to the scene
+mkdir scenes
+expect_new() { # UP X Y Z: the scene of the cube, moved, with that axis up
+    awk -v x="$2" -v y="$3" -v z="$4" '$1 == "v" { $2 += x; $3 += y; $4 += z } { print }' models/cube.obj >models/moved.obj
+    expect_exit 0 "$hedron" new --mesh models/moved.obj scenes/moved
+    expect_stdout_lines 1 'scenes/moved\.json'
+    grep -q -F '"up": "'"$1"'"' scenes/moved.json || fail "up is not $1"
+    expect_exit 0 "$hedron" check scenes/moved.json
+    expect_stdout_contains "$PWD/models/moved.obj: 12 triangles from [-1, -1, 0] to [1, 1, 2], 2 materials (picture, red)"
+    expect_stdout_contains 'wholly in view in frame 0'
+    rm scenes/moved.json models/moved.obj
+}
+expect_new y 0 0 0
+expect_new y -300 1 1
+expect_new z 5 0 1
+expect_new z 620000 5400000 300
+expect_exit 0 "$hedron" new --mesh models/cube.obj --up z models/new
+grep -q -F '"file": "cube.obj"' models/new.json || fail "the file is not that beside the scene"
+grep -q -F '"up": "z"' models/new.json || fail "--up has no effect"
+expect_refusal 2 "$hedron" new --mesh no.obj new
+expect_stderr_contains 'hedron: cannot read the mesh no.obj'
+expect_refusal 2 "$hedron" new --up z new
+[[ ! -e new.json ]] || fail "'hedron new' left a file"
+rm -r scenes models/new.json
+
 # ---- without the texture the colour stays, with a message
 rm models/picture.png
 expect_exit 0 "$hedron" render --backend c cubes.json -o plain.data
 expect_stderr_contains 'hedron: cannot read the texture models/picture.png'
 expect_different plain.data all.data
 expect_exit 0 "$hedron" check cubes.json
-expect_stdout_lines 2
+expect_stdout_lines 5
 expect_stdout_contains 'cubes.json: note: cannot read the texture models/picture.png'
 
 # ---- errors

@@ -165,7 +165,7 @@ class Maker:
     def mesh(self, centre):
         """Returns the shape in a place."""
         keys = {"file": f"{self.name}.obj", "position": centre, "rotation": self.point(180),
-                "scale": self.dice.choice([0.8, [0.7, 1, 0.5]]), "crease": self.dice.choice([20, 60, 180]),
+                "scale": self.dice.choice([0.8, [0.7, 1, 0.5], [0.7, -1, 0.5]]), "up": self.dice.choice("yz"), "crease": self.dice.choice([20, 60, 180]),
                 "normals": self.dice.choice(["file", "flat", "smooth"])}
         if self.chance(0.5):
             keys["material"] = self.material(self.dice.choice([1, 1.4]))

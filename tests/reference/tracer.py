@@ -349,12 +349,16 @@ class Mesh:
         model = Model(folder / keys["file"])
         scale = keys.get("scale", 1)
         self.scale = tuple(scale) if isinstance(scale, list) else (scale,) * 3
-        self.turn = turning(keys.get("rotation", (0, 0, 0)))
+        turn, is_y_up = turning(keys.get("rotation", (0, 0, 0))), keys.get("up") == "y"
+        self.turn = (lambda p: turn((p[0], -p[2], p[1]))) if is_y_up else turn
+        is_mirrored = math.prod(self.scale) < 0  # outer sides stay outer ones
         position = keys.get("position", (0, 0, 0))
         looks = self.looks(model, materials.get(keys.get("material")))
         normals = self.corner_normals(model, keys.get("normals", "file"), keys.get("crease", 40))
         self.triangles = []
         for (name, corners), own in zip(model.faces, normals):
+            if is_mirrored:
+                corners, own = corners[::-1], own and own[::-1]
             places = [along(position, 1, self.turn(product(self.scale, corner[0]))) for corner in corners]
             self.triangles.append(Triangle(self, corners, places, own, looks[name]))
         points = [p for t in self.triangles for p in (t.a, along(t.a, 1, t.ab), along(t.a, 1, t.ac))]

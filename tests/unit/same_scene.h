@@ -66,8 +66,8 @@ static inline void expect_same_path(const HdPath *a, const HdPath *b) {
 static inline void expect_same_mesh(const HdMeshEntry *a, const HdMeshEntry *b) {
 #define M(member) MEMBER(HdMeshEntry, member)
     static const Member members[] = {
-        M(normals),        M(crease_degrees),        M(instance.position),
-        M(instance.scale), M(instance.has_material), M(instance.rotation_degrees)};
+        M(normals),        M(crease_degrees),        M(instance.position),         M(size),
+        M(instance.scale), M(instance.has_material), M(instance.rotation_degrees), M(instance.up)};
 #undef M
     assert_string_equal(a->file, b->file);
     EXPECT_SAME(members, a, b);

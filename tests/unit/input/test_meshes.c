@@ -2,7 +2,10 @@
 /* Meshes of scene files: sharing between entries, their normals and textures, and errors. */
 #define _XOPEN_SOURCE 700
 
+#include <math.h>
+
 #include "input/files.h"
+#include "scene/placement.h"
 #include "scene_text.h"
 #include "test_folder.h"
 
@@ -111,6 +114,50 @@ TEST(test_every_wrong_file_is_reported) {
                     "expected a number from 5e-13 to 2000000000000\n"
                     "meshes[2]: farthest coordinate of its mesh, scaled, is 3000300000000, "
                     "expected a number from 0 to 2000000000000\n");
+}
+
+/* The box of the corner is (0, 0, 0) to (2, 2, 2); that of its corners, turned, is smaller. */
+TEST(meshes_are_fitted_and_seen) {
+    static const struct {
+        const char *keys;
+        double lower[3], upper[3];
+        HdSight sight;
+    } cases[] = {
+        {"\"position\": [1, 2, 3]", {1, 2, 3}, {3, 4, 5}, HD_SIGHT_WHOLE},
+        {"\"up\": \"y\"", {0, -2, 0}, {2, 0, 2}, HD_SIGHT_WHOLE},
+        {"\"scale\": [-1, 1, 3]", {-2, 0, 0}, {0, 2, 6}, HD_SIGHT_WHOLE},
+        {"\"size\": 1, \"position\": [5, 6, 7]", {4.5, 5.5, 7}, {5.5, 6.5, 8}, HD_SIGHT_WHOLE},
+        {"\"size\": 6, \"up\": \"y\", \"scale\": [2, -1, 1], \"position\": [0, 0, -9]",
+         {-3, -1.5, -9},
+         {3, 1.5, -6},
+         HD_SIGHT_WHOLE},
+        {"\"size\": 2, \"rotation\": [0, 180, 0]", {-1, -1, 0}, {1, 1, 2}, HD_SIGHT_WHOLE},
+        {"\"size\": 2, \"rotation\": [45, 0, 0]",
+         {-1, -M_SQRT2, 0},
+         {1, M_SQRT2, M_SQRT2},
+         HD_SIGHT_WHOLE},
+        {"\"position\": [31, 0, 0]", {31, 0, 0}, {33, 2, 2}, HD_SIGHT_NONE},
+        {"\"position\": [29, -1, -1]", {29, -1, -1}, {31, 1, 1}, HD_SIGHT_PART},
+        {"\"position\": [0, 0, 12]", {0, 0, 12}, {2, 2, 14}, HD_SIGHT_PART},
+        {"\"position\": [0, 0, 14]", {0, 0, 14}, {2, 2, 16}, HD_SIGHT_NONE},
+        {"\"position\": [0, -20, 0]", {0, -20, 0}, {2, -18, 2}, HD_SIGHT_NONE},
+    };
+    write_text("a.obj", corner_text);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[512];
+        HdVec3 lower, upper;
+        HdCamera camera;
+        snprintf(text, sizeof text, SCENE("{\"file\": \"a.obj\", %s}"), cases[i].keys);
+        expect_loaded(text);
+        hd_instance_box(&file.scene, 0, &lower, &upper);
+        const double *low = cases[i].lower, *high = cases[i].upper;
+        expect_near(hd_largest(hd_sub(lower, hd_vec3(low[0], low[1], low[2]))), 0.0, 1e-12);
+        expect_near(hd_largest(hd_sub(upper, hd_vec3(high[0], high[1], high[2]))), 0.0, 1e-12);
+        assert_int_equal(hd_camera_at(&camera, &file.scene, 0, &error), HD_OK);
+        if (hd_instance_sight(&file.scene, 0, &camera) != cases[i].sight)
+            fail_msg("%s: sight", cases[i].keys);
+        hd_scene_file_free(&file);
+    }
 }
 
 static const char textured_text[] = "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"

@@ -54,8 +54,9 @@ TEST(test_every_key) {
         {(char[]){"model.obj"},
          HD_NORMALS_SMOOTH,
          25.0,
-         {0, {11.0, 12.0, 13.0}, {40.0, 50.0, 60.0}, {1.0, 2.0, 3.0}, true, dark}},
-        {(char[]){"other.obj"}, HD_NORMALS_FLAT, 40.0, {.scale = {0.5, 0.5, 0.5}}}};
+         6.0,
+         {0, HD_UP_Y, {11.0, 12.0, 13.0}, {40.0, 50.0, 60.0}, {1.0, 2.0, -3.0}, true, dark}},
+        {(char[]){"other.obj"}, HD_NORMALS_FLAT, 40.0, 0.0, {.scale = {0.5, 0.5, 0.5}}}};
     const HdSceneFile expected = {
         .scene = {.width = 320,
                   .height = 200,
