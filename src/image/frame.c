@@ -104,9 +104,9 @@ uint64_t hd_frame_hash(const HdFrame *frame) {
     const size_t values = (size_t)frame->width * (size_t)frame->height * (size_t)frame->floats;
     const int32_t size[] = {frame->width, frame->height};
     const uint64_t counts[] = {hd_frame_rays(frame), frame->shadow_tests, frame->clamps};
-    uint64_t hash = hd_hash_bytes(HD_HASH_START, size, sizeof size);
-    hash = hd_hash_bytes(hash, counts, sizeof counts);
-    return hd_hash_bytes(hash, frame->rgb, values * sizeof *frame->rgb);
+    uint64_t hash = hd_hash_numbers(HD_HASH_START, size, sizeof size, sizeof *size);
+    hash = hd_hash_numbers(hash, counts, sizeof counts, sizeof *counts);
+    return hd_hash_numbers(hash, frame->rgb, values * sizeof *frame->rgb, sizeof *frame->rgb);
 }
 
 HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, const char *name,

@@ -97,7 +97,7 @@ static bool is_selected(const GoldenTest *golden, const HdScene *scene, bool is_
 static void check_golden(GoldenTest *golden, const HdGoldenFrame *frame, uint64_t hash) {
     HdGoldenHashes expected;
     golden->test->frames++;
-    golden->test->hash = hd_hash_bytes(golden->test->hash, &hash, sizeof hash);
+    golden->test->hash = hd_hash_numbers(golden->test->hash, &hash, sizeof hash, sizeof hash);
     hd_golden_find_hashes(frame->name, golden->part->options.precision, &expected);
     if (hash == expected.frame || golden->wrong++ > 0)
         return;

@@ -351,7 +351,7 @@ static uint64_t add_file(uint64_t hash, const char *path) {
         return hd_hash_bytes(hash, "", 1);
     const int64_t description[] = {(int64_t)facts.st_ino, (int64_t)facts.st_size,
                                    (int64_t)facts.st_mtim.tv_sec, (int64_t)facts.st_mtim.tv_nsec};
-    return hd_hash_bytes(hash, description, sizeof description);
+    return hd_hash_numbers(hash, description, sizeof description, sizeof *description);
 }
 
 /* Returns a hash that changes when one of the files is written or replaced: the scene (NULL: none),

@@ -134,7 +134,8 @@ static HdGoldenHashes render_hashes(const Target *target, int number, const Opti
     const size_t firsts = (size_t)frame.width * (size_t)frame.height * (size_t)frame.first_floats;
     HdGoldenHashes hashes = {.frame = hd_frame_hash(&frame)};
     if (target->first_hits)
-        hashes.first_hits = hd_hash_bytes(HD_HASH_START, frame.first, firsts * sizeof *frame.first);
+        hashes.first_hits = hd_hash_numbers(HD_HASH_START, frame.first,
+                                            firsts * sizeof *frame.first, sizeof *frame.first);
     save_picture(options, name, &frame);
     hd_frame_free(&frame);
     hd_scene_free(&scene);

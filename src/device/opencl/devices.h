@@ -5,6 +5,12 @@
 
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
+#ifdef __ALTIVEC__ /* they include altivec.h, whose words in strict C are also macros */
+#undef bool
+#undef pixel
+#undef vector
+#define bool _Bool
+#endif
 
 #include "device/gpu/driver.h"
 
