@@ -422,7 +422,7 @@ static void read_object(Reader *reader, const HdObjectType *type, const json_t *
 
 /* Checks that an output path is empty, or has a known ending and a number only if allowed. */
 static void check_output_path(HdSceneReport *report, const char *path) {
-    char quoted[HD_WORDS_SIZE];
+    char quoted[HD_WORDS_SIZE], name[HD_MAX_PATH];
     HdError error;
     if (path[0] == '\0')
         return;
@@ -433,13 +433,14 @@ static void check_output_path(HdSceneReport *report, const char *path) {
                   "is %s, expected the name of a film (" HD_FILM_ENDINGS
                   ") or of a picture (" HD_PICTURE_ENDINGS ")",
                   quoted);
-    else if (hd_format_is_film(format) && hd_pattern_has_number(path))
+    else if (hd_format_is_film(format) && hd_pattern_has_directive(path))
         hd_report(report,
-                  "is %s, expected a film without a number (%%d or #) in its name, or pictures "
+                  "is %s, expected a film without a number (%%d) in its name, or pictures "
                   "(" HD_PICTURE_ENDINGS ")",
                   quoted);
-    else if (!hd_format_is_film(format) && strpbrk(path, "%#") != NULL &&
-             hd_pattern_check(path, &error) != HD_OK)
+    else if (!hd_format_is_film(format) &&
+             (hd_pattern_has_number(path) ? hd_pattern_check(path, &error)
+                                          : hd_pattern_format_single(path, name, &error)) != HD_OK)
         hd_report(report, "cannot be used: %s", error.message);
 }
 

@@ -24,12 +24,12 @@ static HdStatus settle_output(HdOutput *output, const char *name, const HdPictur
         .name = name,
         .format = format != NULL ? format : &hd_format_data,
         .is_film = hd_format_is_film(format),
-        .is_numbered = hd_pattern_has_number(name),
+        .is_numbered = !hd_format_is_film(format) && hd_pattern_has_number(name),
     };
-    if (output->is_film && output->is_numbered)
+    if (output->is_film && hd_pattern_has_directive(name))
         return hd_fail(error, HD_BAD_INPUT,
-                       "'%s' asks for numbered films: a film has no number (%%d or #) in its name, "
-                       "and pictures end in " HD_PICTURE_ENDINGS,
+                       "'%s' asks for numbered films: a film has no number (%%d) in its name, and "
+                       " pictures end in " HD_PICTURE_ENDINGS,
                        name);
     HD_TRY(hd_format_check_style(name, style, error));
     if (output->is_film)
