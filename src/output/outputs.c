@@ -84,9 +84,12 @@ static void sum_up(HdOutputPlan *plan) {
         const bool bears_fingerprints = format->load != NULL;
         plan->film_count += output->is_film;
         plan->bears_fingerprints |= bears_fingerprints;
+        const bool has_alpha =
+            format->has_layers || (format->has_alpha && plan->style.picture.has_alpha);
         plan->request.radiance |=
-            !output->is_film && plan->style.picture.bits > format->max_encoded_bits;
-        plan->request.layers |= format->has_layers ? HD_LAYER_BIT(HD_LAYER_ALPHA) : 0;
+            !output->is_film && (has_alpha || plan->style.picture.bits > format->max_encoded_bits);
+        plan->request.layers |= has_alpha ? HD_LAYER_BIT(HD_LAYER_ALPHA) : 0;
+        plan->has_layers |= format->has_layers;
         /* Only numbered pictures with fingerprints, and films, can save rendering. */
         plan->can_resume &= output->is_film || (bears_fingerprints && output->is_numbered);
     }
@@ -115,7 +118,7 @@ HdStatus hd_outputs_add_layers(HdOutputPlan *plan, unsigned layers, bool is_boun
                                HdError *error) {
     if (layers == 0)
         return HD_OK;
-    if (plan->request.layers == 0)
+    if (!plan->has_layers)
         return hd_fail(error, HD_BAD_INPUT,
                        "--layers is for OpenEXR: expected an output that ends in .exr");
     if (!is_bounded && (layers & HD_LAYER_BIT(HD_LAYER_BOUND)) != 0)
