@@ -266,12 +266,15 @@ static void insert_alpha(const HdFrame *frame, int bits, size_t first, unsigned 
     const size_t size = (size_t)bits / 8;
     for (size_t x = (size_t)frame->width; x-- > 0;) {
         const float alpha = alpha_of(frame, first + x);
+        unsigned char *place = bytes + size * (4 * x + 3);
         uint16_t code;
-        uint8_t code8;
-        memmove(bytes + 4 * size * x, bytes + 3 * size * x, 3 * size);
-        hd_curve_encode8(HD_CURVE_LINEAR, &alpha, 1, &code8);
-        hd_curve_encode16(HD_CURVE_LINEAR, &alpha, 1, &code);
-        memcpy(bytes + size * (4 * x + 3), bits == 8 ? (void *)&code8 : (void *)&code, size);
+        memmove(bytes + size * 4 * x, bytes + size * 3 * x, 3 * size);
+        if (bits == 8) {
+            hd_curve_encode8(HD_CURVE_LINEAR, &alpha, 1, place);
+        } else {
+            hd_curve_encode16(HD_CURVE_LINEAR, &alpha, 1, &code);
+            memcpy(place, &code, sizeof code);
+        }
     }
 }
 
