@@ -33,8 +33,9 @@ ROW("--set", NULL, "PATH=VALUE",
     HD_COMMAND_RENDER | HD_COMMAND_CHECK | HD_COMMAND_TUNE | HD_COMMAND_VIEW,
     TEXTS(scene.changes, scene.change_count, HD_MAX_CHANGES), .check = check_change,
     .use = "to try a value without editing the file", .role = HD_DECIDES_PIXELS)
-OPTION(const char *frames, "--frames", "-f", "LIST", "Render only these frames, such as 0-9,20",
-       MEASURING, TEXT(frames, NULL), .standard = "all")
+OPTION(const char *frames, "--frames", "-f", "LIST",
+       "Render only these frames, such as 0-9,20; 0-99:2 is every second one", MEASURING,
+       TEXT(frames, NULL), .standard = "all")
 ROW("--again", NULL, NULL,
     "Render all frames. Without it, finished pictures of a numbered PNG sequence are kept if their "
     "pixels would be the same",

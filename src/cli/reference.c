@@ -90,6 +90,7 @@ static void format_range(const HdField *field, char text[128]) {
 static void format_values(const HdField *field, char text[HD_EXPECTED_SIZE]) {
     static const char *const types[HD_FIELD_MATERIALS + 1] = {
         [HD_FIELD_INTEGER] = "integer",
+        [HD_FIELD_RATE] = "integer or \"n000/1001\"",
         [HD_FIELD_NUMBER] = "number",
         [HD_FIELD_FACTOR] = "number",
         [HD_FIELD_SCALE] = "number or [x, y, z]",

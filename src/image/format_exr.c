@@ -136,6 +136,19 @@ static exr_result_t add_channels(exr_context_t context, int part, const HdFrame 
     return EXR_ERR_SUCCESS;
 }
 
+/* Places a crop in the window of the whole picture. */
+static exr_result_t write_windows(exr_context_t context, int part, const HdFrame *frame,
+                                  const HdCrop *crop) {
+    const exr_attr_box2i_t data = {.min.x = crop->left,
+                                   .min.y = crop->top,
+                                   .max.x = crop->left + frame->width - 1,
+                                   .max.y = crop->top + frame->height - 1};
+    const exr_attr_box2i_t display = {.max.x = crop->whole_width - 1,
+                                      .max.y = crop->whole_height - 1};
+    EXR_TRY((exr_result_t)exr_set_data_window(context, part, &data));
+    return (exr_result_t)exr_set_display_window(context, part, &display);
+}
+
 static exr_result_t write_attributes(exr_context_t context, int part, const HdFrame *frame,
                                      bool is_half, const HdPictureLabel *label) {
     EXR_TRY(exr_initialize_required_attr_simple(context, part, frame->width, frame->height,
@@ -143,6 +156,8 @@ static exr_result_t write_attributes(exr_context_t context, int part, const HdFr
     EXR_TRY(add_channels(context, part, frame, is_half));
     if (label == NULL)
         return EXR_ERR_SUCCESS;
+    if (label->crop.whole_width > 0)
+        EXR_TRY(write_windows(context, part, frame, &label->crop));
     EXR_TRY(exr_attr_set_string(context, part, "software", "hedron " HD_VERSION));
     EXR_TRY(exr_attr_set_string(context, part, "scene", label->scene));
     EXR_TRY(exr_attr_set_int(context, part, "frame", label->frame));
@@ -201,7 +216,9 @@ static exr_result_t write_chunk(exr_context_t context, int part, int y, int line
                                 const HdFrame *frame, unsigned char *planes,
                                 exr_encode_pipeline_t *pipeline) {
     exr_chunk_info_t chunk;
-    EXR_TRY(exr_write_scanline_chunk_info(context, part, y, &chunk));
+    exr_attr_box2i_t window;
+    EXR_TRY(exr_get_data_window(context, part, &window));
+    EXR_TRY(exr_write_scanline_chunk_info(context, part, window.min.y + y, &chunk));
     EXR_TRY(y == 0 ? exr_encoding_initialize(context, part, &chunk, pipeline)
                    : exr_encoding_update(context, part, &chunk, pipeline));
     fill_chunk(pipeline, frame, y, lines, planes);

@@ -28,6 +28,14 @@ bool hd_format_is_film(const HdFormat *format) {
     return format != NULL && format->film_arguments[0] != NULL;
 }
 
+bool hd_format_has_alpha(const HdFormat *format) {
+    return format->has_layers || format->has_alpha;
+}
+
+double hd_frame_rate(const HdOutputStyle *style) {
+    return style->frames_per_second * (style->is_ntsc ? 1000.0 / 1001.0 : 1.0);
+}
+
 HdStatus hd_format_check_style(const char *path, const HdPictureStyle *style, HdError *error) {
     const HdFormat *format = hd_format_of(path);
     if (format != NULL && format->is_srgb_only && style->curve != HD_CURVE_SRGB)

@@ -116,6 +116,10 @@ static void check_field(HdSceneChecker *checker, const HdField *field, const voi
     case HD_FIELD_INTEGER:
         check_int(checker, what, *(const int *)place, (int)field->low, (int)field->high);
         break;
+    case HD_FIELD_RATE:
+        check_int(checker, what, ((const HdOutputStyle *)place)->frames_per_second, (int)field->low,
+                  (int)field->high);
+        break;
     case HD_FIELD_NUMBER:
         check_number(checker, field, what, "", *(const double *)place);
         break;

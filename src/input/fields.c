@@ -135,15 +135,18 @@ static const HdField output_fields[] = {
     {AT(HdSceneFile, output.path, "path",
         "File of the picture, sequence or film; #### or %04d stands for the frame number"),
      TEXT, EXAMPLE("\"out/%04d.png\"")},
-    {AT(HdSceneFile, output.style.frames_per_second, "frames_per_second", "Frame rate of a film"),
-     INTEGER(1, HD_MAX_FRAMES_PER_SECOND), MEASURE("frames/s"),
-     DEFAULT(HD_DEFAULT_FRAMES_PER_SECOND)},
+    {AT(HdSceneFile, output.style, "frames_per_second", "Frame rate of a film"),
+     .type = HD_FIELD_RATE, .low = 1, .high = HD_MAX_FRAMES_PER_SECOND, MEASURE("frames/s"),
+     EXAMPLE("\"24000/1001\""), DEFAULT(HD_DEFAULT_FRAMES_PER_SECOND)},
     {AT(HdSceneFile, output.style.picture.curve, "curve",
         "Transfer curve of the values in the file; never linear for a GIF"),
      CHOICE(curves, HD_CURVE_SRGB)},
     {AT(HdSceneFile, output.style.picture.bits, "bits",
         "Bits of a channel: 8 or 16 for PNG; 32 makes OpenEXR float instead of half"),
      CHOICE(bits, 8), MEASURE("bits")},
+    {AT(HdSceneFile, output.style.picture.has_alpha, "alpha",
+        "Whether PNG has alpha; colours are then without the background"),
+     .type = HD_FIELD_BOOLEAN, DEFAULT(0)},
 };
 static const HdObjectType output = COMPLETE_TYPE(HdSceneFile, output_fields, NULL);
 
@@ -408,10 +411,10 @@ bool hd_field_holds(const HdField *field, double value) {
 
 int hd_field_parts(const HdField *field) {
     static const int parts[HD_FIELD_MATERIALS + 1] = {
-        [HD_FIELD_BOOLEAN] = 1,  [HD_FIELD_INTEGER] = 1, [HD_FIELD_NUMBER] = 1,
-        [HD_FIELD_FACTOR] = 1,   [HD_FIELD_CHOICE] = 1,  [HD_FIELD_VECTOR] = 3,
-        [HD_FIELD_UNSCALED] = 3, [HD_FIELD_VECTORS] = 3, [HD_FIELD_SCALE] = 3,
-        [HD_FIELD_PATH] = 3};
+        [HD_FIELD_BOOLEAN] = 1, [HD_FIELD_INTEGER] = 1,  [HD_FIELD_NUMBER] = 1,
+        [HD_FIELD_FACTOR] = 1,  [HD_FIELD_CHOICE] = 1,   [HD_FIELD_RATE] = 1,
+        [HD_FIELD_VECTOR] = 3,  [HD_FIELD_UNSCALED] = 3, [HD_FIELD_VECTORS] = 3,
+        [HD_FIELD_SCALE] = 3,   [HD_FIELD_PATH] = 3};
     return parts[field->type];
 }
 
@@ -424,7 +427,10 @@ void hd_field_set(const HdField *field, void *owner, const double numbers[3]) {
         *(int *)place = (int)numbers[0];
     else if (field->type == HD_FIELD_NUMBER)
         *(double *)place = numbers[0];
-    else if (field->type == HD_FIELD_FACTOR)
+    else if (field->type == HD_FIELD_RATE) {
+        ((HdOutputStyle *)place)->frames_per_second = (int)numbers[0];
+        ((HdOutputStyle *)place)->is_ntsc = numbers[1] != 0.0;
+    } else if (field->type == HD_FIELD_FACTOR)
         *(HdVec3 *)place = hd_scale(*(const HdVec3 *)place, numbers[0]);
     else if (field->type == HD_FIELD_PATH)
         *(HdPath *)place = (HdPath){.is_fixed = true, .point = vector};
@@ -476,9 +482,13 @@ void hd_field_expected_count(const HdField *field, char out[HD_EXPECTED_SIZE]) {
 void hd_field_expected(const HdField *field, int parts, char out[HD_EXPECTED_SIZE]) {
     static const char number[] = "a number", vector[] = "three numbers, each a number";
     static const char *const of_range[HD_FIELD_MATERIALS + 1] = {
-        [HD_FIELD_NUMBER] = number,        [HD_FIELD_FACTOR] = number,
-        [HD_FIELD_INTEGER] = "an integer", [HD_FIELD_VECTOR] = vector,
-        [HD_FIELD_UNSCALED] = vector,      [HD_FIELD_SCALE] = "one number or three, each a number"};
+        [HD_FIELD_NUMBER] = number,
+        [HD_FIELD_FACTOR] = number,
+        [HD_FIELD_INTEGER] = "an integer",
+        [HD_FIELD_RATE] = "an integer or \"n000/1001\", n",
+        [HD_FIELD_VECTOR] = vector,
+        [HD_FIELD_UNSCALED] = vector,
+        [HD_FIELD_SCALE] = "one number or three, each a number"};
     static const char *const plain[] = {
         [HD_FIELD_BOOLEAN] = "true or false",
         [HD_FIELD_TEXT] = "a string that is not empty",

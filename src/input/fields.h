@@ -29,6 +29,7 @@ typedef enum HdFieldType {
     HD_FIELD_FACTOR,   /* number */
     HD_FIELD_VECTORS,  /* array of vectors; HdVec3[most], and their number if it varies */
     HD_FIELD_CHOICE,   /* one of `choices`; int or an enum */
+    HD_FIELD_RATE,     /* integer n, or "n000/1001"; HdOutputStyle */
     HD_FIELD_SCALE,    /* number, or a vector; HdVec3 */
     HD_FIELD_TEXT,     /* string; char[HD_MAX_PATH], empty if absent */
     HD_FIELD_FILE,     /* string, a path relative to the scene's folder; char *, owned */

@@ -103,6 +103,7 @@ uint64_t hd_run_fingerprint(const HdSceneFile *file, HdPrecision precision,
     add_integer(&hash, (int)precision);
     add_integer(&hash, (int)style->curve);
     add_integer(&hash, style->bits);
+    add_integer(&hash, style->has_alpha);
     return hash;
 }
 

@@ -115,12 +115,6 @@ typedef enum HdSampling {
 /* Names by HdSampling; NULL ends them. */
 extern const char *const hd_sampling_names[];
 
-/* The picture's position in a larger one: its first pixel is the larger one's (left, top). */
-typedef struct HdCrop {
-    int whole_width, whole_height; /* size of the larger one; 0: no crop */
-    int left, top;
-} HdCrop;
-
 typedef struct HdScene {
     int frame_count;
     HdPath eye, target;

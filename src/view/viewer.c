@@ -90,7 +90,7 @@ static void show_frame(HdViewer *viewer, int frame) {
 
 static void advance_path(HdViewer *viewer) {
     const double passed =
-        (viewer->now - viewer->played_from) * file_of(viewer)->output.style.frames_per_second;
+        (viewer->now - viewer->played_from) * hd_frame_rate(&file_of(viewer)->output.style);
     const int frame = (int)fmod(passed, file_of(viewer)->scene.frame_count);
     if (viewer->is_playing && frame != viewer->frame)
         show_frame(viewer, frame);
@@ -243,7 +243,7 @@ static void play(HdViewer *viewer, int by) {
     if (viewer->is_playing)
         viewer->is_free = false;
     viewer->played_from =
-        viewer->now - (double)viewer->frame / file_of(viewer)->output.style.frames_per_second;
+        viewer->now - (double)viewer->frame / hd_frame_rate(&file_of(viewer)->output.style);
     change_view(viewer);
 }
 

@@ -43,9 +43,9 @@ expect_different out/0000.png out/0001.png
 render --size 32x24 --frames 1 -o alone_%d.png
 expect_same out/0001.png alone_1.png
 rm -rf ./*
-render --size 32x24 --frames 0,10 -o 'take ##/a.data'
-expect_files . 'take 00' 'take 00/a.data' 'take 10' 'take 10/a.data'
-expect_data 'take 10/a.data' 32 24
+render --size 32x24 --frames 0,10 -o '#1/take %02d/a.data'
+expect_files '#1' 'take 00' 'take 00/a.data' 'take 10' 'take 10/a.data'
+expect_data '#1/take 10/a.data' 32 24
 rm -rf ./*
 
 # ---- backends, pipelines, lanes and threads, selected by options, give the same bytes; fast arithmetic nearly

@@ -61,8 +61,8 @@ expect_exit 0 diff -r out first
 # ---- everything that decides a pixel is in the fingerprint, and names are not
 cp floor.data other.data
 sed 's/floor\.data/other.data/' scene.json >other.json
-render 0 other.json -o 'out/%d.png' --set output.frames_per_second=25
-for variant in '--set materials.plain.diffuse=0.25' '--set output.bits=16' '--crop 8x8+3+2' '--set camera.frames=41'; do
+render 0 other.json -o 'out/%d.png' --set output.frames_per_second=24000/1001
+for variant in '--set materials.plain.diffuse=0.25' '--set output.bits=16' '--set output.alpha=true' '--crop 8x8+3+2' '--set camera.frames=41'; do
     # shellcheck disable=SC2086 # an option and its value
     render 6 scene.json -o 'out/%d.png' $variant
 done

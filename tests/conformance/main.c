@@ -114,7 +114,7 @@ static bool write_golden(const Golden *golden, const char *path) {
 
 static void save_picture(const Options *options, const char *name, const HdFrame *frame) {
     HdError error;
-    const HdPictureStyle style = {HD_CURVE_LINEAR, 8};
+    const HdPictureStyle style = {HD_CURVE_LINEAR, 8, false};
     char path[4096];
     if (options->pictures == NULL)
         return;

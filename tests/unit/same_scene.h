@@ -100,7 +100,12 @@ static inline void expect_same_scene(const HdScene *a, const HdScene *b) {
 static inline void expect_same_file(const HdSceneFile *a, const HdSceneFile *b) {
     expect_same_scene(&a->scene, &b->scene);
     assert_string_equal(a->output.path, b->output.path);
-    assert_memory_equal(&a->output.style, &b->output.style, sizeof a->output.style);
+    const HdOutputStyle *style = &a->output.style, *other = &b->output.style;
+    assert_true(style->picture.curve == other->picture.curve &&
+                style->picture.bits == other->picture.bits &&
+                style->picture.has_alpha == other->picture.has_alpha &&
+                style->frames_per_second == other->frames_per_second &&
+                style->is_ntsc == other->is_ntsc);
     assert_string_equal(a->texture_path, b->texture_path);
     if (a->texture_path[0] != '\0')
         assert_int_equal(a->texture_curve, b->texture_curve);

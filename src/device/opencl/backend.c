@@ -180,15 +180,19 @@ static HdStatus create_kernels(Device *device, const HdKernelShape *shape, HdErr
 
 static HdStatus fail_with_log(const Device *device, cl_int code, HdError *error) {
     size_t size = 0;
-    char *log = NULL;
+    char *log = NULL, fault[HD_POCL_FAULT_SIZE];
     if (clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &size) ==
             CL_SUCCESS &&
         size <= HD_OPENCL_MAX_BYTES)
         log = calloc(size + 1, 1);
     if (log)
         clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);
-    hd_fail(error, HD_FAILED, "the compiler of %s refused the kernels (clBuildProgram: %s):\n%s",
-            device->is.name, hd_opencl_error_name(code), log && log[0] ? log : "(no log)");
+    if (hd_pocl_lacks_cache(device->is.driver, fault))
+        hd_fail(error, HD_FAILED, "%s", fault);
+    else
+        hd_fail(error, HD_FAILED,
+                "the compiler of %s refused the kernels (clBuildProgram: %s):\n%s", device->is.name,
+                hd_opencl_error_name(code), log && log[0] ? log : "(no log)");
     free(log);
     return HD_FAILED;
 }

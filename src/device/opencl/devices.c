@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
 #include "device/opencl/devices.h"
 
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/minmax.h"
 #include "base/text.h"
@@ -235,6 +238,51 @@ static HdStatus list_platforms(cl_platform_id platforms[MAX_PLATFORMS], cl_uint 
     return HD_OK;
 }
 
+/* Writes the name of PoCL's cache folder, by PoCL's rules. */
+static void find_pocl_cache(char folder[HD_MAX_PATH]) {
+    const char *named = getenv("POCL_CACHE_DIR"), *caches = getenv("XDG_CACHE_HOME"),
+               *home = getenv("HOME");
+    if (named != NULL)
+        snprintf(folder, HD_MAX_PATH, "%s", named);
+    else if (caches != NULL && caches[0] != '\0')
+        snprintf(folder, HD_MAX_PATH, "%s/pocl/kcache", caches);
+    else
+        snprintf(folder, HD_MAX_PATH, "%s/.cache/pocl/kcache", home != NULL ? home : "/tmp");
+}
+
+bool hd_pocl_lacks_cache(const char *driver, char fault[HD_POCL_FAULT_SIZE]) {
+    static const char pocl[] = "Portable Computing Language";
+    char folder[HD_MAX_PATH], entry[HD_MAX_PATH + 2];
+    HdError ignored;
+    if (strncmp(driver, pocl, strlen(pocl)) != 0)
+        return false;
+    find_pocl_cache(folder);
+    snprintf(entry, sizeof entry, "%s/x", folder);
+    if (hd_path_make_parents(entry, S_IRWXU, &ignored) == HD_OK && access(folder, W_OK) == 0)
+        return false;
+    snprintf(fault, HD_POCL_FAULT_SIZE,
+             "PoCL cannot write to its cache folder %s, expected POCL_CACHE_DIR to name a folder "
+             "for it",
+             folder);
+    return true;
+}
+
+static HdStatus fail_without_devices(const cl_platform_id *platforms, cl_uint count, cl_int code,
+                                     HdError *error) {
+    char first[80] = "", name[80], fault[HD_POCL_FAULT_SIZE];
+    snprintf(fault, sizeof fault, "%s", hd_opencl_error_name(code));
+    for (cl_uint p = 0; p < count; p++) {
+        query_text((Entry){.platform = platforms[p]}, CL_PLATFORM_NAME, name, sizeof name);
+        if (p == 0)
+            memcpy(first, name, sizeof first);
+        if (hd_pocl_lacks_cache(name, fault))
+            break;
+    }
+    return hd_fail(error, HD_UNAVAILABLE,
+                   "none of the %u installed OpenCL platforms (%s%s) has a device: %s",
+                   (unsigned)count, first, count > 1 ? ", ..." : "", fault);
+}
+
 static HdStatus list_devices(Entry *entries, int capacity, int *count, HdError *error) {
     cl_platform_id platforms[MAX_PLATFORMS];
     cl_uint platform_count = 0;
@@ -258,12 +306,7 @@ static HdStatus list_devices(Entry *entries, int capacity, int *count, HdError *
     }
     if (*count > 0)
         return HD_OK;
-    char name[80];
-    query_text((Entry){.platform = platforms[0]}, CL_PLATFORM_NAME, name, sizeof name);
-    return hd_fail(error, HD_UNAVAILABLE,
-                   "none of the %u installed OpenCL platforms (%s%s) has a device: %s",
-                   (unsigned)platform_count, name, platform_count > 1 ? ", ..." : "",
-                   hd_opencl_error_name(last_code));
+    return fail_without_devices(platforms, platform_count, last_code, error);
 }
 
 HdStatus hd_opencl_enumerate(HdDevice *devices, int capacity, int *count, HdError *error) {

@@ -6,8 +6,9 @@
 /* Two chunks of 16 lines and a part of one. */
 enum { WIDTH = 13, HEIGHT = 35, VALUES = WIDTH * HEIGHT * 3 };
 
-static const HdPictureStyle HALF = {HD_CURVE_SRGB, 8}, FLOAT = {HD_CURVE_SRGB, 32};
-static const HdPictureLabel LABEL = {.scene = "a.json", .options = "--depth 3", .frame = 7};
+static const HdPictureStyle HALF = {HD_CURVE_SRGB, 8, false}, FLOAT = {HD_CURVE_SRGB, 32, false};
+static const HdPictureLabel LABEL = {
+    .scene = "a.json", .options = "--depth 3", .frame = 7, .crop = {640, 480, 100, 417}};
 
 static HdError error;
 
@@ -166,6 +167,14 @@ static unsigned char *find(const char *text) {
             return bytes + i;
     fail_msg("there is no %s in the file", text);
     return NULL;
+}
+
+TEST(a_crop_keeps_its_place) {
+    static const int data[] = {100, 417, 100 + WIDTH - 1, 417 + HEIGHT - 1},
+                     display[] = {0, 0, 639, 479};
+    get_bytes();
+    assert_memory_equal(find("dataWindow") + 11 + 6 + 4, data, sizeof data);
+    assert_memory_equal(find("displayWindow") + 14 + 6 + 4, display, sizeof display);
 }
 
 TEST(other_kinds_are_refused) {

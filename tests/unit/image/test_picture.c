@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-#define _XOPEN_SOURCE 700
+#define _GNU_SOURCE
 
 #include <signal.h>
 #include <sys/resource.h>
 
+#include <zlib.h>
+
 #include "base/hash.h"
 #include "picture_files.h"
 
-static const HdPictureStyle LINEAR_8 = {HD_CURVE_LINEAR, 8};
+static const HdPictureStyle LINEAR_8 = {HD_CURVE_LINEAR, 8, false};
 static HdError error;
 static unsigned char bytes[65536];
 
@@ -47,10 +49,10 @@ TEST(textures_come_off_the_curve) {
         const char *path;
         HdPictureStyle style;
         double tolerance;
-    } files[] = {{"off.PNG", {HD_CURVE_SRGB, 16}, 5e-5},
-                 {"off.png", {HD_CURVE_SRGB, 8}, 5e-3},
-                 {"off/a/b.data", {HD_CURVE_SRGB, 8}, 5e-3},
-                 {"png", {HD_CURVE_LINEAR, 8}, 1e-7}};
+    } files[] = {{"off.PNG", {HD_CURVE_SRGB, 16, false}, 5e-5},
+                 {"off.png", {HD_CURVE_SRGB, 8, false}, 5e-3},
+                 {"off/a/b.data", {HD_CURVE_SRGB, 8, false}, 5e-3},
+                 {"png", {HD_CURVE_LINEAR, 8, false}, 1e-7}};
     for (size_t f = 0; f < sizeof files / sizeof *files; f++) {
         HdTexture texture;
         HdFrame frame = make_frame(259, 7);
@@ -69,6 +71,40 @@ TEST(textures_come_off_the_curve) {
     assert_int_equal(read_bytes("png", bytes, sizeof bytes), 8 + 259 * 7 * 4);
     assert_memory_equal(bytes, "\3\1\0\0\7\0\0\0", 8);
     assert_int_equal(bytes[11], 255);
+}
+
+/* The colours are those of the objects alone, with the background taken away. */
+TEST(png_has_alpha_if_the_style_asks_for_it) {
+    static const float seen[] = {0.5f, 0.25f, 1.0f, 0.0f, 0.125f, 0.5f, 0.25f, 0.25f, 0.25f},
+                       alphas[] = {1.0f, 0.0f, 0.25f};
+    static const unsigned char png8[] = {128, 64, 255, 255, 0, 0, 0, 0, 255, 159, 0, 64},
+                               png16[] = {0xff, 0xff, 0x9f, 0xff, 0, 0, 0x40, 0};
+    const HdPictureLabel label = {
+        .scene = "", .options = "", .background = hd_vec3(0.0, 0.125, 0.5)};
+    for (int k = 0; k < 3; k++) {
+        HdPictureStyle style = {HD_CURVE_LINEAR, k == 1 ? 16 : 8, k < 2};
+        unsigned char raw[64];
+        unsigned long size = sizeof raw;
+        HdFrame frame;
+        assert_int_equal(hd_frame_create(&frame, 3, 1, &error), HD_OK);
+        assert_int_equal(hd_frame_add_layers(&frame, HD_LAYER_BIT(HD_LAYER_ALPHA), &error), HD_OK);
+        memcpy(frame.rgb, seen, sizeof seen);
+        memcpy(frame.first, alphas, sizeof alphas);
+        write_frame(&frame, &hd_format_png, &style, &label, "alpha.png");
+        const size_t count = read_bytes("alpha.png", bytes, sizeof bytes);
+        unsigned char *data = memmem(bytes, count, "IDAT", 4);
+        assert_int_equal(bytes[25], k < 2 ? 6 : 2);
+        assert_int_equal(uncompress(raw, &size, data + 4, (unsigned long)(bytes + count - data)),
+                         Z_OK);
+        assert_int_equal(size, k == 0 ? 13 : k == 1 ? 25 : 10);
+        const int step = k == 1 ? 8 : 4;
+        for (int i = 1 + step; i < (int)size && k < 2; i++) /* each byte less that to the left */
+            raw[i] = (unsigned char)(raw[i] + raw[i - step]);
+        if (k == 0)
+            assert_memory_equal(raw + 1, png8, sizeof png8);
+        if (k == 1)
+            assert_memory_equal(raw + 1 + 16, png16, sizeof png16);
+    }
 }
 
 /* A limit on the size of files simulates a full disk: large pictures fail while they are written,

@@ -79,7 +79,7 @@ TEST(test_every_key) {
                             .material = dark}},
         .mesh_entry_count = 2,
         .mesh_entries = meshes,
-        .output = {"out/%04d.png", {{HD_CURVE_LINEAR, 16}, 25}},
+        .output = {"out/%04d.png", {{HD_CURVE_LINEAR, 16, true}, 25, true}},
         .texture_path = "floor.png",
         .texture_curve = HD_CURVE_LINEAR};
     expect_scene(&file, rich_text, NULL);

@@ -5,7 +5,7 @@
 #include "scene_text.h"
 
 static HdSceneFile file;
-static const HdPictureStyle style = {.curve = HD_CURVE_SRGB, .bits = 8};
+static HdPictureStyle style = {.curve = HD_CURVE_SRGB, .bits = 8};
 static uint64_t usual;
 
 static uint64_t fingerprint(void) {
@@ -128,6 +128,7 @@ TEST(file_contents_change_the_fingerprint) {
                          BITS(scene->crop.top),
                          BITS(scene->crop.whole_height),
                          BITS(scene->geometry),
+                         BITS(style.has_alpha),
                          BITS(scene->accel)};
     change_each(list, sizeof list / sizeof *list, true);
     mesh.normals = NULL;
@@ -141,6 +142,7 @@ TEST(names_and_unused_values_do_not) {
                          BITS(materials[1].name),
                          BITS(materials[1].texture),
                          BITS(file.output.style.frames_per_second),
+                         BITS(file.output.style.is_ntsc),
                          BITS(file.output.path),
                          BITS(file.schema),
                          BITS(file.texture_path),

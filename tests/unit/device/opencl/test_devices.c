@@ -147,6 +147,25 @@ TEST(devices_are_found_by_number) {
 
 /* ---- errors ---- */
 
+TEST(pocl_without_a_cache_folder_is_explained) {
+    static const char pocl[] = "Portable Computing Language, OpenCL 3.0";
+    static char fault[HD_POCL_FAULT_SIZE];
+    setenv("POCL_CACHE_DIR", "/proc/x", 1);
+    assert_false(hd_pocl_lacks_cache("a platform", fault));
+    assert_true(hd_pocl_lacks_cache(pocl, fault));
+    expect_contains(fault, "its cache folder /proc/x, expected POCL_CACHE_DIR");
+    setenv("POCL_CACHE_DIR", "/tmp", 1);
+    assert_false(hd_pocl_lacks_cache(pocl, fault));
+    unsetenv("POCL_CACHE_DIR");
+    setenv("XDG_CACHE_HOME", "/proc", 1);
+    assert_true(hd_pocl_lacks_cache(pocl, fault));
+    expect_contains(fault, " /proc/pocl/kcache, ");
+    unsetenv("XDG_CACHE_HOME");
+    setenv("HOME", "/dev/null", 1);
+    assert_true(hd_pocl_lacks_cache(pocl, fault));
+    expect_contains(fault, " /dev/null/.cache/pocl/kcache, ");
+}
+
 TEST(a_lost_device_is_reported) {
     static const struct {
         const char *function;
