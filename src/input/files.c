@@ -42,7 +42,12 @@ bool hd_texture_path_is_relative(const char *path) {
            strcmp(path, HD_BUILTIN_TEXTURE) != 0;
 }
 
-HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdError *error) {
+static void note_cut_short(const HdTexture *texture, const char *path, HdProblems *notes) {
+    if (texture->is_cut_short && notes != NULL)
+        hd_problem(notes, "%s ends early, so a part of the picture is grey or coarse", path);
+}
+
+HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdProblems *notes, HdError *error) {
     HdTexture *texture = &file->scene.floor.texture;
     char expanded[HD_MAX_PATH];
     if (file->texture_path[0] == '\0')
@@ -51,7 +56,9 @@ HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdError *error) {
         return hd_texture_decode(texture, hd_default_texture, hd_default_texture_size,
                                  "the built-in texture", file->texture_curve, error);
     HD_TRY(hd_path_expand_home(file->texture_path, expanded, error));
-    return hd_texture_read(texture, expanded, file->texture_curve, error);
+    HD_TRY(hd_texture_read(texture, expanded, file->texture_curve, error));
+    note_cut_short(texture, expanded, notes);
+    return HD_OK;
 }
 
 /* Meshes */
@@ -212,6 +219,7 @@ static HdStatus read_picture(Loader *loader, const char *path, int *number) {
     }
     if (status != HD_OK)
         return status;
+    note_cut_short(&picture->texture, path, loader->notes);
     const double pixels = (double)picture->texture.width * picture->texture.height;
     *number = loader->scene->picture_count++;
     loader->capacity -= pixels * 3 * sizeof *picture->texture.texels;
