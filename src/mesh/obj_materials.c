@@ -475,8 +475,10 @@ static bool name_materials(HdNameTable *names, HdObjMemory *memory, HdMesh *mesh
         return false;
     mesh->material_count = names->count;
     for (int i = 0; i < names->count; i++) {
-        mesh->materials[i] =
-            (HdMeshMaterial){.name = names->names[i].owned, .picture = -1, .passes_as = -1};
+        mesh->materials[i] = (HdMeshMaterial){.name = names->names[i].owned,
+                                              .picture = -1,
+                                              .mask_picture = -1,
+                                              .passes_as = -1};
         names->names[i].owned = NULL;
     }
     return true;

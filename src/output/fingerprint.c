@@ -52,6 +52,7 @@ static void add_texture(uint64_t *hash, const HdTexture *texture) {
 static void add_mesh(uint64_t *hash, const HdMesh *mesh) {
     const int triangles = mesh->triangle_count;
     add_array(hash, mesh->vertices, mesh->vertex_count, sizeof *mesh->vertices);
+    add_array(hash, mesh->colours, mesh->vertex_count, sizeof *mesh->colours);
     add_array(hash, mesh->normals, mesh->normal_count, sizeof *mesh->normals);
     add_array(hash, mesh->uvs, mesh->uv_count, sizeof *mesh->uvs);
     add_array(hash, mesh->corners, triangles, sizeof *mesh->corners);
@@ -64,6 +65,7 @@ static void add_mesh(uint64_t *hash, const HdMesh *mesh) {
         const HdMeshMaterial *material = &mesh->materials[i];
         add(hash, &material->emission, sizeof material->emission);
         add_integer(hash, material->picture);
+        add_integer(hash, material->mask_picture);
         add_integer(hash, material->passes_as);
         add_integer(hash, material->is_opaque_to_shadows);
     }
