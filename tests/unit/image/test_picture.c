@@ -160,7 +160,6 @@ TEST(wrong_data_is_refused) {
         {"GIF89a\1\0\1\0", 10, " is a GIF picture, expected PNG, JPEG or the data format"},
         {"RIFF\x24\0\0\0WEBPVP8 ", 16, "is a WebP picture"},
         {"BM\x46\0\0\0\0\0\0\0", 10, "is a BMP picture"},
-        {"II*\0\x08\0\0\0\0\0", 10, "is a TIFF picture"},
         {"MM\0*\0\0\0\x08", 8, "is a TIFF picture"},
         {"\0\0\0 ftypavif\0\0\0\0", 16, "is an AVIF picture"},
         {" \n<!DOCTYPE html><html>", 23, "is a web page (HTML)"},
@@ -244,9 +243,7 @@ TEST(masks_are_alpha_or_grey) {
         uint64_t hash;
     } files[] = {{"png6_8_0", UINT64_C(0xf8a437ac0d5e91bf)},
                  {"png3_4_1_trns", UINT64_C(0x3a47d5cdb43d84ed)},
-                 {"png4_8_0", UINT64_C(0x3c5eb43d440743a3)},
-                 {"png2_8_0", UINT64_C(0xde8d8b0e5087cb3e)},
-                 {"jpeg_420", UINT64_C(0x75766bdbe07bbfb4)}};
+                 {"png2_8_0", UINT64_C(0xde8d8b0e5087cb3e)}};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         HdTexture mask;
         const size_t size = load_texture_file(files[i].name, bytes, sizeof bytes);
