@@ -86,8 +86,9 @@ struct HdFormat {
     HdStatus (*load)(HdFrame *frame, const unsigned char *bytes, size_t size, const char *name,
                      HdError *error);
 
-    /* Textures: decodes into a cleared texture, whose values stay on their curve. After a failure
-       the caller clears it, because it may hold memory. */
+    /* Textures: decodes into a cleared texture, whose values stay on their curve; alpha, if there
+       is one, in place of colours for a mask. After a failure the caller clears it, because it may
+       hold memory. */
     HdStatus (*decode)(HdTexture *texture, const unsigned char *bytes, size_t size,
                        const char *name, HdError *error);
 

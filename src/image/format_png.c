@@ -32,7 +32,7 @@ typedef struct PngReader {
     size_t allowed;   /* bytes left to read */
     const char *name; /* for messages */
     HdPictureFacts facts;
-    bool is_interlaced;
+    bool is_interlaced, wants_alpha;
     int passes; /* over the same rows */
     int next;
     char message[MESSAGE_SIZE];
@@ -86,11 +86,28 @@ static void limit_reading(png_structp png) {
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_AS_DEFAULT, (png_const_bytep) "sRGB", 1);
 }
 
-/* Converts every kind to RGB, with 16 bits if it has them, otherwise 8. */
-static void convert_to_rgb(png_structp png) {
+/* Replaces RGBA by three times A, in place. */
+static void repeat_alpha(png_structp png, png_row_infop row, png_bytep data) {
+    const size_t size = row->bit_depth / 8;
+    (void)png;
+    for (size_t i = 0; i < row->width; i++)
+        for (size_t c = 0; c < 3; c++)
+            memmove(data + (3 * i + c) * size, data + (4 * i + 3) * size, size);
+}
+
+/* Converts every kind to RGB, with 16 bits if it has them, otherwise 8; or to its alpha, if it has
+   one and that is wanted. */
+static void convert_to_rgb(png_structp png, png_infop info, bool wants_alpha) {
+    const bool has_alpha = (png_get_color_type(png, info) & PNG_COLOR_MASK_ALPHA) != 0 ||
+                           png_get_valid(png, info, PNG_INFO_tRNS) != 0;
     png_set_expand(png);
-    png_set_strip_alpha(png);
     png_set_gray_to_rgb(png);
+    if (!wants_alpha || !has_alpha) {
+        png_set_strip_alpha(png);
+        return;
+    }
+    png_set_read_user_transform_fn(png, repeat_alpha);
+    png_set_user_transform_info(png, NULL, png_get_bit_depth(png, info) == 16 ? 16 : 8, 3);
 }
 
 static bool try_head(PngReader *reader) {
@@ -104,7 +121,7 @@ static bool try_head(PngReader *reader) {
     reader->is_interlaced = png_get_interlace_type(png, info) != PNG_INTERLACE_NONE;
     reader->facts.curve =
         png_get_valid(png, info, PNG_INFO_sRGB) != 0 ? HD_CURVE_SRGB : HD_CURVE_LINEAR;
-    convert_to_rgb(png);
+    convert_to_rgb(png, info, reader->wants_alpha);
     reader->passes = png_set_interlace_handling(png);
     png_read_update_info(png, info);
     reader->facts.width = (int)png_get_image_width(png, info);
@@ -132,14 +149,17 @@ static void close_reader(void *rows) {
    chunks, and skips all but those of pixels and sRGB. Rejects a file larger than 16 MiB plus twice
    the size of its pixels. Faults of the file are HD_BAD_INPUT, here and below; HD_FAILED: out of
    memory. Returns NULL on error. */
-static PngReader *open_reader(FILE *file, const char *name, HdError *error) {
+static PngReader *open_reader(FILE *file, const char *name, bool wants_alpha, HdError *error) {
     PngReader *reader = malloc(sizeof *reader);
     if (reader == NULL) {
         hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
         return NULL;
     }
-    *reader = (PngReader){
-        .file = file, .allowed = MAX_EXTRA_BYTES, .name = name, .message = "out of memory"};
+    *reader = (PngReader){.file = file,
+                          .allowed = MAX_EXTRA_BYTES,
+                          .name = name,
+                          .wants_alpha = wants_alpha,
+                          .message = "out of memory"};
     reader->png =
         png_create_read_struct(PNG_LIBPNG_VER_STRING, reader->message, on_error, on_warning);
     if (reader->png != NULL)
@@ -395,13 +415,13 @@ static HdStatus create_texture(HdTexture *texture, const unsigned char *bytes, s
 }
 
 static PngReader *open_bytes(const unsigned char *bytes, size_t size, const char *name,
-                             HdError *error) {
+                             bool wants_alpha, HdError *error) {
     FILE *file = fmemopen((void *)bytes, size, "rb"); /* only read */
     if (file == NULL) {
         hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
         return NULL;
     }
-    PngReader *reader = open_reader(file, name, error);
+    PngReader *reader = open_reader(file, name, wants_alpha, error);
     if (reader == NULL)
         fclose(file);
     return reader;
@@ -415,7 +435,7 @@ static void close_bytes(PngReader *reader) {
 static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                        const char *name, HdError *error) {
     HD_TRY(create_texture(texture, bytes, size, name, error));
-    PngReader *reader = open_bytes(bytes, size, name, error);
+    PngReader *reader = open_bytes(bytes, size, name, texture->is_mask, error);
     if (reader == NULL)
         return error->status;
     const HdStatus status = read_rows(reader, texture->texels, texture->height, error);
@@ -442,7 +462,7 @@ static HdStatus load_rows(HdFrame *frame, PngReader *reader, const char *name, H
 static HdStatus load(HdFrame *frame, const unsigned char *bytes, size_t size, const char *name,
                      HdError *error) {
     HdStatus status;
-    PngReader *reader = open_bytes(bytes, size, name, error);
+    PngReader *reader = open_bytes(bytes, size, name, false, error);
     if (reader == NULL)
         return error->status;
     const HdPictureFacts *facts = &reader->facts;
@@ -461,7 +481,7 @@ static HdStatus load(HdFrame *frame, const unsigned char *bytes, size_t size, co
 
 static HdStatus open_rows(void **rows, FILE *file, const char *path, HdPictureFacts *facts,
                           HdError *error) {
-    PngReader *reader = open_reader(file, path, error);
+    PngReader *reader = open_reader(file, path, false, error);
     if (reader == NULL)
         return error->status;
     if (reader->is_interlaced) {

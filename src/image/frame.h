@@ -112,7 +112,9 @@ enum { HD_MAX_TEXTURE_PIXELS = 1 << 28 };
 /* Linear values, 16 bits a channel, row by row from the top: r, g, b, r, g, b, ... */
 typedef struct HdTexture {
     int width, height;
-    uint16_t *texels; /* owned; width * height * 3 */
+    uint16_t *texels;  /* owned; width * height * 3 */
+    bool is_cut_short; /* its file ends early; the decoder made up the rest */
+    bool is_mask;      /* three times the opacity, not colours */
 } HdTexture;
 
 /* Checks the size against HD_MAX_TEXTURE_SIDE and the limit above, and allocates uninitialised

@@ -67,6 +67,10 @@ HdStatus hd_texture_read(HdTexture *texture, const char *path, HdCurve curve, Hd
 HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                            const char *name, HdCurve curve, HdError *error);
 
+/* Reads a mask, 0 transparent to 65535 opaque in all channels: the alpha, or if that is opaque
+   everywhere or there is none, the mean of the channels on their curve. */
+HdStatus hd_mask_read(HdTexture *mask, const char *path, HdError *error);
+
 /* Maximum of display values. Values of 8 and 16 bits are integers on this scale, so their
    differences are exact; 257 is 1/255. */
 #define HD_DISPLAY_TOP  65535.0

@@ -25,7 +25,7 @@ HdStatus hd_default_input(HdSceneFile *input, HdError *error);
 
 /* Loads the texture that the scene names, if any: the embedded one or a file ("~" is the home
    folder). */
-HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdError *error);
+HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdProblems *notes, HdError *error);
 
 /* Loads the files of the entries of "meshes", each once for all entries that agree, with their
    materials and textures. Builds the hierarchies and fills in the scene's meshes, instances and

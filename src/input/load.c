@@ -588,7 +588,7 @@ static HdStatus parse_json(json_t **root, const char *text, size_t size, const c
 /* Loads the files; only lack of memory and a signal are failures of its own. */
 static HdStatus load_files(HdSceneFile *file, const HdSceneSource *source, HdProblems *problems,
                            HdError *error) {
-    HdStatus status = hd_scene_file_load_texture(file, error);
+    HdStatus status = hd_scene_file_load_texture(file, source->file_notes, error);
     if (status == HD_BAD_INPUT)
         hd_problem(problems, "floor.texture.file: %s", error->message);
     else if (status != HD_OK)

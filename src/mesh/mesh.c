@@ -153,9 +153,11 @@ void hd_mesh_free(HdMesh *mesh) {
     for (int i = 0; mesh->materials != NULL && i < mesh->material_count; i++) {
         free(mesh->materials[i].name);
         free(mesh->materials[i].texture);
+        free(mesh->materials[i].mask);
     }
     free(mesh->materials);
     free(mesh->vertices);
+    free(mesh->colours);
     free(mesh->normals);
     free(mesh->uvs);
     free(mesh->corners);

@@ -27,7 +27,8 @@ static const Parameters defaults = {.Kd = {1.0f, 1.0f, 1.0f},
 
 typedef struct Definition {
     Parameters parameters;
-    char *texture; /* owned; NULL: none */
+    char *texture, *mask; /* owned; NULL: none */
+    HdMapOptions options; /* of the texture, or else of the mask */
     bool is_defined;
 } Definition;
 
@@ -285,29 +286,36 @@ static void keep_illum(Reader *reader, HdSpan line) {
         reader->material->parameters.illum = (int)value;
 }
 
-/* Sets the texture; the last one counts. Prefixes "./" if the mesh has no folder, so that a later
-   name can only be a file's. */
-static void set_texture(Reader *reader, HdSpan name) {
+/* Sets the path of a picture; the last one counts. Prefixes "./" if the mesh has no folder, so that
+   a later name can only be a file's. */
+static void set_picture(Reader *reader, HdSpan name, char **path) {
     HdSpan folder = folder_of(reader->libraries->path);
     if (folder.begin == folder.end)
         folder = hd_span_of("./");
-    free(reader->material->texture);
-    reader->material->texture =
-        join(reader->libraries->memory, (const HdSpan[3]){folder, reader->folder, name});
-    if (reader->material->texture != NULL)
-        fix_separators(reader->material->texture + hd_span_size(folder));
+    free(*path);
+    *path = join(reader->libraries->memory, (const HdSpan[3]){folder, reader->folder, name});
+    if (*path != NULL)
+        fix_separators(*path + hd_span_size(folder));
 }
 
-static void keep_texture(Reader *reader, HdSpan line) {
-    const HdSpan name = hd_rest(line);
-    const char *fault = file_name_fault(name);
-    if (fault == NULL && *name.begin == '-')
-        fault = "a name without options before it";
+/* Keeps a texture (map_Kd), or a mask (map_d). Both lie by the texture's options. */
+static void keep_picture(Reader *reader, HdSpan keyword, HdSpan line) {
+    Definition *to = reader->material;
+    const bool is_mask = hd_span_is(keyword, "map_d");
+    HdMapOptions options;
+    HdSpan wrong;
+    const bool has_options = hd_take_map_options(&line, &options, &wrong);
+    const HdSpan name = has_options ? hd_rest(line) : wrong;
+    const char *fault =
+        has_options ? file_name_fault(name) : "options of the format with their values";
     if (fault != NULL)
-        note(reader, "map_Kd is '%.*s', expected %s; there will be no texture", hd_span_shown(name),
-             name.begin, fault);
-    else if (reader->material != &reader->unused)
-        set_texture(reader, name);
+        note(reader, "%.*s is '%.*s', expected %s; there will be no texture",
+             hd_span_shown(keyword), keyword.begin, hd_span_shown(name), name.begin, fault);
+    if (fault != NULL || to == &reader->unused)
+        return;
+    if (!is_mask || to->texture == NULL)
+        to->options = options;
+    set_picture(reader, name, is_mask ? &to->mask : &to->texture);
 }
 
 static void note_unused(Reader *reader, HdSpan keyword) {
@@ -342,8 +350,8 @@ static void read_statement(Reader *reader, HdSpan keyword, HdSpan line) {
         keep_transparency(reader, keyword, line);
     else if (hd_span_is(keyword, "illum"))
         keep_illum(reader, line);
-    else if (hd_span_is(keyword, "map_Kd"))
-        keep_texture(reader, line);
+    else if (hd_span_is(keyword, "map_Kd") || hd_span_is(keyword, "map_d"))
+        keep_picture(reader, keyword, line);
     else
         note_unused(reader, keyword);
 }
@@ -449,7 +457,8 @@ static void define_materials(const Libraries *libraries, HdMesh *mesh) {
                  hd_span_shown(hd_span_of(material->name)), material->name);
         make_material(&definition->parameters, material, &(Notes){place, libraries->notes});
         material->texture = definition->texture;
-        definition->texture = NULL;
+        material->mask = definition->mask;
+        definition->texture = definition->mask = NULL;
     }
 }
 
@@ -475,8 +484,8 @@ static bool name_materials(HdNameTable *names, HdObjMemory *memory, HdMesh *mesh
         return false;
     mesh->material_count = names->count;
     for (int i = 0; i < names->count; i++) {
-        mesh->materials[i] =
-            (HdMeshMaterial){.name = names->names[i].owned, .picture = -1, .passes_as = -1};
+        mesh->materials[i] = (HdMeshMaterial){
+            .name = names->names[i].owned, .picture = -1, .mask_picture = -1, .passes_as = -1};
         names->names[i].owned = NULL;
     }
     return true;
@@ -488,12 +497,14 @@ static bool allocate(Libraries *libraries) {
         hd_obj_allocate(libraries->memory, count, sizeof *libraries->definitions);
     libraries->order = hd_obj_allocate(libraries->memory, count, sizeof *libraries->order);
     for (size_t i = 0; libraries->definitions != NULL && i < count; i++)
-        libraries->definitions[i] = (Definition){.parameters = defaults};
+        libraries->definitions[i] =
+            (Definition){.parameters = defaults, .options = {.scale = {1.0, 1.0}}};
     return libraries->definitions != NULL && libraries->order != NULL;
 }
 
 bool hd_obj_read_materials(HdMesh *mesh, const char *path, HdNameTable *names, char *libraries,
-                           size_t size, HdObjMemory *memory, HdProblems *notes) {
+                           size_t size, HdMapOptions **options, HdObjMemory *memory,
+                           HdProblems *notes) {
     Libraries all = {.path = path, .memory = memory, .notes = notes, .materials = names};
     if (allocate(&all))
         read_libraries(&all, libraries, size);
@@ -501,8 +512,13 @@ bool hd_obj_read_materials(HdMesh *mesh, const char *path, HdNameTable *names, c
         define_materials(&all, mesh);
         note_undefined(&all, mesh);
     }
-    for (int i = 0; all.definitions != NULL && i < names->count; i++)
+    *options = hd_obj_allocate(memory, (size_t)names->count, sizeof **options);
+    for (int i = 0; all.definitions != NULL && i < names->count; i++) {
+        if (*options != NULL)
+            (*options)[i] = all.definitions[i].options;
         free(all.definitions[i].texture);
+        free(all.definitions[i].mask);
+    }
     free(all.definitions);
     free(all.order);
     return !memory->has_refused;

@@ -2,11 +2,13 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include <errno.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/curve.h"
 #include "mesh/obj_reading.h"
 #include "system/path.h"
 
@@ -43,6 +45,8 @@ typedef struct Text {
     HdError *error;
 
     Elements elements[KIND_COUNT];
+    Row colours; /* of the first vertices, as written */
+    double largest_colour;
     Row faces;
     Row corners; /* corners of the faces, in order */
     int64_t triangle_count;
@@ -263,6 +267,27 @@ static bool keep_numbers(Text *text, Kind kind, HdSpan line) {
     return append(text, row, (size_t)kinds[kind].max_numbers * sizeof *numbers, 1, numbers);
 }
 
+/* Keeps the colour of the last vertex, if the line has one after the place. Earlier vertices
+   without one are white. */
+static bool keep_colour(Text *text, HdSpan line) {
+    static const double white[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}; /* on either scale */
+    const size_t vertices = text->elements[VERTEX].row.count;
+    double colour[3];
+    for (int i = 0; i < 3; i++)
+        hd_next_word(&line);
+    for (int i = 0; i < 3; i++) {
+        const HdSpan word = hd_next_word(&line);
+        if (is_statement_end(word) || hd_number_fault(word, &colour[i]) != NULL)
+            return true;
+    }
+    for (int i = 0; i < 3; i++)
+        text->largest_colour = fmax(text->largest_colour, colour[i]);
+    while (text->colours.count < vertices - 1)
+        if (!append(text, &text->colours, sizeof white, 1, white))
+            return false;
+    return append(text, &text->colours, sizeof colour, 1, colour);
+}
+
 /* Reads "-12" or "12"; without digits, `*number` is 0. Returns NULL if there are too many
    digits. */
 static const char *read_index(const char *at, const char *end, bool *has_digits, int64_t *number) {
@@ -394,7 +419,7 @@ static bool take_line(Text *text, HdSpan line) {
     if (is_statement_end(word))
         return true;
     if (hd_span_is(word, "v"))
-        return keep_numbers(text, VERTEX, line);
+        return keep_numbers(text, VERTEX, line) && keep_colour(text, line);
     if (hd_span_is(word, "f"))
         return keep_face(text, line);
     if (hd_span_is(word, "vn"))
@@ -449,6 +474,7 @@ static void *release_numbers(Text *text, Kind kind) {
 static void free_text(Text *text) {
     for (int kind = 0; kind < KIND_COUNT; kind++)
         free(text->elements[kind].row.data);
+    free(text->colours.data);
     free(text->faces.data);
     free(text->corners.data);
     free(text->libraries.data);
@@ -456,6 +482,24 @@ static void free_text(Text *text) {
 }
 
 /* ---- from the text to the mesh ---- */
+
+/* Moves the colours of vertices to the mesh as light. Exporters write sRGB, up to 1 or 255. */
+static bool move_colours(Text *text, HdMesh *mesh) {
+    const double white = text->largest_colour > 1.0 ? 255.0 : 1.0;
+    const size_t count = (size_t)mesh->vertex_count;
+    const double *from = text->colours.data;
+    if (from == NULL)
+        return true;
+    double *to = hd_obj_allocate(text->memory, count, sizeof *mesh->colours);
+    if (to == NULL)
+        return false;
+    for (size_t i = 0; i < 3 * count; i++) {
+        const double share = i < 3 * text->colours.count ? from[i] / white : 1.0;
+        to[i] = hd_curve_to_linear(HD_CURVE_SRGB, fmin(fmax(share, 0.0), 1.0));
+    }
+    mesh->colours = (HdVec3 *)to;
+    return true;
+}
 
 /* Moves the elements to the mesh; drops texture coordinates and normals that no corner names. */
 static void move_elements(Text *text, HdMesh *mesh) {
@@ -558,11 +602,19 @@ static HdStatus take_faces(const Text *text, HdMesh *mesh) {
 }
 
 static HdStatus take_mesh(Text *text, HdMesh *mesh) {
+    HdMapOptions *options = NULL;
     move_elements(text, mesh);
-    if (!hd_obj_read_materials(mesh, text->path, &text->names, text->libraries.data,
-                               text->libraries.count, text->memory, text->notes))
-        return fail_memory(text);
-    HD_TRY(take_faces(text, mesh));
+    HdStatus status = HD_OK;
+    if (!move_colours(text, mesh) ||
+        !hd_obj_read_materials(mesh, text->path, &text->names, text->libraries.data,
+                               text->libraries.count, &options, text->memory, text->notes))
+        status = fail_memory(text);
+    if (status == HD_OK)
+        status = take_faces(text, mesh);
+    if (status == HD_OK && !hd_obj_place_pictures(mesh, options, text->memory))
+        status = fail_memory(text);
+    free(options);
+    HD_TRY(status);
     const int count = mesh->triangle_count;
     hd_mesh_drop_degenerate(mesh);
     if (mesh->triangle_count == 0)

@@ -49,6 +49,7 @@ static void add_texture(uint64_t *hash, const HdTexture *texture) {
 static void add_mesh(uint64_t *hash, const HdMesh *mesh) {
     const int triangles = mesh->triangle_count;
     add_array(hash, mesh->vertices, mesh->vertex_count, sizeof *mesh->vertices, sizeof(double));
+    add_array(hash, mesh->colours, mesh->vertex_count, sizeof *mesh->colours, sizeof(double));
     add_array(hash, mesh->normals, mesh->normal_count, sizeof *mesh->normals, sizeof(double));
     add_array(hash, mesh->uvs, mesh->uv_count, sizeof *mesh->uvs, sizeof(double));
     add_array(hash, mesh->corners, triangles, sizeof *mesh->corners, sizeof(int32_t));
@@ -63,6 +64,7 @@ static void add_mesh(uint64_t *hash, const HdMesh *mesh) {
         *hash =
             hd_hash_numbers(*hash, &material->emission, sizeof material->emission, sizeof(double));
         add_integer(hash, material->picture);
+        add_integer(hash, material->mask_picture);
         add_integer(hash, material->passes_as);
         add_integer(hash, material->is_opaque_to_shadows);
     }

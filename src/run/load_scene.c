@@ -147,7 +147,7 @@ HdStatus hd_load_scene(HdSceneFile *file, const HdScenePlan *plan, HdProblems *n
     HD_TRY(status);
     status = hd_scene_apply_numbers(&file->scene, plan, error);
     if (status == HD_OK && plan->is_classic)
-        status = hd_scene_file_load_texture(file, error);
+        status = hd_scene_file_load_texture(file, notes, error);
     if (status == HD_OK)
         status = apply_geometry(&file->scene, plan, error);
     if (status != HD_OK)

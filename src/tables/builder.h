@@ -28,7 +28,8 @@ typedef struct HdLightSource {
 
 /* Counts of entries in the tables of meshes. */
 typedef struct HdMeshSizes {
-    size_t triangles, nodes, wide_nodes, normals, uvs, corner_normals, corner_uvs, mesh_materials;
+    size_t triangles, nodes, wide_nodes, normals, uvs, corner_normals, corner_uvs, corner_colours,
+        mesh_materials;
 } HdMeshSizes;
 
 typedef struct HdMeshPlace {

@@ -53,6 +53,7 @@ static void size_tables(const HdBuilder *builder, HdSceneTables *tables) {
         [HD_TABLE_corner_normals] = sizes->corner_normals + 1, /* likewise */
         [HD_TABLE_mesh_uvs] = sizes->uvs,
         [HD_TABLE_corner_uvs] = sizes->corner_uvs + 1,
+        [HD_TABLE_corner_colours] = sizes->corner_colours,
         [HD_TABLE_pictures] = (size_t)builder->picture_count,
     };
     tables->table_count = HD_SCENE_TABLE_COUNT;
@@ -110,9 +111,11 @@ static void describe_shape(const HdBuilder *builder, HdSceneTables *tables) {
     for (int s = 0; s < builder->solid_count; s++)
         describe_material(tables, &scene->solids[s].face);
     for (int i = 0; i < scene->instance_count; i++)
-        for (int m = 0; m < hd_mesh_of(scene, i)->material_count; m++)
-            describe_material(
-                tables, hd_material_of(&scene->instances[i], &hd_mesh_of(scene, i)->materials[m]));
+        for (int m = 0; m < hd_mesh_of(scene, i)->material_count; m++) {
+            const HdMeshMaterial *material = &hd_mesh_of(scene, i)->materials[m];
+            describe_material(tables, hd_material_of(&scene->instances[i], material));
+            tables->cut_outs |= material->mask_picture >= 0 && hd_mesh_of(scene, i)->uvs != NULL;
+        }
 }
 
 HdStatus NAMED(hd_compile_scene)(HdSceneTables *tables, const HdScene *scene, HdError *error) {

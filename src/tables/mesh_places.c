@@ -51,6 +51,7 @@ static HdStatus add_mesh(HdBuilder *builder, const HdMesh *mesh, HdMeshPlace *pl
     sizes->triangles += triangles;
     sizes->corner_normals += mesh->normals != NULL ? 3 * triangles : 0;
     sizes->corner_uvs += mesh->uvs != NULL ? 3 * triangles : 0;
+    sizes->corner_colours += mesh->colours != NULL ? 3 * triangles : 0;
     sizes->normals += (size_t)mesh->normal_count;
     sizes->uvs += (size_t)mesh->uv_count;
     if (!hd_has_hierarchy(builder->scene, mesh))

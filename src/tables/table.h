@@ -34,6 +34,7 @@ typedef struct HdSceneTables {
     bool many_lights;     /* enough for packets of one lane to cull runs */
     bool small_tables;    /* whether they fit HD_SMALL_SCENE_TABLES and HD_SMALL_FRAME_TABLES */
     bool bounded;         /* whether pixels have an error bound */
+    bool cut_outs;        /* whether some material of a mesh has holes */
 } HdSceneTables;
 
 /* In the order of HD_FRAME_TABLES. */

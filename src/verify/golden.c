@@ -17,6 +17,7 @@ const HdSceneTables hd_golden_needs = {.plane_count = 32,
                                        .refracts = true,
                                        .lit_from_behind = true,
                                        .many_lights = true,
+                                       .cut_outs = true,
                                        .small_tables = true};
 
 static void two_lights(HdScene *scene) {
@@ -295,6 +296,14 @@ static bool many_instances(HdScene *scene, HdCamera *camera, double variant) {
     return finish_meshes(scene);
 }
 
+/* Holes in the textured instances, before others and before lights; coloured corners. */
+static bool cut_outs(HdScene *scene, HdCamera *camera, double variant) {
+    if (!many_instances(scene, camera, variant))
+        return false;
+    scene->meshes[1].materials[0].mask_picture = 0;
+    return build_colours(&scene->meshes[0]);
+}
+
 /* The look of the classic scenes, made of triangles: rims, discs, lights on edges, a floor. */
 static bool triangulated_solids(HdScene *scene, HdCamera *camera, double variant) {
     (void)variant;
@@ -438,6 +447,7 @@ const HdGoldenFrame hd_golden_frames[] = {
     {.name = "everything", TEXTURED, SIZE(80, 48, 1, 10), .change = everything},
     {.name = "bumpy-sphere", .base = bumpy_sphere},
     {.name = "many-instances", .base = many_instances},
+    {.name = "cut-outs", .base = cut_outs},
     {.name = "triangulated-solids", .base = triangulated_solids},
     {.name = "mesh-edges-and-corners", .base = mesh_edges_and_corners, .tests_build = true},
     {.name = "mesh-far-from-origin", .base = bumpy_sphere, .is_far = true},

@@ -53,11 +53,11 @@ static const Kind kinds[] = {
     {.name = "all, deep", .needs = {DEEP, SMALL, ALL}},
     {.name = "meshes", .needs = {SHALLOW, SMALL, HAS_MESHES}, .has_meshes = true},
     {.name = "all features with meshes",
-     .needs = {SHALLOW, SMALL, HAS_MESHES, ALL},
+     .needs = {SHALLOW, SMALL, HAS_MESHES, ALL, .cut_outs = true},
      .has_meshes = true},
     {.name = "error bound", .needs = {SHALLOW, SMALL, ALL, .bounded = true}, .is_bounded = true},
     {.name = "meshes in global memory, error bound",
-     .needs = {SHALLOW, HAS_MESHES, ALL, .bounded = true},
+     .needs = {SHALLOW, HAS_MESHES, ALL, .cut_outs = true, .bounded = true},
      .has_meshes = true,
      .is_bounded = true},
 };
@@ -222,7 +222,9 @@ static bool draw_mesh(Random *rng, HdScene *scene, int number) {
         return false;
     if (is_mapped)
         mesh->materials[0].picture = number;
-    return true;
+    if (is_mapped && rng->kind->needs.cut_outs)
+        mesh->materials[0].mask_picture = number;
+    return is_smooth || build_colours(mesh);
 }
 
 static bool draw_meshes(Random *rng, HdScene *scene) {
@@ -328,7 +330,8 @@ static const HdSceneTables *needs_of(const HdRandomTest *test, int kind) {
                                           .depth = 32,
                                           .node_stack = 32,
                                           .refracts = true,
-                                          .lit_from_behind = true};
+                                          .lit_from_behind = true,
+                                          .cut_outs = true};
     return test->general ? &general : &kinds[kind].needs;
 }
 

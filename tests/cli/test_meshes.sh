@@ -93,6 +93,23 @@ expect_stderr_contains 'hedron: cannot read the mesh no.obj'
 expect_refusal 2 "$hedron" new --up z new
 [[ ! -e new.json ]] || fail "'hedron new' left a file"
 rm -r scenes models/new.json
+# ---- holes everywhere: as if the mesh were not there, also for shadows; nowhere: as without them. Colours of vertices.
+variant() { # NAME STATEMENT OPTION...: the second mesh with a material of this statement, changed by sed
+    printf 'newmtl picture\n%s\n' "$2" >"models/$1.mtl"
+    sed -e "s/cube.mtl/$1.mtl/" -e '/^usemtl red/d' -e '/^f . . . .$/d' "${@:3}" models/cube.obj >"models/$1.obj"
+    render "$1.data" cubes.json --set "meshes[1].file=models/$1.obj"
+}
+render none.data cubes.json --set 'meshes[1].scale=1e-6'
+variant opaque ''
+for grey in 000 177 200 377; do
+    printf '%b' "\\1\\0\\0\\0\\1\\0\\0\\0\\0$grey\\0$grey\\0$grey\\0377" >"models/mask$grey.data"
+    variant "$grey" "map_d mask$grey.data"
+    expect_same "$grey.data" "$([[ $grey == [01]* ]] && echo none.data || echo opaque.data)"
+done
+variant red 'Kd 1 0 0'
+variant coloured '' -e 's/^v .*/& 1 0 0/'
+expect_same coloured.data red.data
+expect_different none.data opaque.data
 
 # ---- without the texture the colour stays, with a message
 rm models/picture.png

@@ -191,6 +191,19 @@ TEST(test_textures) {
         expect_vector(mesh->materials[mesh->material_of[2]].material.colour, 0.5, 0.25, 1.0);
     }
     hd_scene_file_free(&file);
+    /* A picture that repeats in one place and not in another; a mask. */
+    write_text("t/u.obj", "mtllib u.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.5\nvt 1.5 0\n"
+                          "usemtl in\nf 1/1 2/1 3/1\nusemtl out\nf 1/1 2/2 3/1\n");
+    write_text("t/u.mtl", "newmtl in\nmap_Kd grey.data\nmap_d grey.data\nnewmtl out\n"
+                          "map_Kd grey.data\nmap_d none.png\n");
+    expect_loaded(SCENE("{\"file\": \"t/u.obj\"}"));
+    assert_int_equal(file.scene.picture_count, 3);
+    const HdMeshMaterial *in = file.scene.meshes[0].materials, *out = in + 1;
+    const HdPicture *pictures = file.scene.pictures;
+    assert_int_equal(pictures[in->picture].is_clamped - pictures[out->picture].is_clamped, 1);
+    assert_true(pictures[in->mask_picture].texture.texels[0] == 128 * 257 && out->mask_picture < 0);
+    expect_contains(notes.text, "materials with this mask have no holes");
+    hd_scene_file_free(&file);
     write_text("t/none.png", "this is no picture");
     expect_loaded(SCENE("{\"file\": \"t/t.obj\"}"));
     expect_contains(notes.text, "t/none.png is neither PNG, JPEG nor the data format");

@@ -175,7 +175,7 @@ TEST(test_files_count_from_the_folder) {
 
 static HdStatus load_texture(const char *text, const char *change) {
     expect_scene(&file, text, change);
-    return hd_scene_file_load_texture(&file, &error);
+    return hd_scene_file_load_texture(&file, NULL, &error);
 }
 
 /* Middle grey on the curve is darker in linear light. */

@@ -77,6 +77,7 @@ TEST(the_last_digit_of_bright_lights_changes_it) {
 /* Contents of files */
 
 static HdVec3 vertices[3], normals[1];
+static HdVec3 colours[3];
 static double uvs[1][2];
 static int32_t corners[1][3], corner_normals[1][3], corner_uvs[1][3], material_of[1];
 static uint8_t group_of[1];
@@ -88,6 +89,7 @@ static HdMesh mesh = {.vertex_count = 3,
                       .triangle_count = 1,
                       .material_count = 1,
                       .vertices = vertices,
+                      .colours = colours,
                       .normals = normals,
                       .uvs = uvs,
                       .corners = corners,
@@ -113,6 +115,8 @@ TEST(file_contents_change_the_fingerprint) {
                          BITS(group_of),
                          BITS(materials[1].emission),
                          BITS(materials[1].picture),
+                         BITS(materials[1].mask_picture),
+                         BITS(colours),
                          BITS(materials[1].passes_as),
                          BITS(materials[1].material.diffuse),
                          BITS(instance.position),

@@ -537,7 +537,7 @@ TEST(textures_stay_in_the_folder) {
         {"", "a name"},
         {"a\x1b.png", "a name without control characters"},
         {"a\x7f.png", "a name without control characters"},
-        {"-s 1 1 1 a.png", "a name without options before it"},
+        {"-wide", "options of the format with their values"},
     };
     char text[256], shown[64];
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
@@ -557,6 +557,48 @@ TEST(textures_stay_in_the_folder) {
     }
     assert_int_equal(mkdir("-dash", 0700), 0);
     expect_texture("-dash/a.mtl", "b.png", "./-dash/b.png");
+}
+
+/* Texture, mask, u and v of corners at (0.5, 0.25), whether clamped, and notes. */
+TEST(options_of_textures_move_them) {
+    static const char *const cases[][2] = {
+        {"map_Kd -s 2 3 1 a.png", "./a.png - 1 0.75 1 0"},
+        {"map_Kd -o 0.25 -s 2 a.png", "./a.png - 1.25 0.25 0 0"},
+        {"map_Kd -clamp on -o 4 5 6", "./6 - 4.5 5.25 1 0"},
+        {"map_Kd -blendu on -mm 0 1 -texres 64 -type sphere -imfchan r -t 1 2 3 a b.png",
+         "./a b.png - 0.5 0.25 1 0"},
+        {"map_Kd -mm 0 a.png", "- - 0.5 0.25 1 1"},
+        {"map_d -s 4 m.png\nmap_Kd -s 2 a.png", "./a.png ./m.png 1 0.25 1 0"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[256];
+        snprintf(text, sizeof text, "newmtl n\nnewmtl m\n%s\n", cases[i][0]);
+        write_text("a.mtl", text);
+        HdMesh mesh = read_text("mtllib a.mtl\nvt 0.5 0.25\nvt 2 2\n" TRIANGLE
+                                "usemtl n\nf 1/2 2/2 3/1\nusemtl m\nf 1/1 2/1 3/1\nf 1 2 3\n");
+        const HdMeshMaterial *m = &mesh.materials[1];
+        const double *uv = mesh.uvs[mesh.corner_uvs[1][2]];
+        snprintf(text, sizeof text, "%s %s %g %g %d %d", m->texture ? m->texture : "-",
+                 m->mask ? m->mask : "-", uv[0], uv[1], m->is_clamped, notes.count);
+        assert_string_equal(text, cases[i][1]);
+        assert_true(mesh.uvs[mesh.corner_uvs[0][2]][0] == 0.5); /* shared before */
+        assert_true(mesh.corner_uvs[2][0] == -1 && !mesh.materials[0].is_clamped);
+        hd_mesh_free(&mesh);
+    }
+}
+
+TEST(colours_of_vertices_are_light) {
+    static const char *const lines[] = {"", " 0 0.5 1", " 0 127.5 255", " -1 255 0 1", " 1 1 x"};
+    static const HdVec3 light[] = {{1, 1, 1}, {0, 0.214041, 1}, {0, 0.214041, 1}, {0, 1, 0}};
+    for (int i = 1; i < 4; i++) {
+        char text[128];
+        snprintf(text, sizeof text, "v 0 0 0\nv 1 0 0%s\nv 0 1 0%s\nf 1 2 3\n", lines[i],
+                 lines[4 * (i % 2)]);
+        HdMesh mesh = read_text(text);
+        assert_true(mesh.colours[0].x == 1.0 && mesh.colours[2].y == 1.0);
+        assert_true(hd_length(hd_sub(mesh.colours[1], light[i])) < 1e-6);
+        hd_mesh_free(&mesh);
+    }
 }
 
 /* Every limit gives an error or a mesh, and beyond some limit always a mesh. */
