@@ -99,6 +99,18 @@ class Maker:
         return [self.solid(place, self.number(0.7, 1.1), self.chance(0.5), i == 0 and self.chance(0.7))
                 for i, place in enumerate(places)]
 
+    def nested(self, outer):
+        """Returns one to three solids, each within the last: opaque, a bubble, or of another index."""
+        found, centre, radius = [], outer["centre"], outer["circumradius"]
+        for _ in range(self.dice.choice([1, 1, 2, 3])):
+            radius *= self.number(0.15, 0.3)  # at most 0.3 + 0.03, so within any inscribed sphere
+            centre = [c + self.number(-0.015, 0.015) * radius for c in centre]
+            keys = self.solid(centre, radius, self.chance(0.7), False)
+            if self.chance(0.3):
+                keys["material"] = self.material(opaque=True, alike=True)
+            found.append(keys)
+        return found
+
     def texture(self, name):
         """Makes a picture in the data format and returns its size."""
         width, height = self.dice.randint(1, 5), self.dice.randint(1, 5)
@@ -203,6 +215,8 @@ class Maker:
             self.model()
             keys["meshes"] = [self.mesh(self.point(0.3)), self.mesh([0, 0, 1.9])][self.chance(0.3):]
         things = keys["solids"] + keys.get("meshes", [])
+        if not overlapping and keys["solids"] and self.chance(0.4):
+            keys["solids"] += self.nested(keys["solids"][0])
         inside = self.dice.choice(things) if self.chance(0.25) else {}
         keys["camera"] = self.camera(inside.get("centre") or inside.get("position"))
         return keys, self.dice.randrange(keys["camera"].get("frames", 1))
