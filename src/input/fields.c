@@ -178,7 +178,7 @@ static const HdField material_fields[] = {
 const HdObjectType hd_material_fields = TYPE(
     HdMaterial, material_fields,
     "Reflection and transmission add up to at most 1, outside and inside. A solid that refracts "
-    "may only overlap opaque ones and the floor, or be within another or around it. One-way "
+    "may overlap what is opaque or the floor, or be within another. One-way "
     "mirrors show the infinity effect: little "
     "reflection and much transmission outside, an inner_reflection of about 0.9.");
 

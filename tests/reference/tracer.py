@@ -114,10 +114,6 @@ class Solid:
         """Returns how far a point lies behind the plane of a face."""
         return self.height - dot(self.normals[face], minus(point, self.centre))
 
-    def holds(self, other):
-        """Returns whether another solid lies within this one."""
-        return all(self.room(face, corner) > 0 for face in range(len(self.normals)) for corner in other.corners)
-
     def holding(self, edge):
         """Returns the two faces of an edge."""
         return [face for face in range(len(self.normals))
@@ -471,10 +467,9 @@ class Scene:
         self.camera = Camera(keys["camera"], frame)
         materials = {name: Material(own) for name, own in keys.get("materials", {}).items()}
         self.things = [Solid(own, materials) for own in keys.get("solids", [])]
-        for solid in self.things:  # the smallest one that holds it is the innermost
-            around = [other for other in self.things if other is not solid and other.holds(solid)]
-            if around:
-                solid.index_around = min(around, key=lambda other: other.radius).material.index
+        for inner, outer in itertools.permutations(sorted(self.things, key=lambda solid: -solid.radius), 2):
+            if all(outer.room(face, corner) > 0 for face in range(len(outer.normals)) for corner in inner.corners):
+                inner.index_around = outer.material.index  # the smallest one that holds it comes last
         if "floor" in keys:
             self.things.append(Floor(keys["floor"], materials, path.parent))
         self.meshes = [Mesh(own, materials, path.parent) for own in keys.get("meshes", [])]
