@@ -80,6 +80,7 @@ typedef struct {
 typedef struct {
     Vec3 point;  /* relative to the hit object or mesh instance */
     Vec3 normal; /* unit, towards the viewer */
+    Vec3 lift;   /* to the smooth surface, on which shadow rays of the mesh itself begin */
     Vec3 emission;
     LaneMaterial material;
 } Surface;
@@ -201,29 +202,47 @@ FN Vec3 direction_of(Vec3 v) {
     return vec3_normalize(vec3_scale(v, reciprocal(most)));
 }
 
+/* Returns the way of a point of a triangle to the tangent plane of a corner, if that plane lies
+   above it, times the corner's share. All are in the mesh. */
+FN Vec3 way_to_tangent(Vec3 point, Vec3 corner, Vec3 normal, vreal share, vreal towards) {
+    vreal above = vec3_dot(normal, vec3_sub(corner, point)) * towards;
+    return vec3_scale(normal, vmax(above, splat(R(0.0))) * towards * share);
+}
+
 /* Returns the blend of the corners' normals, if the triangle has any, the viewer sees the front of
    the surface and a mirrored ray stays on it; otherwise `flat`. All normals point towards the
-   viewer. */
-FN Vec3 smooth_normal(SCENE_PARAMETERS GLOBAL const Instance *instance, vint triangle,
-                      vmask entering, const TriangleCrossing *crossing, Vec3 direction, Vec3 flat) {
-    vint within = triangle - instance->first_triangle;
+   viewer. Sets `lift` to the way, in the mesh, to the surface that such normals have (Hanika 2021,
+   Hacking the Shadow Terminator); 0 with `flat`. */
+FN Vec3 smooth_normal(SCENE_PARAMETERS GLOBAL const Instance *instance,
+                      const TriangleLanes *triangle, vmask entering,
+                      const TriangleCrossing *crossing, Vec3 direction, Vec3 flat, Vec3 *lift) {
+    vint within = triangle->number - instance->first_triangle;
+    *lift = vec3_zero();
     enum { NORMAL_STRIDE = sizeof(Vector) / sizeof(real) };
     FourWords corner = fetch_corner_words(corner_normals, instance->first_corner_normals, within);
     vmask has = ~lt_int(corner.word[0], splat_int(0));
     if (!any_lane(has))
         return flat;
     GLOBAL const real *table = (GLOBAL const real *)mesh_normals;
-    Vec3 sum = vec3_zero();
+    const vreal *share = crossing->share;
+    Vec3 sum = vec3_zero(), ways = vec3_zero();
+    Vec3 point =
+        vec3_scale_add(triangle->a, share[0],
+                       vec3_scale_add(triangle->b, share[1], vec3_scale(triangle->c, share[2])));
+    vreal towards = vselect(entering, splat(R(1.0)), splat(R(-1.0)));
     for (int i = 0; i < 3; i++) {
         vint place = vselect_int(has, corner.word[i], splat_int(0)) * NORMAL_STRIDE;
         FourReals n = fetch_four_reals(table, place);
-        sum = vec3_scale_add(vec3(n.number[0], n.number[1], n.number[2]), crossing->share[i], sum);
+        Vec3 normal = vec3(n.number[0], n.number[1], n.number[2]);
+        Vec3 at = i == 0 ? triangle->a : i == 1 ? triangle->b : triangle->c;
+        sum = vec3_scale_add(normal, share[i], sum);
+        ways = vec3_add(ways, way_to_tangent(point, at, normal, share[i], towards));
     }
-    vreal towards = vselect(entering, splat(R(1.0)), splat(R(-1.0)));
     Vec3 smooth = vec3_scale(direction_of(transform_normal(instance->to_mesh, sum)), towards);
     vreal facing = vec3_dot(smooth, direction);
     Vec3 mirrored = vec3_scale_add(smooth, facing * R(-2.0), direction);
     vmask sound = has & lt(facing, splat(R(0.0))) & lt(splat(R(0.0)), vec3_dot(mirrored, flat));
+    *lift = vec3_select(sound, ways, *lift);
     return vec3_select(sound, smooth, flat);
 }
 
@@ -390,13 +409,15 @@ FN_NOINLINE void describe_mesh(SCENE_PARAMETERS const Ray *ray, const LocalOrigi
     surface->normal = vec3_select(m, flat, surface->normal);
     Vec3 leaving = ray->direction;
     if (instance->first_corner_normals >= 0) {
-        Vec3 smooth = smooth_normal(SCENE_ARGUMENTS instance, triangle.number, hit->entering,
-                                    &crossing, ray->direction, flat);
+        Vec3 lift;
+        Vec3 smooth = smooth_normal(SCENE_ARGUMENTS instance, &triangle, hit->entering, &crossing,
+                                    ray->direction, flat, &lift);
         Vec3 mirrored =
             vec3_scale_add(smooth, vec3_dot(smooth, ray->direction) * R(-2.0), ray->direction);
         vmask flatter = lt(vec3_dot(flat, mirrored), absolute(vec3_dot(flat, leaving)));
         leaving = vec3_select(flatter, mirrored, leaving);
         surface->normal = vec3_select(m, smooth, surface->normal);
+        surface->lift = vec3_select(m, transform_vector(instance->to_world, lift), surface->lift);
     }
     set_mesh_materials(SCENE_ARGUMENTS instance, m, &triangle, &crossing, hit->entering, surface);
     step_back(instance, &triangle, normal, transform_vector(instance->to_mesh, leaving), &crossing);
@@ -410,7 +431,7 @@ FN_NOINLINE void describe_mesh(SCENE_PARAMETERS const Ray *ray, const LocalOrigi
 FN Surface surface_at(SCENE_PARAMETERS const Ray *ray, LocalOrigin local_origin, Hit *hit,
                       vmask struck) {
     Surface surface;
-    surface.point = surface.normal = surface.emission = vec3_zero();
+    surface.point = surface.normal = surface.lift = surface.emission = vec3_zero();
     surface.material = no_material();
     vmask left = struck;
     while (any_lane(left)) {

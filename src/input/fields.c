@@ -176,7 +176,7 @@ static const HdField material_fields[] = {
         "Transmission of rays inside the solid; as outside unless given"),
      NUMBER(0.0, 1.0), INNER_SIDE},
     {AT(HdMaterial, index_of_refraction, "index_of_refraction",
-        "Index inside the solid; outside it is 1. With 1 rays go straight on"),
+        "Index inside the solid; outside it is 1, or that of a solid around it"),
      NUMBER(HD_MIN_INDEX_OF_REFRACTION, HD_MAX_INDEX_OF_REFRACTION), DEFAULT(1.0)},
     {AT(HdMaterial, lit_from_behind, "lit_from_behind",
         "Whether lights behind a face shine through it"),
@@ -185,7 +185,8 @@ static const HdField material_fields[] = {
 const HdObjectType hd_material_fields = TYPE(
     HdMaterial, material_fields,
     "Reflection and transmission add up to at most 1, outside and inside. A solid that refracts "
-    "must not overlap another solid or the floor. One-way mirrors show the infinity effect: little "
+    "may overlap what is opaque or the floor, or be within another. One-way "
+    "mirrors show the infinity effect: little "
     "reflection and much transmission outside, an inner_reflection of about 0.9.");
 
 #define MATERIAL .type = HD_FIELD_MATERIAL, REQUIRED

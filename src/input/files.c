@@ -10,6 +10,7 @@
 #include "input/check.h"
 #include "input/classic.h"
 #include "mesh/mesh.h"
+#include "scene/contact.h"
 #include "scene/placement.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
@@ -294,6 +295,18 @@ static void fit_instances(const Loader *loader) {
                             loader->file->mesh_entries[i].size);
 }
 
+static HdStatus drop_second_instances(Loader *loader) {
+    int dropped;
+    HD_TRY(hd_scene_drop_second_instances(loader->scene, &dropped, loader->error));
+    if (dropped > 0)
+        hd_problem(
+            loader->notes,
+            "meshes: %d of them %s in the place of an earlier one of the same file; only the "
+            "first one counts",
+            dropped, dropped == 1 ? "is" : "are");
+    return HD_OK;
+}
+
 static HdStatus load(Loader *loader) {
     HdSceneChecker checker = {.problems = loader->problems, .naming = HD_NAMING_JSON};
     HD_TRY(place_instances(loader));
@@ -304,7 +317,7 @@ static HdStatus load(Loader *loader) {
     HD_TRY(hd_scene_build_meshes(loader->scene, loader->error));
     fit_instances(loader);
     hd_check_instances(&checker, loader->scene);
-    return HD_OK;
+    return loader->problems->count > 0 ? HD_OK : drop_second_instances(loader);
 }
 
 HdStatus hd_scene_file_load_meshes(HdSceneFile *file, HdProblems *problems, HdProblems *notes,

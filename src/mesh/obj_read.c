@@ -10,6 +10,7 @@
 
 #include "image/curve.h"
 #include "mesh/obj_reading.h"
+#include "mesh/obj_twins.h"
 #include "system/path.h"
 
 _Static_assert(sizeof(HdVec3) == 3 * sizeof(double), "three numbers of the text are a vector");
@@ -575,16 +576,26 @@ static bool cut_face(HdMesh *mesh, const Polygon *capacity, const Corner *corner
     return true;
 }
 
-static HdStatus add_faces(const Text *text, HdMesh *mesh, const Polygon *capacity) {
+static HdStatus add_faces(const Text *text, HdMesh *mesh, const Polygon *capacity,
+                          HdObjTwins *twins) {
     const Corner *corners = text->corners.data;
+    size_t twin_count = 0;
     for (size_t i = 0; i < text->faces.count; i++) {
         const Face *face = (const Face *)text->faces.data + i;
-        if (!cut_face(mesh, capacity, corners, face))
+        if (hd_obj_is_twin(twins, &corners->element[VERTEX], face->corner_count))
+            twin_count++;
+        else if (!cut_face(mesh, capacity, corners, face))
             return hd_fail(text->error, HD_BAD_INPUT,
                            "%s: face %zu is not convex and has %d corners, expected at most %d",
                            text->path, i + 1, (int)face->corner_count, (int)HD_MAX_CONCAVE_CORNERS);
         corners += face->corner_count;
     }
+    if (twin_count > 0)
+        hd_problem(
+            text->notes,
+            "%s: %zu of its faces coincide with earlier ones, corner by corner, and are left "
+            "out",
+            text->path, twin_count);
     return HD_OK;
 }
 
@@ -593,9 +604,13 @@ static HdStatus take_faces(const Text *text, HdMesh *mesh) {
     const size_t most = (size_t)text->max_corners;
     const Polygon capacity = {hd_obj_allocate(memory, most, sizeof *capacity.points),
                               hd_obj_allocate(memory, most, sizeof *capacity.triangles)};
+    HdObjTwins twins = {0};
     const bool has_memory =
-        capacity.points != NULL && capacity.triangles != NULL && allocate_triangles(text, mesh);
-    const HdStatus status = has_memory ? add_faces(text, mesh, &capacity) : fail_memory(text);
+        capacity.points != NULL && capacity.triangles != NULL && allocate_triangles(text, mesh) &&
+        hd_obj_twins_begin(&twins, mesh->vertices, KIND_COUNT, text->faces.count, memory);
+    const HdStatus status =
+        has_memory ? add_faces(text, mesh, &capacity, &twins) : fail_memory(text);
+    hd_obj_twins_end(&twins, memory);
     free(capacity.points);
     free(capacity.triangles);
     return status;

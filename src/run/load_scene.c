@@ -127,6 +127,7 @@ static HdStatus apply_geometry(HdScene *scene, const HdScenePlan *plan, HdError 
     if (plan->geometry == HD_GEOMETRY_SOLIDS && plan->divisions > 0)
         return hd_fail(error, HD_BAD_INPUT, "--divisions needs --geometry triangles");
     hd_scene_separate_contacts(scene);
+    hd_scene_nest_solids(scene);
     if (plan->geometry == HD_GEOMETRY_SOLIDS)
         return HD_OK;
     return hd_scene_triangulate(scene, DISC_SIDES, plan->divisions > 0 ? plan->divisions : 1,

@@ -36,6 +36,10 @@ HdPlatonic hd_solid_shape(const HdSolid *solid) {
     return shape;
 }
 
+bool hd_is_opaque(const HdMaterial *face) {
+    return face->transmission == 0.0 && (!face->has_inner_side || face->inner_transmission == 0.0);
+}
+
 int hd_edge_light_count(const HdSolid *solid) {
     HdPlatonic platonic;
     hd_platonic(solid->kind, &platonic);

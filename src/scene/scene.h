@@ -147,6 +147,9 @@ typedef struct HdScene {
 /* Returns the solid's shape about its centre, rotated, with circumradius 1. */
 HdPlatonic hd_solid_shape(const HdSolid *solid);
 
+/* Returns whether neither side of a face lets rays pass. */
+bool hd_is_opaque(const HdMaterial *face);
+
 /* Returns the number of lights on the edges of a valid solid. */
 int hd_edge_light_count(const HdSolid *solid);
 

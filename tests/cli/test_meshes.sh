@@ -120,6 +120,14 @@ expect_exit 0 "$hedron" check cubes.json
 expect_stdout_lines 5
 expect_stdout_contains 'cubes.json: note: cannot read the texture models/picture.png'
 
+# ---- notes of what coincides or lies within glass
+echo '{"hedron": 1, "camera": {"eye": [0, -9, 0]}, "materials": {"m": {"transmission": 1, "index_of_refraction": 1.5}},
+    "solids": [{"kind": "cube", "circumradius": 4, "material": "m"}, {"kind": "cube", "material": "m"}], "meshes": [{"file": "models/copy.obj", "material": "m"}, {"file": "models/copy.obj"}]}' >glass.json
+expect_exit 0 "$hedron" check glass.json
+for words in 'meshes: 1 of them is in the place' 'solids[1] lies within a solid' 'meshes[0] refracts and may be within solids[0]'; do
+    expect_stdout_contains "glass.json: note: $words"
+done
+
 # ---- errors
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n' >models/wrong.obj
 for words in 'no.obj: cannot read the mesh no.obj: No such file' 'models/wrong.obj: models/wrong.obj: line 4: '; do

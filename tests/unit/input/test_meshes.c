@@ -60,13 +60,16 @@ static const char corner_text[] = "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nvn 0 0 1\
 TEST(test_entries_share_meshes) {
     write_text("a.obj", corner_text);
     write_text("b.obj", corner_text);
-    expect_loaded(SCENE("{\"file\": \"b.obj\"}, {\"file\": \"a.obj\", \"position\": [1, 2, 3]},\n"
-                        "{\"file\": \"b.obj\", \"scale\": 3, \"material\": \"m\"},\n"
-                        "{\"file\": \"a.obj\", \"normals\": \"smooth\"},\n"
-                        "{\"file\": \"a.obj\", \"normals\": \"smooth\", \"crease\": 91},\n"
-                        "{\"file\": \"a.obj\", \"normals\": \"smooth\", \"crease\": 40},\n"
-                        "{\"file\": \"a.obj\", \"normals\": \"flat\"},\n"
-                        "{\"file\": \"a.obj\", \"normals\": \"flat\", \"crease\": 3}"));
+    expect_loaded(
+        SCENE("{\"file\": \"b.obj\"}, {\"file\": \"a.obj\", \"position\": [1, 2, 3]},\n"
+              "{\"file\": \"b.obj\", \"scale\": 3, \"material\": \"m\"},\n"
+              "{\"file\": \"a.obj\", \"normals\": \"smooth\"},\n"
+              "{\"file\": \"a.obj\", \"normals\": \"smooth\", \"crease\": 91},\n"
+              "{\"file\": \"a.obj\", \"normals\": \"smooth\", \"crease\": 40, \"scale\": 2},\n"
+              "{\"file\": \"a.obj\", \"normals\": \"flat\"},\n"
+              "{\"file\": \"a.obj\", \"normals\": \"flat\", \"crease\": 3, \"scale\": 2},\n"
+              "{\"file\": \"b.obj\", \"material\": \"m\"}"));
+    expect_contains(notes.text, "meshes: 1 of them is in the place of an earlier one");
     static const int meshes[] = {0, 1, 0, 2, 3, 2, 4, 4};
     const HdScene *scene = &file.scene;
     assert_int_equal(scene->mesh_count, 5);

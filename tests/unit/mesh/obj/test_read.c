@@ -54,8 +54,8 @@ static void expect_refused(const char *text, const char *message) {
 TEST(all_parts_of_a_face_are_read) {
     HdMesh mesh = read_text("v -1.5 +2 .5e1 1.0\nv 1 0 0 0.5 0.5 0.5\nv\t0\t1\t-0.25E-1\n"
                             "vt 0.25 0.5 0\nvt 0.75\nvn 0 0 2\nvn 0 0 0\n"
-                            "f 1/1/1 2/2/1 3//2\nf 3 2/1 1//1\nf -3/-1/-2 -2/ -1//\n");
-    assert_int_equal(mesh.vertex_count, 3);
+                            "v 0 0 9\nf 1/1/1 2/2/1 3//2\nf 4 2/1 1//1\nf -3/-1/-2 -2/ -1//\n");
+    assert_int_equal(mesh.vertex_count, 4);
     assert_int_equal(mesh.triangle_count, 3);
     assert_true(mesh.vertices[0].x == -1.5 && mesh.vertices[0].y == 2 && mesh.vertices[0].z == 5);
     assert_true(mesh.vertices[2].z == (double)-0.025f);
@@ -64,7 +64,7 @@ TEST(all_parts_of_a_face_are_read) {
     assert_true(mesh.uvs[1][0] == 0.75 && mesh.uvs[1][1] == 0.0);
     assert_int_equal(mesh.normal_count, 2);
     assert_true(mesh.normals[0].z == 2.0);
-    const int32_t corners[3][3] = {{0, 1, 2}, {2, 1, 0}, {0, 1, 2}};
+    const int32_t corners[3][3] = {{0, 1, 2}, {3, 1, 0}, {1, 2, 3}};
     assert_memory_equal(mesh.corners, corners, sizeof corners);
     const int32_t uvs[3][3] = {{0, 1, -1}, {-1, 0, -1}, {1, -1, -1}};
     const int32_t normals[3][3] = {{0, 0, -1}, {-1, -1, 0}, {0, -1, -1}};
@@ -419,9 +419,10 @@ TEST(materials_are_found_by_name) {
     write_text("a.mtl", "newmtl white wood \r\nKd 0.5 0 0\r\nnewmtl b\rKd 0 0.5 0\r"
                         "newmtl b\nKd 0 0 1\nnewmtl unused\n");
     write_text("my lib.mtl", "newmtl b\nKd 0 1 1\nnewmtl c\nKd 0 0.25 0");
-    HdMesh mesh = read_text("f 1 2 3\nusemtl b\nf 1 2 3\nmtllib a.mtl\t \nmtllib my lib.mtl\n"
-                            "mtllib a.mtl\nusemtl c\nf 1 2 3\nusemtl  white wood\nf 1 2 3\n"
-                            "usemtl b\nf 1 2 3\nusemtl d\nf 1 2 3\nusemtl d\nf 1 2 3\n" TRIANGLE);
+    HdMesh mesh = read_text("f 1 2 3\nusemtl b\nf 1 2 4\nmtllib a.mtl\t \nmtllib my lib.mtl\n"
+                            "mtllib a.mtl\nusemtl c\nf 1 2 5\nusemtl  white wood\nf 1 2 6\n"
+                            "usemtl b\nf 1 2 7\nusemtl d\nf 1 2 8\nusemtl d\nf 1 2 9\n" TRIANGLE
+                            "v 0 2 0\nv 0 3 0\nv 0 4 0\nv 0 5 0\nv 0 6 0\nv 0 7 0\n");
     const char *const names[5] = {"default", "b", "c", "white wood", "d"};
     const int32_t materials[7] = {0, 1, 2, 3, 1, 4, 4};
     assert_int_equal(mesh.material_count, 5);
@@ -448,7 +449,7 @@ TEST(too_many_materials_are_refused) {
     assert_non_null(file);
     fputs(TRIANGLE, file);
     for (int i = 0; i < HD_MAX_MESH_MATERIALS; i++)
-        fprintf(file, "usemtl %d\nf 1 2 3\n", i);
+        fprintf(file, "usemtl %d\nv 0 %d 1\nf 1 2 -1\n", i, i);
     fflush(file);
     assert_int_equal(read_file(&mesh, "many.obj", much), HD_OK);
     assert_int_equal(mesh.material_count, HD_MAX_MESH_MATERIALS);
@@ -457,8 +458,29 @@ TEST(too_many_materials_are_refused) {
     fputs("usemtl x\n", file);
     fclose(file);
     assert_int_equal(read_file(&mesh, "many.obj", much), HD_BAD_INPUT);
-    assert_string_equal(error.message, "many.obj: line 131076: there are more materials than fit, "
+    assert_string_equal(error.message, "many.obj: line 196612: there are more materials than fit, "
                                        "expected at most 65536");
+}
+
+/* Faces count as one if their corners are at the same places, one after the other. */
+TEST(faces_with_the_same_corners_count_once) {
+    static const struct {
+        const char *faces;
+        int triangles, dropped;
+    } rows[] = {{"f 1 2 3\nf 3 1 2\nf 1 3 2\nf 5 2 3\n", 1, 3}, /* vertex 5 is at -0 0 0 */
+                {"f 1 2 4 3\nf 2 4 3 1\nf 3 4 2 1\nf 1 2 3\n", 3, 2},
+                {"f 1 2 3\nf 1 2 4\nf 1 2 6\n", 3, 0},
+                {"f 1 2 4 3\nf 1 4 2 3\n", 4, 0}, /* the same four in another order */
+                {"f 1 2 3\nf 1 2 3 3\nf 1 2 2\nf 1 2 2\n", 2, 1}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[256], note[64];
+        snprintf(text, sizeof text, TRIANGLE "v 1 1 0\nv -0 0 0\nv 1 1 1e-9\n%s", rows[i].faces);
+        HdMesh mesh = read_text(text);
+        snprintf(note, sizeof note, "a.obj: %d of its faces coincide", rows[i].dropped);
+        assert_int_equal(mesh.triangle_count, rows[i].triangles);
+        assert_int_equal(strstr(notes.text, note) != NULL, rows[i].dropped > 0);
+        hd_mesh_free(&mesh);
+    }
 }
 
 /* Expects `note` as the only one. */
