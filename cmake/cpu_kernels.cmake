@@ -18,6 +18,13 @@ else()
     set(HEDRON_PLAIN_KERNELS generic:4:float)
 endif()
 
+# Tests of another processor need no kernels for plain scenes, and at least those of single lanes.
+set(HEDRON_ONLY_KERNELS "" CACHE STRING "Regular expression of the kernels that are built, without those for plain scenes; empty: all")
+if(HEDRON_ONLY_KERNELS)
+    list(FILTER HEDRON_KERNELS INCLUDE REGEX "${HEDRON_ONLY_KERNELS}")
+    set(HEDRON_PLAIN_KERNELS "")
+endif()
+
 # Builds for this machine only need the kernels that its processor runs.
 if(NOT CMAKE_CROSSCOMPILING)
     include(CheckCSourceRuns)

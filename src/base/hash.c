@@ -49,8 +49,7 @@ static bool has_low_byte_first(void) {
     return first == 1;
 }
 
-/* Returns the numbers in eight bytes with the first one lowest, as machines with the low byte first
- * read them. */
+/* Returns the numbers in eight bytes as one, the first of them lowest. */
 static uint64_t word_at(const unsigned char *bytes, size_t width) {
     const size_t bits = 8 * width;
     if (width == 8 || has_low_byte_first())

@@ -80,7 +80,7 @@ void hd_progress_bar(const HdProgress *progress, const char *line, int columns, 
                      : BAR_WIDTH;
     memset(bar, '#', (size_t)filled);
     if (BAR_WIDTH + 3 + (int)strlen(line) <= columns)
-        snprintf(text, 160, "[%s] %s", bar, line);
+        snprintf(text, 160, "[%s] %.120s", bar, line);
     else
         snprintf(text, 160, "%.*s", columns, line);
 }

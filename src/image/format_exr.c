@@ -187,15 +187,16 @@ static float value_of(const HdFrame *frame, const Channel *channel, size_t pixel
 static unsigned char *fill_plane(const HdFrame *frame, const exr_coding_channel_info_t *to,
                                  size_t first, size_t count, unsigned char *plane) {
     const Channel *channel = channel_named(to->channel_name);
+    const bool is_half = to->data_type == EXR_PIXEL_HALF;
     for (size_t i = 0; i < count; i++) {
         const float value = value_of(frame, channel, first + i);
-        const uint16_t half = to->data_type == EXR_PIXEL_HALF ? half_of(value) : 0;
-        if (to->data_type == EXR_PIXEL_HALF)
+        const uint16_t half = is_half ? half_of(value) : 0;
+        if (is_half)
             memcpy(plane + i * sizeof half, &half, sizeof half);
         else
             memcpy(plane + i * sizeof value, &value, sizeof value);
     }
-    return plane + count * (size_t)to->bytes_per_element;
+    return plane + count * (is_half ? sizeof(uint16_t) : sizeof(float));
 }
 
 /* Writes the lines of a chunk, channel by channel. */

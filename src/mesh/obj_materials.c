@@ -74,7 +74,7 @@ static double clamp_noted(const Notes *notes, const char *name, double value, do
     return legal;
 }
 
-static HdVec3 colour(const Notes *notes, const char *name, const float from[3], double high) {
+static HdVec3 colour(const Notes *notes, const char *name, const float *from, double high) {
     return hd_vec3(clamp_noted(notes, name, (double)from[0], 0.0, high),
                    clamp_noted(notes, name, (double)from[1], 0.0, high),
                    clamp_noted(notes, name, (double)from[2], 0.0, high));

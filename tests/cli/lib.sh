@@ -233,6 +233,17 @@ fake() {
     chmod +x "$work/tools/$1"
 }
 
+# stop_at_third SIGNAL: from now on, with_tools, the FFmpeg of the third segment first sends it to hedron, after the second one is whole. If
+# hedron is killed it does not begin: it might make its file at any time.
+stop_at_third() {
+    fake ffmpeg "if [[ \$* == *.part-0002* ]]; then
+            until compgen -G '*.part-0001-????????????????' >/dev/null; do sleep 0.01; done
+            kill -$1 \$PPID
+            [[ $1 != KILL ]] || exit 1
+        fi
+        exec '$(command -v ffmpeg)' \"\$@\""
+}
+
 is_sanitized() {
     grep -q -a -E '__(asan|tsan)_init' "$hedron"
 }

@@ -122,19 +122,7 @@ expect_segments() {
     ! compgen -G './*.tmp-*' || fail 'temporary files are left'
 }
 
-# stop_at_third SIGNAL: from now on the FFmpeg of the third segment first sends it to hedron, after the second one is whole. If
-# hedron is killed it does not begin: it might make its file at any time.
-stop_at_third() {
-    fake ffmpeg "if [[ \$* == *.part-0002* ]]; then
-            until compgen -G '*.part-0001-????????????????' >/dev/null; do sleep 0.01; done
-            kill -$1 \$PPID
-            [[ $1 != KILL ]] || exit 1
-        fi
-        exec '$ffmpeg' \"\$@\""
-}
-
 if has_ffmpeg; then
-    ffmpeg=$(command -v ffmpeg)
     rm -r out fast
     render 6 scene.json -o 'out/%d.png' -o fresh.mkv
     rm out/0.png out/4.png out/5.png
