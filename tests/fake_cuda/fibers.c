@@ -33,11 +33,13 @@ static const char *failure;
 
 /* ---- switching stacks ---- */
 
-#ifdef __x86_64__
-
-/* Saves the registers that a function must preserve on the current stack, and stores its
-   pointer. */
+/* Saves the registers that a function must preserve on the current stack, and stores its pointer;
+   then takes those of the other stack and returns there. */
 void fake_switch(void **from, void *to);
+#if defined(__x86_64__)
+/* Words of a stack that fake_switch takes up, and which of them is the place to return to. As after
+   a call, one more word lies below an aligned place. */
+enum { SWITCHED = 8, RETURN = 6 };
 __asm__(".text\n"
         ".globl fake_switch\n"
         ".hidden fake_switch\n"
@@ -59,21 +61,41 @@ __asm__(".text\n"
         "    popq %rbp\n"
         "    ret\n"
         ".size fake_switch, . - fake_switch\n");
+#elif defined(__aarch64__)
+enum { SWITCHED = 20, RETURN = 1 };
+__asm__(".text\n"
+        ".macro pairs instruction\n"
+        "    \\instruction x29, x30, [sp]; \\instruction x19, x20, [sp, #16]\n"
+        "    \\instruction x21, x22, [sp, #32]; \\instruction x23, x24, [sp, #48]\n"
+        "    \\instruction x25, x26, [sp, #64]; \\instruction x27, x28, [sp, #80]\n"
+        "    \\instruction d8, d9, [sp, #96]; \\instruction d10, d11, [sp, #112]\n"
+        "    \\instruction d12, d13, [sp, #128]; \\instruction d14, d15, [sp, #144]\n"
+        ".endm\n"
+        ".globl fake_switch\n"
+        ".hidden fake_switch\n"
+        ".type fake_switch, @function\n"
+        "fake_switch:\n"
+        "    sub sp, sp, #160\n"
+        "    pairs stp\n"
+        "    mov x9, sp\n"
+        "    str x9, [x0]\n"
+        "    mov sp, x1\n"
+        "    pairs ldp\n"
+        "    add sp, sp, #160\n"
+        "    ret\n"
+        ".size fake_switch, . - fake_switch\n");
+#else
+#error "how stacks are switched is written for x86-64 and aarch64 only"
+#endif
 
-/* Prepares a stack on which fake_switch returns to `begin`, as if called. */
+/* Prepares a stack on which fake_switch returns to `begin`. */
 static void *prepare(unsigned char *stack, void (*begin)(void)) {
-    enum { KEPT = 6 };
     uintptr_t top = ((uintptr_t)stack + STACK) & ~(uintptr_t)63;
-    void **words = (void **)top - 2; /* NOLINT(performance-no-int-to-ptr) */
-    memcpy(words, &begin, sizeof begin);
-    words -= KEPT;
-    memset(words, 0, KEPT * sizeof *words);
+    void **words = (void **)top - SWITCHED; /* NOLINT(performance-no-int-to-ptr) */
+    memset(words, 0, SWITCHED * sizeof *words);
+    memcpy(words + RETURN, &begin, sizeof begin);
     return words;
 }
-
-#else
-#error "how stacks are switched is written for x86-64 only"
-#endif
 
 static void leave(void) {
     fake_switch(&current->stack, scheduler);
