@@ -22,7 +22,7 @@
 /* ---- builds of the kernels ---- */
 
 typedef struct CpuBuild {
-    const char *instruction_set; /* "avx512", "avx2" or "generic" */
+    const char *instruction_set; /* "avx512", "avx2", "neon" or "generic" */
     int lanes;
     HdPrecision precision;
     HdCpuKernel *kernel;
@@ -50,7 +50,7 @@ static bool is_supported(const char *set) {
     if (strcmp(set, "avx2") == 0)
         return avx2;
 #endif
-    return strcmp(set, "generic") == 0;
+    return strcmp(set, "neon") == 0 || strcmp(set, "generic") == 0;
 }
 
 const char *hd_cpu_best_instruction_set(void) {
@@ -68,13 +68,13 @@ static const CpuBuild *find_build(int lanes, HdPrecision precision) {
     return NULL;
 }
 
-static int max_lanes(HdPrecision precision) {
-    int most = 1;
+/* Returns the lane counts for HdDevice.lanes. */
+static int offered_lanes(HdPrecision precision) {
+    int offered = 0;
     for (const CpuBuild *build = builds; build < builds + BUILD_COUNT; build++)
-        if (build->lanes > most && build->precision == precision &&
-            is_supported(build->instruction_set))
-            most = build->lanes;
-    return most;
+        if (build->precision == precision && is_supported(build->instruction_set))
+            offered |= build->lanes;
+    return offered;
 }
 
 /* ---- the backend ---- */
@@ -116,7 +116,7 @@ static HdStatus c_enumerate(HdDevice *devices, int capacity, int *count, HdError
     hd_processor_name("", device->name, sizeof device->name);
     describe_cores(device->driver, sizeof device->driver);
     for (int p = HD_PRECISION_FLOAT; p <= HD_PRECISION_DOUBLE; p++)
-        device->max_lanes[p] = max_lanes((HdPrecision)p);
+        device->lanes[p] = offered_lanes((HdPrecision)p);
     return HD_OK;
 }
 

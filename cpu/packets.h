@@ -17,6 +17,9 @@
 #endif
 #ifdef HD_INTRINSIC
 #include <immintrin.h>
+#elif defined(__aarch64__) && HD_LANES * (HD_DOUBLE + 1) <= 8
+#define HD_NEON
+#include <arm_neon.h>
 #endif
 
 #if HD_DOUBLE
@@ -67,9 +70,11 @@ FN vint to_int(vreal a) {
 FN vreal to_real(vint a) {
     return __builtin_convertvector(a, vreal);
 }
+#ifndef HD_NEON
 FN vfix truncate_to_fix(vreal a) {
     return __builtin_convertvector(a, vfix);
 }
+#endif
 FN vreal load_reals(const real *from) {
     vreal a;
     __builtin_memcpy(&a, from, sizeof a);
@@ -288,6 +293,17 @@ FN FourReals load_rows(const real *table, vint index, int count) {
 
 #else
 
+FN vreal vselect(vmask m, vreal a, vreal b) {
+    return (vreal)((m & (vmask)a) | (~m & (vmask)b));
+}
+FN vint vselect_int(vmask m, vint a, vint b) {
+    return (m & a) | (~m & b);
+}
+
+#ifdef HD_NEON
+#include "cpu/neon.h"
+#else
+
 /* ---- other packets, lane by lane: compilers lack these vector operations ---- */
 
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
@@ -308,12 +324,8 @@ FN int any_lane(vmask m) {
         joined |= m[lane];
     return joined != 0;
 }
-FN vreal vselect(vmask m, vreal a, vreal b) {
-    return (vreal)((m & (vmask)a) | (~m & (vmask)b));
-}
-FN vint vselect_int(vmask m, vint a, vint b) {
-    return (m & a) | (~m & b);
-}
+
+#endif
 
 #endif
 
