@@ -9,13 +9,15 @@ enum { PARTS = HD_LANES * (HD_DOUBLE + 1) / 4 };
 #if HD_DOUBLE
 typedef float64x2_t RealPart;
 typedef int64x2_t IntPart;
-#define HD_NEON_REALS(name) name##q_f64
-#define HD_NEON_INTS(name)  name##q_s64
+#define HD_NEON_REALS(name)       name##q_f64
+#define HD_NEON_INTS(name)        name##q_s64
+#define HD_NEON_CONVERT(to, from) vcvtq_##to##64_##from##64
 #else
 typedef float32x4_t RealPart;
 typedef int32x4_t IntPart;
-#define HD_NEON_REALS(name) name##q_f32
-#define HD_NEON_INTS(name)  name##q_s32
+#define HD_NEON_REALS(name)       name##q_f32
+#define HD_NEON_INTS(name)        name##q_s32
+#define HD_NEON_CONVERT(to, from) vcvtq_##to##32_##from##32
 #endif
 
 FN RealPart real_part(const vreal *a, int i) {
@@ -35,17 +37,32 @@ FN void set_int_part(vint *a, int i, IntPart part) {
     __builtin_memcpy((char *)a + i * (int)sizeof part, &part, sizeof part);
 }
 
-FN vreal multiply_add(vreal a, vreal b, vreal c) {
+FN vreal splat(real a) {
     vreal r;
     for (int i = 0; i < PARTS; i++)
-        set_real_part(&r, i,
-                      HD_NEON_REALS(vfma)(real_part(&c, i), real_part(&a, i), real_part(&b, i)));
+        set_real_part(&r, i, a - (RealPart){0});
     return r;
 }
-FN vreal built_in_root(vreal a) {
+FN vbits splat_bits(real_bits a) {
+    vbits r;
+    for (int i = 0; i < PARTS; i++)
+        set_int_part(&r, i, a - (IntPart){0});
+    return r;
+}
+FN vint splat_int(int a) {
+    return splat_bits(a);
+}
+
+FN vint to_int(vreal a) {
+    vint r;
+    for (int i = 0; i < PARTS; i++)
+        set_int_part(&r, i, HD_NEON_CONVERT(s, f)(real_part(&a, i)));
+    return r;
+}
+FN vreal to_real(vint a) {
     vreal r;
     for (int i = 0; i < PARTS; i++)
-        set_real_part(&r, i, HD_NEON_REALS(vsqrt)(real_part(&a, i)));
+        set_real_part(&r, i, HD_NEON_CONVERT(f, s)(int_part(&a, i)));
     return r;
 }
 
@@ -66,7 +83,53 @@ FN vfix truncate_to_fix(vreal a) {
     return r;
 }
 
-/* ---- masks ---- */
+FN vreal multiply_add(vreal a, vreal b, vreal c) {
+    vreal r;
+    for (int i = 0; i < PARTS; i++)
+        set_real_part(&r, i,
+                      HD_NEON_REALS(vfma)(real_part(&c, i), real_part(&a, i), real_part(&b, i)));
+    return r;
+}
+FN vreal built_in_root(vreal a) {
+    vreal r;
+    for (int i = 0; i < PARTS; i++)
+        set_real_part(&r, i, HD_NEON_REALS(vsqrt)(real_part(&a, i)));
+    return r;
+}
+
+/* ---- masks: by parts, as GCC compares packets of two registers lane by lane ---- */
+
+typedef vint vmask;
+
+#define HD_COMPARE(name, type, part, compare)                                                      \
+    FN vmask name(type a, type b) {                                                                \
+        vmask m;                                                                                   \
+        for (int i = 0; i < PARTS; i++)                                                            \
+            set_int_part(&m, i, (IntPart)compare(part(&a, i), part(&b, i)));                       \
+        return m;                                                                                  \
+    }
+HD_COMPARE(lt, vreal, real_part, HD_NEON_REALS(vclt))
+HD_COMPARE(le, vreal, real_part, HD_NEON_REALS(vcle))
+HD_COMPARE(eq_int, vint, int_part, HD_NEON_INTS(vceq))
+HD_COMPARE(lt_int, vint, int_part, HD_NEON_INTS(vclt))
+
+FN vint vselect_int(vmask m, vint a, vint b) {
+    vint r;
+    for (int i = 0; i < PARTS; i++) {
+        IntPart part = int_part(&m, i);
+        set_int_part(&r, i, (part & int_part(&a, i)) | (~part & int_part(&b, i)));
+    }
+    return r;
+}
+FN vreal vselect(vmask m, vreal a, vreal b) {
+    return from_bits(vselect_int(m, bits_of(a), bits_of(b)));
+}
+FN vmask mask_none(void) {
+    return splat_int(0);
+}
+FN vmask mask_all(void) {
+    return splat_int(-1);
+}
 
 /* Returns 64 / HD_LANES bits for each lane, the first lane in the lowest ones. */
 FN uint64_t narrowed(vmask m) {
@@ -84,6 +147,9 @@ FN uint64_t narrowed(vmask m) {
 }
 FN int any_lane(vmask m) {
     return narrowed(m) != 0;
+}
+FN int first_lane(vmask m) {
+    return __builtin_ctzll(narrowed(m)) / (64 / HD_LANES);
 }
 
 #define HD_OWN_LANE_BITS
