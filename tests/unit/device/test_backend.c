@@ -119,7 +119,7 @@ TEST(supported_requests_are_possible) {
     };
     static const HdRenderOptions impossible[] = {
         {.lanes = -1},
-        {.lanes = 2},
+        {.lanes = 3},
         {.threads = -1},
         {.threads = 1025},
         {.block = -32},
