@@ -367,13 +367,14 @@ static HdStatus try_pipelines(Tuner *tuner, HdError *error) {
 /* Tries all packets that the device supports except single rays. */
 static HdStatus try_lanes(Tuner *tuner, HdError *error) {
     static const int lanes[] = {HD_LANE_COUNTS(LISTED)};
-    int count = (int)(sizeof lanes / sizeof *lanes);
-    int most = tuner->device->max_lanes[tuner->options->precision];
-    while (most > 0 && lanes[count - 1] > most)
-        count--;
+    int offered[sizeof lanes / sizeof *lanes], count = 0;
+    const int mask = tuner->device->lanes[tuner->options->precision];
+    for (size_t i = 1; i < sizeof lanes / sizeof *lanes; i++)
+        if (mask == 0 || (mask & lanes[i]) != 0)
+            offered[count++] = lanes[i];
     HdRenderOptions options = best_so_far(tuner);
     return tuner->options->lanes == 0
-               ? try_each(tuner, &options, &options.lanes, lanes + 1, count - 1, error)
+               ? try_each(tuner, &options, &options.lanes, offered, count, error)
                : HD_OK;
 }
 

@@ -53,7 +53,7 @@ finish() {
 # lanes_there PRECISION: the lane counts that plain C supports on this processor.
 lanes_there() {
     local lanes
-    for lanes in 1 4 8 16; do
+    for lanes in 1 2 4 8 16; do
         if "$hedron" render --quiet --backend c --lanes "$lanes" --precision "$1" --frames 0 --size 16x16 --samples 1 \
             -o "$work/lanes.data" >"$work/lanes.txt" 2>&1; then
             echo "$lanes"

@@ -43,7 +43,7 @@ enum { OWN_BUILDS = 8 };
 
 static const char usage[] =
     "usage: hedron_conformance [--write-golden FILE] [--math strict|fast]\n"
-    "                          [--backend cuda|opencl|c] [--lanes 1|4|8|16]\n"
+    "                          [--backend cuda|opencl|c] [--lanes 1|2|4|8|16]\n"
     "                          [--precision float|double] [--threads 1|2]\n"
     "                          [--one-build] [--few] [--brief] [--pictures FOLDER]\n"
     "                          [--ptx ARCHITECTURE] (of CUDA; 61: compute_61, a Pascal card's)\n";

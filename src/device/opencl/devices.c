@@ -215,6 +215,8 @@ static void describe_device(HdDevice *device, Entry entry, int index) {
     query_text(entry, CL_DEVICE_NAME, device->name, sizeof device->name);
     snprintf(device->driver, sizeof device->driver, "%s, %s, driver %s", platform, version, driver);
     device->is_cpu = query(entry, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU;
+    for (int p = HD_PRECISION_FLOAT; p <= HD_PRECISION_DOUBLE; p++)
+        device->lanes[p] = 1 | 4 | 8 | 16;
     device->compute_units = query_int(entry, CL_DEVICE_MAX_COMPUTE_UNITS);
     device->clock_mhz = query_int(entry, CL_DEVICE_MAX_CLOCK_FREQUENCY);
     /* NVIDIA's extensions: the build option -cl-nv-maxrregcount, and the query of the version. */

@@ -52,7 +52,7 @@ static const struct {
     {"--cutoff", "0|0.5|1e-3|.5|1.e-1|0E+1",
      "|1|1.5|-0.1|nan|inf|abc|0.1x|0x.8p0| 0.5|+0.5|.|1e|0.5e-"},
     {"--max-error", "0.5|9", "|0|-1|1e9|abc"},
-    {"--lanes", "1|4|8|16", "|0|2|3|32|-4|abc|4x| 4"},
+    {"--lanes", "1|2|4|8|16", "|0|3|32|-4|abc|4x| 4"},
     {"--threads", "1|2|64", "|0|-1|1.5|abc|100000|99999999999999999999"},
     {"--pipeline", "auto|mega|wavefront|wavefront-uncompacted", "|Mega|wave|1"},
     {"--geometry", "solids|triangles", "|solid|Triangles|1"},
