@@ -10,7 +10,16 @@ if(HEDRON_SANITIZE)
     add_link_options(-fsanitize=${HEDRON_SANITIZE})
 endif()
 
+# In standard C, gcc widens float to double there, though the processor need not.
+if(CMAKE_C_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR MATCHES "^s390")
+    add_compile_options(-fexcess-precision=fast)
+endif()
+
 set(HEDRON_WARNINGS -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion)
+# Enumerations name integer constants, which are int in C; clang 19 warns where they meet a double.
+if(CMAKE_C_COMPILER_ID MATCHES "Clang")
+    list(APPEND HEDRON_WARNINGS -Wno-enum-float-conversion)
+endif()
 if(HEDRON_WERROR)
     list(APPEND HEDRON_WARNINGS -Werror)
 endif()

@@ -2,7 +2,7 @@
 # Lists the builds of the plain C kernels: instruction set, lanes, precision, kind. Renderers use the first one
 # that the processor can run, unless lanes are requested. Kinds:
 #   full     lanes that fill a register, and single lanes
-#   compare  fewer lanes, to compare bytes: at -O2, with up to half of gcc's time saved
+#   compare  other lanes, to compare bytes: at -O2, with up to half of gcc's time saved
 # Those of HEDRON_PLAIN_KERNELS are also built for plain scenes: without meshes, refraction and light from
 # behind, which take registers from code that all scenes need.
 # Processors without fused multiply-add spend their time in its emulation: one lane is the fastest there.
@@ -13,9 +13,20 @@ if(processor MATCHES "^(x86_64|amd64)$")
         avx2:1:float:full avx2:1:double:full generic:1:float:full generic:1:double:full)
     set(HEDRON_PLAIN_KERNELS avx512:16:float avx2:8:float)
     target_compile_definitions(hedron_core PRIVATE HD_CPU_X86)
+elseif(processor MATCHES "^(aarch64|arm64)$")
+    set(HEDRON_KERNELS neon:4:float:full neon:2:double:full neon:8:float:compare neon:4:double:compare
+        neon:1:float:full neon:1:double:full)
+    set(HEDRON_PLAIN_KERNELS neon:4:float)
 else()
     set(HEDRON_KERNELS generic:4:float:full generic:4:double:full generic:1:float:full generic:1:double:full)
     set(HEDRON_PLAIN_KERNELS generic:4:float)
+endif()
+
+# Tests of another processor need no kernels for plain scenes, and at least those of single lanes.
+set(HEDRON_ONLY_KERNELS "" CACHE STRING "Regular expression of the kernels that are built, without those for plain scenes; empty: all")
+if(HEDRON_ONLY_KERNELS)
+    list(FILTER HEDRON_KERNELS INCLUDE REGEX "${HEDRON_ONLY_KERNELS}")
+    set(HEDRON_PLAIN_KERNELS "")
 endif()
 
 # Builds for this machine only need the kernels that its processor runs.
@@ -30,7 +41,7 @@ endif()
 # tests of the kernels' functions its packets' memory accesses. Kernels for plain scenes have no code of their own.
 if(HEDRON_SANITIZE)
     set(HEDRON_PLAIN_KERNELS "")
-    list(TRANSFORM HEDRON_KERNELS REPLACE ":([48]):double:full$" ":\\1:double:compare")
+    list(TRANSFORM HEDRON_KERNELS REPLACE ":([248]):double:full$" ":\\1:double:compare")
     if(HEDRON_RUNS_AVX512)
         list(FILTER HEDRON_KERNELS EXCLUDE REGEX "^avx2:8:|^generic:")
     elseif(HEDRON_RUNS_AVX2)
@@ -50,6 +61,7 @@ endif()
 set(HEDRON_KERNEL_WARNINGS ${HEDRON_WARNINGS} -Wno-unused-parameter -Wno-psabi ${no_false_alarms})
 
 set(flags_generic "")
+set(flags_neon "")
 set(flags_avx2 -mavx2 -mfma)
 set(flags_avx512 -mavx512f -mavx512dq -mavx512vl -mavx512bw -mavx2 -mfma
     -mprefer-vector-width=512)

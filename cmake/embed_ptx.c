@@ -25,6 +25,7 @@
                     .refracts = true,                                                              \
                     .lit_from_behind = true,                                                       \
                     .many_lights = true,                                                           \
+                    .cut_outs = true,                                                              \
                     .bounded = (has_bound)                                                         \
                 }                                                                                  \
     }

@@ -16,12 +16,13 @@ target_link_libraries(hedron_embed_ptx PRIVATE hedron_cuda_compiler)
 hedron_compile_options(hedron_embed_ptx)
 
 set(nvrtc "")
-if(EXISTS "${HEDRON_NVRTC12}" AND NOT HEDRON_SANITIZE)
+if(EXISTS "${HEDRON_NVRTC12}" AND NOT HEDRON_SANITIZE AND NOT CMAKE_CROSSCOMPILING)
     set(nvrtc ${HEDRON_NVRTC12})
 endif()
 set(HEDRON_PTX ${PROJECT_BINARY_DIR}/embedded/hd_cuda_ptx.c)
 add_custom_command(
     OUTPUT ${HEDRON_PTX}
-    COMMAND ${CMAKE_COMMAND} -E env HEDRON_CACHE=off $<TARGET_FILE:hedron_embed_ptx> ${HEDRON_PTX} ${nvrtc}
+    COMMAND ${CMAKE_COMMAND} -E env HEDRON_CACHE=off ${CMAKE_CROSSCOMPILING_EMULATOR}
+            $<TARGET_FILE:hedron_embed_ptx> ${HEDRON_PTX} ${nvrtc}
     DEPENDS hedron_embed_ptx ${nvrtc}
     VERBATIM)

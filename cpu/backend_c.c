@@ -15,13 +15,14 @@
 #include "kernels/host/shared.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
+#include "system/processor.h"
 #include "system/thread_pool.h"
 #include "tables/table.h"
 
 /* ---- builds of the kernels ---- */
 
 typedef struct CpuBuild {
-    const char *instruction_set; /* "avx512", "avx2" or "generic" */
+    const char *instruction_set; /* "avx512", "avx2", "neon" or "generic" */
     int lanes;
     HdPrecision precision;
     HdCpuKernel *kernel;
@@ -49,7 +50,7 @@ static bool is_supported(const char *set) {
     if (strcmp(set, "avx2") == 0)
         return avx2;
 #endif
-    return strcmp(set, "generic") == 0;
+    return strcmp(set, "neon") == 0 || strcmp(set, "generic") == 0;
 }
 
 const char *hd_cpu_best_instruction_set(void) {
@@ -67,31 +68,13 @@ static const CpuBuild *find_build(int lanes, HdPrecision precision) {
     return NULL;
 }
 
-static int max_lanes(HdPrecision precision) {
-    int most = 1;
+/* Returns the lane counts for HdDevice.lanes. */
+static int offered_lanes(HdPrecision precision) {
+    int offered = 0;
     for (const CpuBuild *build = builds; build < builds + BUILD_COUNT; build++)
-        if (build->lanes > most && build->precision == precision &&
-            is_supported(build->instruction_set))
-            most = build->lanes;
-    return most;
-}
-
-/* Writes the processor's name. */
-static void name_processor(char *name, size_t capacity) {
-    char line[512];
-    snprintf(name, capacity, "processor");
-    FILE *file = fopen("/proc/cpuinfo", "r");
-    if (file == NULL)
-        return;
-    while (fgets(line, sizeof line, file) != NULL) {
-        char *colon = strchr(line, ':');
-        if (strncmp(line, "model name", 10) == 0 && colon != NULL) {
-            line[strcspn(line, "\n")] = '\0';
-            snprintf(name, capacity, "%s", colon + 2);
-            break;
-        }
-    }
-    fclose(file);
+        if (build->precision == precision && is_supported(build->instruction_set))
+            offered |= build->lanes;
+    return offered;
 }
 
 /* ---- the backend ---- */
@@ -113,6 +96,16 @@ typedef struct CRenderer {
     int item_capacity;
 } CRenderer;
 
+static void describe_cores(char *text, size_t capacity) {
+    const HdCores cores = hd_processor_cores("");
+    const char *set = hd_cpu_best_instruction_set();
+    if (cores.little > 0)
+        snprintf(text, capacity, "plain C, %s, %d big and %d little cores", set, cores.big,
+                 cores.little);
+    else
+        snprintf(text, capacity, "plain C, %s, %d cores", set, cores.big);
+}
+
 static HdStatus c_enumerate(HdDevice *devices, int capacity, int *count, HdError *error) {
     (void)error;
     *count = capacity > 0 ? 1 : 0;
@@ -120,11 +113,10 @@ static HdStatus c_enumerate(HdDevice *devices, int capacity, int *count, HdError
         return HD_OK;
     HdDevice *device = &devices[0];
     *device = (HdDevice){.is_cpu = true, .has_double = true};
-    name_processor(device->name, sizeof device->name);
-    snprintf(device->driver, sizeof device->driver, "plain C, %s, %d cores",
-             hd_cpu_best_instruction_set(), hd_processor_count());
+    hd_processor_name("", device->name, sizeof device->name);
+    describe_cores(device->driver, sizeof device->driver);
     for (int p = HD_PRECISION_FLOAT; p <= HD_PRECISION_DOUBLE; p++)
-        device->max_lanes[p] = max_lanes((HdPrecision)p);
+        device->lanes[p] = offered_lanes((HdPrecision)p);
     return HD_OK;
 }
 

@@ -27,8 +27,8 @@ typedef void HdCpuKernel(const HdTable *scene, const HdTable *frame, int item,
 typedef void HdCpuFirstHits(const HdTable *scene, const HdTable *frame, int item, int floats,
                             float *hits);
 
-/* Returns the best instruction set with a build for this processor: "avx512", "avx2" or "generic".
- */
+/* Returns the best instruction set with a build for this processor: "avx512", "avx2",
+   "neon" or "generic". */
 const char *hd_cpu_best_instruction_set(void);
 
 #endif

@@ -17,6 +17,10 @@
 #endif
 #ifdef HD_INTRINSIC
 #include <immintrin.h>
+#elif defined(__AARCH64EL__) && HD_LANES * (HD_DOUBLE + 1) <= 8
+#define HD_NEON
+#define HD_OWN_MASKS
+#include <arm_neon.h>
 #endif
 
 #if HD_DOUBLE
@@ -34,6 +38,7 @@ typedef vint vbits;
 /* Hides the array's origin from compilers, so that they read its numbers from memory. */
 #define HD_KEEP_IN_MEMORY(array) __asm__("" : "+m"(array))
 
+#ifndef HD_NEON
 FN vreal splat(real a) {
     return a - (vreal){0};
 }
@@ -43,6 +48,8 @@ FN vint splat_int(int a) {
 FN vbits splat_bits(real_bits a) {
     return a - (vbits){0};
 }
+#endif
+
 FN vbits bits_of(vreal a) {
     return (vbits)a;
 }
@@ -61,6 +68,7 @@ FN fixed64 lane_fix(const vfix *a, int lane) {
 FN void set_lane_int(vint *a, int lane, int value) {
     (*a)[lane] = value;
 }
+#ifndef HD_NEON
 FN vint to_int(vreal a) {
     return __builtin_convertvector(a, vint);
 }
@@ -70,6 +78,7 @@ FN vreal to_real(vint a) {
 FN vfix truncate_to_fix(vreal a) {
     return __builtin_convertvector(a, vfix);
 }
+#endif
 FN vreal load_reals(const real *from) {
     vreal a;
     __builtin_memcpy(&a, from, sizeof a);
@@ -285,6 +294,10 @@ FN FourReals load_rows(const real *table, vint index, int count) {
 }
 
 #endif
+
+#elif defined(HD_NEON)
+
+#include "cpu/neon.h"
 
 #else
 

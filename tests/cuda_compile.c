@@ -3,8 +3,8 @@
    resources that they need:
 
        cuda_compile --arch N [--nvrtc LIBRARY] [--double] [--fast] [--wavefront] [--refracts]
-                    [--lit-from-behind] [--many-lights] [--meshes] [--bounded] [--block N]
-                    [--registers N]
+                    [--lit-from-behind] [--many-lights] [--meshes] [--bounded] [--cut-outs]
+                    [--block N] [--registers N]
 
    Exit codes: 0 they compile and save no convergence barrier to a register (docs/lost-light.md),
    1 otherwise, 77 no NVRTC here supports the architecture. */
@@ -41,7 +41,8 @@ static bool parse(Options *options, int argc, char **argv) {
                  {"--refracts", &shape->needs.refracts},
                  {"--lit-from-behind", &shape->needs.lit_from_behind},
                  {"--many-lights", &shape->needs.many_lights},
-                 {"--bounded", &shape->needs.bounded}};
+                 {"--bounded", &shape->needs.bounded},
+                 {"--cut-outs", &shape->needs.cut_outs}};
     const struct {
         const char *name;
         int *number;
@@ -60,7 +61,7 @@ static bool parse(Options *options, int argc, char **argv) {
             options->nvrtc = argv[++i];
         else
             is_known = false;
-        for (int k = 0; !is_known && k < 5; k++)
+        for (int k = 0; !is_known && k < 6; k++)
             if (strcmp(argv[i], flags[k].name) == 0)
                 is_known = *flags[k].flag = true;
         for (int k = 0; !is_known && k < 3; k++)

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-const int lane_counts[LANE_COUNTS] = {1, 4, 8, 16};
-const char *const lane_names[LANE_COUNTS + 1] = {"1", "4", "8", "16", NULL};
+const int lane_counts[LANE_COUNTS] = {1, 2, 4, 8, 16};
+const char *const lane_names[LANE_COUNTS + 1] = {"1", "2", "4", "8", "16", NULL};
 const char *const precision_names[3] = {"float", "double", NULL};
 
 static bool parse_number(const char *text, uint64_t most, uint64_t *value) {

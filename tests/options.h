@@ -8,7 +8,7 @@
 
 #include "device/backend.h"
 
-enum { EXIT_USAGE = 2, EXIT_SKIPPED = 77, LANE_COUNTS = 4, ALL = -1 };
+enum { EXIT_USAGE = 2, EXIT_SKIPPED = 77, LANE_COUNTS = 5, ALL = -1 };
 extern const int lane_counts[LANE_COUNTS];
 extern const char *const lane_names[LANE_COUNTS + 1];
 extern const char *const precision_names[3];

@@ -206,7 +206,7 @@ FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
     return reals;
 }
 
-#else
+#elif !HD_DOUBLE
 FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
     FourWords words = fetch_four_words((GLOBAL const uint *)table, index);
     FourReals reals;

@@ -172,6 +172,7 @@ enum {
 #define LIT_FROM_BEHIND(header) HD_LIT_FROM_BEHIND
 #define MANY_LIGHTS(header)     HD_MANY_LIGHTS
 #define BOUNDED(header)         HD_BOUNDED
+#define CUT_OUTS(header)        (HD_CUT_OUTS && (header)->cut_outs)
 #define PIXEL_SUMS              (HD_BOUNDED ? HD_BOUNDED_SUMS : HD_RADIANCE_SUMS)
 #define MESHES(header)          (HD_NODE_STACK > 0 && (header)->instance_count > 0)
 #define NODE_STACK(header)      (HD_NODE_STACK + 1)
@@ -187,6 +188,7 @@ enum {
 #define LIT_FROM_BEHIND(header) (!HD_PLAIN && (header)->lit_from_behind)
 #define MANY_LIGHTS(header)     1
 #define BOUNDED(header)         ((header)->bounded)
+#define CUT_OUTS(header)        ((header)->cut_outs)
 #define PIXEL_SUMS              HD_BOUNDED_SUMS
 #define MESHES(header)          (!HD_PLAIN && (header)->instance_count > 0)
 #define NODE_STACK(header)      ((header)->node_stack + 1)

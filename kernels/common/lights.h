@@ -407,9 +407,9 @@ FN Vec3 passing_light(SCENE_PARAMETERS int number, Vec3 light, Vec3 to_light,
         lit = lit & ~blocked;
     }
     if (MESHES(header) && must_visit(lit))
-        light = vec3_mul(light, transmittance_of_meshes(SCENE_ARGUMENTS surface->point, to_light,
-                                                        points->object, points->face,
-                                                        points->inside, number, lit));
+        light = vec3_mul(light, transmittance_of_meshes(SCENE_ARGUMENTS surface->point,
+                                                        surface->lift, to_light, points->object,
+                                                        points->face, points->inside, number, lit));
     return light;
 }
 

@@ -5,7 +5,7 @@
 #ifndef HD_MESH_TRAVERSAL_H
 #define HD_MESH_TRAVERSAL_H
 
-#include "triangle.h"
+#include "pictures.h"
 
 /* The state of a search. */
 typedef struct {
@@ -120,6 +120,51 @@ FN void keep_filter(GLOBAL const MeshMaterial *mesh_materials, Findings *found,
     }
 }
 
+/* ---- holes ---- */
+
+/* Crossings of triangles of one instance, in the lanes of `met`. */
+typedef struct {
+    vmask met;
+    vint triangle, mesh_material;
+    vreal share[3];
+} Crossings;
+
+/* Drops crossings, of which there are some, in holes: where the picture that masks the material is
+ * below a half. */
+FN_NOINLINE void drop_holes(SCENE_PARAMETERS int number, Crossings *at) {
+    GLOBAL const Instance *instance = instances + number;
+    vmask left = at->met;
+    do {
+        int material = lane_int(&at->mesh_material, first_lane(left));
+        vmask same = left & eq_int(at->mesh_material, splat_int(material));
+        int mask = mesh_materials[material].mask;
+        left = lanes_after(left, same);
+        same = same & lt_int(splat_int(-1), splat_int(mask));
+        if (must_visit(same)) {
+            vreal u, v;
+            vint triangle = vselect_int(same, at->triangle, splat_int(instance->first_triangle));
+            vmask has =
+                coordinates_in_picture(SCENE_ARGUMENTS instance, triangle, at->share, &u, &v);
+            Vec3 opacity = sample_picture(pictures + (mask < 0 ? 0 : mask), texels, u, v);
+            at->met = at->met & ~(same & has & lt(opacity.x, splat(R(0.5))));
+        }
+    } while (any_lane(left));
+}
+
+/* Returns `met` without the crossings in holes. The copies keep the callers' values in registers.
+ */
+FN vmask without_holes(SCENE_PARAMETERS const MeshRays *rays, const TriangleLanes *triangle,
+                       vmask met, const TriangleCrossing *crossing) {
+    Crossings at;
+    at.met = met;
+    at.triangle = triangle->number;
+    at.mesh_material = triangle->mesh_material;
+    for (int i = 0; i < 3; i++)
+        at.share[i] = crossing->share[i];
+    drop_holes(SCENE_ARGUMENTS rays->object - header->floor_end, &at);
+    return at.met;
+}
+
 /* ---- leaves ---- */
 
 FN void keep_crossing(SCENE_PARAMETERS Findings *found, const MeshRays *rays,
@@ -128,6 +173,8 @@ FN void keep_crossing(SCENE_PARAMETERS Findings *found, const MeshRays *rays,
     vmask met = meet_triangles(rays, triangle, found->limit, m, &crossing);
     if (!any_lane(met))
         return;
+    if (CUT_OUTS(header))
+        met = without_holes(SCENE_ARGUMENTS rays, triangle, met, &crossing);
     if (rays->is_shadow)
         keep_filter(mesh_materials, found, rays, triangle, met, &crossing);
     else

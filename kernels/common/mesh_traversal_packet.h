@@ -110,6 +110,8 @@ FN int try_triangle_lanes(SCENE_PARAMETERS Findings *found, const MeshRays *ray,
     vmask met = meet_triangles(ray, &triangle, found->limit, m, &crossing);
     if (!any_lane(met))
         return 0;
+    if (CUT_OUTS(header))
+        met = without_holes(SCENE_ARGUMENTS ray, &triangle, met, &crossing);
     if (ray->is_shadow) {
         keep_filter(mesh_materials, found, ray, &triangle, met, &crossing);
         if (any_lane(~found->alive))

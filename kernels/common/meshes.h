@@ -207,14 +207,15 @@ FN_NOINLINE void filter_by_meshes(SCENE_PARAMETERS const WorldRays *world, const
 }
 
 /* Returns the meshes' transmittance between points of a surface and light number `light`;
-   `to_light` is the vector from each point to the light. */
-FN Vec3 transmittance_of_meshes(SCENE_PARAMETERS Vec3 point, Vec3 to_light, vint object, vint face,
-                                vmask inside, int light, vmask lit) {
+   `to_light` is the vector from each point to the light. In the mesh that a ray leaves, all of it
+   is moved by `lift`. */
+FN Vec3 transmittance_of_meshes(SCENE_PARAMETERS Vec3 point, Vec3 lift, Vec3 to_light, vint object,
+                                vint face, vmask inside, int light, vmask lit) {
     WorldRays world;
     Vec3 transmittance;
     LocalOrigin local_origin = local_origin_of(SCENE_ARGUMENTS object, 0);
     world.origin = move_to_object(SCENE_ARGUMENTS local_origin, point, header->floor_end);
-    world.own_origin = point;
+    world.own_origin = vec3_add(point, lift);
     world.direction = to_light;
     world.last_hit = object;
     world.face = face;

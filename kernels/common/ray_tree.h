@@ -157,10 +157,11 @@ FN Vec3 refract(Vec3 direction, Vec3 normal, vreal facing, vreal relative_index,
     return vec3_select(bends & ~*total, vec3_normalize(bent), direction);
 }
 
-/* Flips a lit surface, for light from behind. */
+/* Flips a lit surface, for light from behind, whose rays begin on the triangle itself. */
 FN void flip_surface(Surface *surface, LitPoints *points) {
     LaneMaterial *material = &surface->material;
     surface->normal = vec3_scale(surface->normal, splat(R(-1.0)));
+    surface->lift = vec3_zero();
     material->diffuse = material->diffuse * material->transmission;
     material->specular = splat(R(0.0));
     points->active =

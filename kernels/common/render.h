@@ -42,27 +42,17 @@ FN vint divide_int(vint a, int divisor) {
     return to_int((to_real(a) + splat(R(0.5))) * splat(shared_quotient(R(1.0), (real)divisor)));
 }
 
-/* Looks up the samples `within` the entries x, y of a listed frame; x, y become pixels of the whole
-   picture. Empty entries leave `alive`. */
-FN void listed_samples(SAMPLE_PARAMETERS vint within, vmask *alive, vint *x, vint *y, vint *column,
-                       vint *row) {
-    vint pixel = splat_int(0), sample = splat_int(-1), place = splat_int(0);
-    vint entry = *y * view->width + *x;
+/* Replaces entries x, y of a listed frame by pixels of the whole picture. Empty entries leave
+   `alive`. */
+FN void listed_pixels(SAMPLE_PARAMETERS vmask *alive, vint *x, vint *y) {
+    vint pixel = splat_int(-1), entry = *y * view->width + *x;
     vint live = vselect_int(*alive, splat_int(1), splat_int(0));
-    for (int lane = 0; lane < HD_LANES; lane++) {
-        if (!lane_int(&live, lane))
-            continue;
-        GLOBAL const int *words = entries + 2 * (uint64)lane_int(&entry, lane);
-        set_lane_int(&pixel, lane, words[0]);
-        set_lane_int(&sample, lane, words[1]);
-        if (words[1] >= 0)
-            set_lane_int(&place, lane, sample_places[words[1] + lane_int(&within, lane)]);
-    }
-    *alive = *alive & ~lt_int(sample, splat_int(0));
+    for (int lane = 0; lane < HD_LANES; lane++)
+        if (lane_int(&live, lane))
+            set_lane_int(&pixel, lane, entries[lane_int(&entry, lane)]);
+    *alive = *alive & ~(eq_int(pixel, splat_int(-1)));
     *x = pixel & 0xffff;
     *y = (pixel >> 16) & 0xffff;
-    *column = place & 0xffff;
-    *row = (place >> 16) & 0xffff;
 }
 
 /* Computes the pixels at the places of an item; returns the lanes inside the picture. */
@@ -94,9 +84,9 @@ FN vmask sample_directions(SAMPLE_PARAMETERS int item, int first, Vec3 *directio
     within = within - pixels * samples;
     vmask alive = pixels_at(view, item, pixels + first / samples, &x, &y);
     vint row, column;
-    if (view->listed) {
-        listed_samples(SAMPLE_ARGUMENTS within, &alive, &x, &y, &column, &row);
-    } else if (view->patterned) {
+    if (view->listed)
+        listed_pixels(SAMPLE_ARGUMENTS & alive, &x, &y);
+    if (view->patterned) {
         vint place = load_ints(sample_places + first % samples);
         column = place & 0xffff;
         row = (place >> 16) & 0xffff;

@@ -35,6 +35,8 @@ typedef struct ALIGNED_16 {
     int refracts;        /* whether some index of refraction is not 1 */
     int lit_from_behind; /* whether some material is */
     int bounded;         /* whether pixels have an error bound (HD_BOUNDED_SUMS) */
+    int cut_outs;        /* whether some mesh material has holes */
+    int unused_int[3];
 } Header;
 
 /* For a solid with parallel faces (Object.paired): the planes n.x = distance and n.x = -distance of
@@ -164,7 +166,8 @@ typedef struct ALIGNED_16 {
     real to_world[3][3];
     real unused[2];
     int root; /* node, a wide one if packets have several lanes; -1: kernels test every triangle */
-    int unused_int;
+    int first_corner_colours; /* place of its first triangle in corner_colours; -1: there are none
+                               */
     int first_triangle, triangle_count;
     int first_mesh_material;
     int first_face;           /* number of the face that is its group 1 */
@@ -205,7 +208,9 @@ typedef struct ALIGNED_16 {
     int filter[2][4], filter_rest[2][4]; /* red, green, blue; the fourth: whether it is opaque */
     int material;
     int picture; /* -1: none */
-    int unused_int[2];
+    int mask;    /* likewise: the picture that cuts holes, where red is below a half; only in a
+                    mesh with texture coordinates */
+    int unused_int;
 } MeshMaterial;
 
 enum {
@@ -230,9 +235,8 @@ typedef struct ALIGNED_16 {
 
    An ordinary frame samples all places of the grid, row by row. In a patterned frame, each pixel
    has the places sample_places[i] = column | row << 16 of its grid; the list is repeated to
-   HD_PATTERN_SPARE more elements, for packets across pixels. In a listed frame, pixel e is
-   entries[2 e] = x | y << 16 of the whole picture. Its samples are sample_places[entries[2 e + 1] +
-   i] = column | row << 16 of the pixel's grid; it has none if entries[2 e + 1] is negative. */
+   HD_PATTERN_SPARE more elements, for packets across pixels. In a listed frame, which is patterned,
+   pixel e is entries[e] = x | y << 16 of the whole picture, or -1: none. */
 typedef struct ALIGNED_16 {
     real forward[3], cutoff;
     real right[3], to_fixed;  /* 2^(fraction bits of a sample) */
@@ -260,7 +264,7 @@ enum { HD_PATTERN_SPARE = 16 };
     typedef char hd_size_of_##type##_is_as_documented                                              \
         [sizeof(type) == (reals) * sizeof(real) + (ints)*4 ? 1 : -1]
 HD_ASSERT_SIZE(Vector, 4, 0);
-HD_ASSERT_SIZE(Header, 12, 12);
+HD_ASSERT_SIZE(Header, 12, 16);
 HD_ASSERT_SIZE(Plane, 4, 0);
 HD_ASSERT_SIZE(Object, 16, 12);
 HD_ASSERT_SIZE(Edge, 12, 0);
@@ -324,6 +328,8 @@ HD_ASSERT_SIZE(View, 16, 12);
     X(TextureCoordinates, mesh_uvs)                                                                \
     /* [3 * triangle + corner]: places in mesh_uvs */                                              \
     X(int, corner_uvs)                                                                             \
+    /* [3 * triangle + corner]: tints of the material's colour */                                  \
+    X(Vector, corner_colours)                                                                      \
     X(Picture, pictures)
 
 /* The tables of a frame, whose arguments follow. */

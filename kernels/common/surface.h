@@ -6,11 +6,7 @@
 
 #include "meshes.h"
 
-/* ---- textures ---- */
-
-FN vreal clamp_unit(vreal a) {
-    return vmin(vmax(a, splat(R(0.0))), splat(R(1.0)));
-}
+/* ---- the floor's texture ---- */
 
 /* Computes the texture coordinates, in the unit square, of a point of the floor. With h = (a, b) -
    origin, t solves k2 t^2 + k1 t + k0 = 0. The root inside a convex quadrilateral is the one at
@@ -43,71 +39,6 @@ FN void parallelogram_coordinates(GLOBAL const FloorMap *map, Vec3 point, vreal 
     Vec3 axis_t = vec3_of(map->axis_t);
     *s = clamp_unit(vec3_dot(axis_s, point) + splat(map->start[0]));
     *t = clamp_unit(vec3_dot(axis_t, point) + splat(map->start[1]));
-}
-
-FN vreal blend(vreal a, vreal b, vreal weight) {
-    return multiply_add(weight, b - a, a);
-}
-
-FN vreal low_half(vint word) {
-    return to_real(word & 0xffff);
-}
-
-FN vreal high_half(vint word) {
-    return to_real(word >> 16 & 0xffff);
-}
-
-/* Returns texel `index` of each lane, blended with the next one; values 0..65535. */
-FN Vec3 blend_row(GLOBAL const uint *texels, vint index, vreal weight) {
-    FourWords words = fetch_four_words(texels, index + index);
-    return vec3(blend(low_half(words.word[0]), low_half(words.word[2]), weight),
-                blend(high_half(words.word[0]), high_half(words.word[2]), weight),
-                blend(low_half(words.word[1]), low_half(words.word[3]), weight));
-}
-
-/* Blends four texels: two from `place` on and two `stride` texels later. One place serves both
-   rows, so that its lanes are extracted once. */
-FN Vec3 blend_texels(GLOBAL const uint *texels, vint place, int stride, vreal across, vreal down) {
-    Vec3 above = blend_row(texels, place, across);
-    Vec3 below = blend_row(texels + 2 * stride, place, across);
-    vreal scale = splat(R(1.5259021896696422e-5)); /* 1 / 65535 */
-    return vec3(blend(above.x, below.x, down) * scale, blend(above.y, below.y, down) * scale,
-                blend(above.z, below.z, down) * scale);
-}
-
-/* Returns a coordinate of a repeating texture, in texels from the centre of the first one. */
-FN vreal repeat(vreal u, int texels) {
-    vreal part = u - to_real(to_int(u)), zero = splat(R(0.0)), whole = splat((real)texels);
-    part = vselect(lt(part, zero), part + splat(R(1.0)), part);
-    vreal at = multiply_add(part, whole, splat(R(-0.5)));
-    at = vselect(lt(at, zero), at + whole, at);
-    /* Dead lanes may hold any value. */
-    return vmin(vmax(at, zero), whole);
-}
-
-/* Returns the same for a clamped texture. */
-FN vreal stay_within(vreal u, int texels) {
-    vreal at = multiply_add(clamp_unit(u), splat((real)texels), splat(R(-0.5)));
-    return vmin(vmax(at, splat(R(0.0))), splat((real)(texels - 1)));
-}
-
-/* Returns the bilinear blend of texel centres. One more column and row follow the last ones of a
-   picture: its first ones if it repeats, any values if it does not. */
-FN Vec3 sample_picture(GLOBAL const Picture *picture, GLOBAL const uint *texels, vreal u, vreal v) {
-    vreal x, y;
-    if (picture->is_clamped) {
-        x = stay_within(u, picture->width);
-        y = stay_within(v, picture->height);
-    } else {
-        x = repeat(u, picture->width);
-        y = repeat(v, picture->height);
-    }
-    /* Rounding may have put a coordinate at the end, after the last texel. */
-    vint column = min_int(to_int(x), splat_int(picture->width - 1));
-    vint row = min_int(to_int(y), splat_int(picture->height - 1));
-    int stride = picture->width + 1;
-    vint place = row * stride + column + picture->first_texel;
-    return blend_texels(texels, place, stride, x - to_real(column), y - to_real(row));
 }
 
 /* ---- materials ---- */
@@ -149,6 +80,7 @@ typedef struct {
 typedef struct {
     Vec3 point;  /* relative to the hit object or mesh instance */
     Vec3 normal; /* unit, towards the viewer */
+    Vec3 lift;   /* to the smooth surface, on which shadow rays of the mesh itself begin */
     Vec3 emission;
     LaneMaterial material;
 } Surface;
@@ -263,11 +195,6 @@ FN void describe_floor(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Sur
 
 /* ---- meshes ---- */
 
-/* Returns the three words of each lane's triangle in a table. */
-FN FourWords fetch_corner_words(GLOBAL const int *table, int first, vint triangle) {
-    return fetch_four_words((GLOBAL const uint *)table, triangle * 3 + first);
-}
-
 /* Returns the unit vector; no component may be much smaller than the minimum normal number's root.
  */
 FN Vec3 direction_of(Vec3 v) {
@@ -275,29 +202,47 @@ FN Vec3 direction_of(Vec3 v) {
     return vec3_normalize(vec3_scale(v, reciprocal(most)));
 }
 
+/* Returns the way of a point of a triangle to the tangent plane of a corner, if that plane lies
+   above it, times the corner's share. All are in the mesh. */
+FN Vec3 way_to_tangent(Vec3 point, Vec3 corner, Vec3 normal, vreal share, vreal towards) {
+    vreal above = vec3_dot(normal, vec3_sub(corner, point)) * towards;
+    return vec3_scale(normal, vmax(above, splat(R(0.0))) * towards * share);
+}
+
 /* Returns the blend of the corners' normals, if the triangle has any, the viewer sees the front of
    the surface and a mirrored ray stays on it; otherwise `flat`. All normals point towards the
-   viewer. */
-FN Vec3 smooth_normal(SCENE_PARAMETERS GLOBAL const Instance *instance, vint triangle,
-                      vmask entering, const TriangleCrossing *crossing, Vec3 direction, Vec3 flat) {
-    vint within = triangle - instance->first_triangle;
+   viewer. Sets `lift` to the way, in the mesh, to the surface that such normals have (Hanika 2021,
+   Hacking the Shadow Terminator); 0 with `flat`. */
+FN Vec3 smooth_normal(SCENE_PARAMETERS GLOBAL const Instance *instance,
+                      const TriangleLanes *triangle, vmask entering,
+                      const TriangleCrossing *crossing, Vec3 direction, Vec3 flat, Vec3 *lift) {
+    vint within = triangle->number - instance->first_triangle;
+    *lift = vec3_zero();
     enum { NORMAL_STRIDE = sizeof(Vector) / sizeof(real) };
     FourWords corner = fetch_corner_words(corner_normals, instance->first_corner_normals, within);
     vmask has = ~lt_int(corner.word[0], splat_int(0));
     if (!any_lane(has))
         return flat;
     GLOBAL const real *table = (GLOBAL const real *)mesh_normals;
-    Vec3 sum = vec3_zero();
+    const vreal *share = crossing->share;
+    Vec3 sum = vec3_zero(), ways = vec3_zero();
+    Vec3 point =
+        vec3_scale_add(triangle->a, share[0],
+                       vec3_scale_add(triangle->b, share[1], vec3_scale(triangle->c, share[2])));
+    vreal towards = vselect(entering, splat(R(1.0)), splat(R(-1.0)));
     for (int i = 0; i < 3; i++) {
         vint place = vselect_int(has, corner.word[i], splat_int(0)) * NORMAL_STRIDE;
         FourReals n = fetch_four_reals(table, place);
-        sum = vec3_scale_add(vec3(n.number[0], n.number[1], n.number[2]), crossing->share[i], sum);
+        Vec3 normal = vec3(n.number[0], n.number[1], n.number[2]);
+        Vec3 at = i == 0 ? triangle->a : i == 1 ? triangle->b : triangle->c;
+        sum = vec3_scale_add(normal, share[i], sum);
+        ways = vec3_add(ways, way_to_tangent(point, at, normal, share[i], towards));
     }
-    vreal towards = vselect(entering, splat(R(1.0)), splat(R(-1.0)));
     Vec3 smooth = vec3_scale(direction_of(transform_normal(instance->to_mesh, sum)), towards);
     vreal facing = vec3_dot(smooth, direction);
     Vec3 mirrored = vec3_scale_add(smooth, facing * R(-2.0), direction);
     vmask sound = has & lt(facing, splat(R(0.0))) & lt(splat(R(0.0)), vec3_dot(mirrored, flat));
+    *lift = vec3_select(sound, ways, *lift);
     return vec3_select(sound, smooth, flat);
 }
 
@@ -305,22 +250,28 @@ FN Vec3 smooth_normal(SCENE_PARAMETERS GLOBAL const Instance *instance, vint tri
 FN Vec3 colour_of_picture(SCENE_PARAMETERS GLOBAL const Instance *instance,
                           GLOBAL const MeshMaterial *mesh_material, vint triangle,
                           const TriangleCrossing *crossing) {
-    enum { UV_STRIDE = sizeof(TextureCoordinates) / sizeof(real) };
     Vec3 white = vec3_splat(R(1.0), R(1.0), R(1.0));
+    vreal u, v;
     if (mesh_material->picture < 0 || instance->first_corner_uvs < 0)
         return white;
-    FourWords corner = fetch_corner_words(corner_uvs, instance->first_corner_uvs,
-                                          triangle - instance->first_triangle);
-    vmask has = ~lt_int(corner.word[0], splat_int(0));
-    GLOBAL const real *table = (GLOBAL const real *)mesh_uvs;
-    vreal u = splat(R(0.0)), v = splat(R(0.0));
-    for (int i = 0; i < 3; i++) {
-        vint place = vselect_int(has, corner.word[i], splat_int(0)) * UV_STRIDE;
-        FourReals at = fetch_four_reals(table, place);
-        u = multiply_add(at.number[0], crossing->share[i], u);
-        v = multiply_add(at.number[1], crossing->share[i], v);
-    }
+    vmask has = coordinates_in_picture(SCENE_ARGUMENTS instance, triangle, crossing->share, &u, &v);
     return vec3_select(has, sample_picture(pictures + mesh_material->picture, texels, u, v), white);
+}
+
+/* Returns the blend of the corners' colours of a mesh that has them. */
+FN Vec3 colour_of_corners(SCENE_PARAMETERS GLOBAL const Instance *instance, vint triangle,
+                          const TriangleCrossing *crossing) {
+    enum { COLOUR_STRIDE = sizeof(Vector) / sizeof(real) };
+    GLOBAL const real *table =
+        (GLOBAL const real *)(corner_colours + instance->first_corner_colours);
+    vint place = (triangle - instance->first_triangle) * (3 * COLOUR_STRIDE);
+    Vec3 sum = vec3_zero();
+    for (int i = 0; i < 3; i++) {
+        FourReals at = fetch_four_reals(table, place + i * COLOUR_STRIDE);
+        sum =
+            vec3_scale_add(vec3(at.number[0], at.number[1], at.number[2]), crossing->share[i], sum);
+    }
+    return sum;
 }
 
 FN void set_mesh_materials(SCENE_PARAMETERS GLOBAL const Instance *instance, vmask m,
@@ -335,6 +286,10 @@ FN void set_mesh_materials(SCENE_PARAMETERS GLOBAL const Instance *instance, vma
         material.colour =
             vec3_mul(material.colour, colour_of_picture(SCENE_ARGUMENTS instance, mesh_material,
                                                         triangle->number, crossing));
+        if (instance->first_corner_colours >= 0)
+            material.colour =
+                vec3_mul(material.colour,
+                         colour_of_corners(SCENE_ARGUMENTS instance, triangle->number, crossing));
         set_material(surface, same, material);
         surface->emission = vec3_select(same, vec3_of(mesh_material->emission), surface->emission);
     }
@@ -454,13 +409,15 @@ FN_NOINLINE void describe_mesh(SCENE_PARAMETERS const Ray *ray, const LocalOrigi
     surface->normal = vec3_select(m, flat, surface->normal);
     Vec3 leaving = ray->direction;
     if (instance->first_corner_normals >= 0) {
-        Vec3 smooth = smooth_normal(SCENE_ARGUMENTS instance, triangle.number, hit->entering,
-                                    &crossing, ray->direction, flat);
+        Vec3 lift;
+        Vec3 smooth = smooth_normal(SCENE_ARGUMENTS instance, &triangle, hit->entering, &crossing,
+                                    ray->direction, flat, &lift);
         Vec3 mirrored =
             vec3_scale_add(smooth, vec3_dot(smooth, ray->direction) * R(-2.0), ray->direction);
         vmask flatter = lt(vec3_dot(flat, mirrored), absolute(vec3_dot(flat, leaving)));
         leaving = vec3_select(flatter, mirrored, leaving);
         surface->normal = vec3_select(m, smooth, surface->normal);
+        surface->lift = vec3_select(m, transform_vector(instance->to_world, lift), surface->lift);
     }
     set_mesh_materials(SCENE_ARGUMENTS instance, m, &triangle, &crossing, hit->entering, surface);
     step_back(instance, &triangle, normal, transform_vector(instance->to_mesh, leaving), &crossing);
@@ -474,7 +431,7 @@ FN_NOINLINE void describe_mesh(SCENE_PARAMETERS const Ray *ray, const LocalOrigi
 FN Surface surface_at(SCENE_PARAMETERS const Ray *ray, LocalOrigin local_origin, Hit *hit,
                       vmask struck) {
     Surface surface;
-    surface.point = surface.normal = surface.emission = vec3_zero();
+    surface.point = surface.normal = surface.lift = surface.emission = vec3_zero();
     surface.material = no_material();
     vmask left = struck;
     while (any_lane(left)) {

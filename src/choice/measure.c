@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "device/kernel_source.h"
 #include "render/frame.h"
+#include "scene/sample_pattern.h"
 #include "system/cache_folder.h"
 #include "system/machine.h"
 #include "verify/trust.h"
@@ -82,7 +83,7 @@ static HdStatus render_share(HdRenderer *renderer, const HdJob *job, double shar
 }
 
 static double count_samples(const HdScene *scene) {
-    return (double)scene->samples_per_side * scene->samples_per_side * scene->width * scene->height;
+    return (double)hd_sample_count(scene) * scene->width * scene->height;
 }
 
 /* Starts with few samples, for thousands of lights make each one slow. */
@@ -366,13 +367,14 @@ static HdStatus try_pipelines(Tuner *tuner, HdError *error) {
 /* Tries all packets that the device supports except single rays. */
 static HdStatus try_lanes(Tuner *tuner, HdError *error) {
     static const int lanes[] = {HD_LANE_COUNTS(LISTED)};
-    int count = (int)(sizeof lanes / sizeof *lanes);
-    int most = tuner->device->max_lanes[tuner->options->precision];
-    while (most > 0 && lanes[count - 1] > most)
-        count--;
+    int offered[sizeof lanes / sizeof *lanes], count = 0;
+    const int mask = tuner->device->lanes[tuner->options->precision];
+    for (size_t i = 1; i < sizeof lanes / sizeof *lanes; i++)
+        if (mask == 0 || (mask & lanes[i]) != 0)
+            offered[count++] = lanes[i];
     HdRenderOptions options = best_so_far(tuner);
     return tuner->options->lanes == 0
-               ? try_each(tuner, &options, &options.lanes, lanes + 1, count - 1, error)
+               ? try_each(tuner, &options, &options.lanes, offered, count, error)
                : HD_OK;
 }
 

@@ -4,7 +4,7 @@
 ROW(HD_COMMAND_RENDER, "render", "[SCENE.json]", ".json", 1, "render a scene to films and pictures",
     "Renders the frames of SCENE.json (-: standard input), or of the built-in scene, and prints "
     "the name of each output.\n\n"
-    "An output is a picture (" HD_PICTURE_ENDINGS "), a numbered sequence of pictures such as "
+    "An output is a picture (" HD_PICTURE_ENDINGS "), a sequence such as "
     "out/%04d.png or out/####.png, or a film (" HD_FILM_ENDINGS "). FFmpeg makes the films. A "
     "picture without a number takes a single frame.\n\n"
     "A numbered .png sequence can be resumed: finished pictures with the same pixels are kept, and "

@@ -313,7 +313,7 @@ static HdStatus compare_row(Comparison *comparison, int y, HdError *error) {
 }
 
 static HdStatus compare_rows(Comparison *comparison, HdError *error) {
-    const HdPictureStyle style = {HD_CURVE_SRGB, 8};
+    const HdPictureStyle style = {HD_CURVE_SRGB, 8, false};
     for (int y = 0; y < comparison->facts[0].height; y++) {
         if (hd_interrupt_signal() != 0)
             return hd_fail(error, HD_INTERRUPTED, "interrupted after %d rows", y);

@@ -11,7 +11,9 @@
 #include <unistd.h>
 
 #include "base/text.h"
+#include "cli/mesh_report.h"
 #include "device/kernel_source.h"
+#include "scene/sample_pattern.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
@@ -78,7 +80,7 @@ void hd_progress_bar(const HdProgress *progress, const char *line, int columns, 
                      : BAR_WIDTH;
     memset(bar, '#', (size_t)filled);
     if (BAR_WIDTH + 3 + (int)strlen(line) <= columns)
-        snprintf(text, 160, "[%s] %s", bar, line);
+        snprintf(text, 160, "[%s] %.120s", bar, line);
     else
         snprintf(text, 160, "%.*s", columns, line);
 }
@@ -232,7 +234,6 @@ static void note_accuracy(const HdScene *scene) {
     static const char *const samplings[] = {
         [HD_SAMPLING_GRID] = "a grid of samples in each pixel",
         [HD_SAMPLING_MULTIJITTER] = "multi-jittered samples in each pixel",
-        [HD_SAMPLING_ADAPTIVE] = "as many samples as each pixel needs",
         [HD_SAMPLING_REFERENCE] = "dense samples",
     };
     fprintf(stderr, "accuracy  %s; ", samplings[scene->sampling]);
@@ -244,7 +245,8 @@ static void note_accuracy(const HdScene *scene) {
         fprintf(stderr, "rays end by depth and cut-off\n");
 }
 
-static void note_scene(const char *name, const HdScene *scene) {
+static void note_scene(const char *name, const HdSceneFile *file, int frame) {
+    const HdScene *scene = &file->scene;
     const int lights = hd_scene_light_count(scene);
     fprintf(stderr,
             "scene     %s: %d solid%s, %s floor, %d light%s, %d frame%s of %d x %d pixels, %d x %d "
@@ -252,9 +254,10 @@ static void note_scene(const char *name, const HdScene *scene) {
             name, scene->solid_count, hd_plural(scene->solid_count),
             scene->floor.present ? "a" : "no", lights, hd_plural(lights), scene->frame_count,
             hd_plural(scene->frame_count), scene->width, scene->height, scene->samples_per_side,
-            scene->samples_per_side, scene->depth);
+            hd_sample_rows(scene), scene->depth);
     if (scene->mesh_count > 0)
         note_meshes(scene);
+    hd_mesh_report_print(stderr, "mesh      ", file, frame);
     if (hd_scene_has_error_bound(scene))
         note_accuracy(scene);
 }
@@ -268,11 +271,11 @@ static void note_outputs(const HdOutputPlan *plan, int frame_count) {
             plan->style.picture.curve == HD_CURVE_SRGB ? "sRGB" : "linear");
 }
 
-void hd_console_report_run(const HdConsole *console, const char *name, const HdScene *scene,
-                           const HdOutputPlan *plan, int frame_count) {
+void hd_console_report_run(const HdConsole *console, const char *name, const HdSceneFile *file,
+                           const HdOutputPlan *plan, const HdFrameList *frames) {
     if (console->verbose) {
-        note_scene(name, scene);
-        note_outputs(plan, frame_count);
+        note_scene(name, file, frames->frames[0]);
+        note_outputs(plan, frames->count);
     }
     if (!console->quiet && plan->film_count > 0 && plan->style.picture.bits > 8)
         fprintf(stderr, "hedron: films have 8 bits a channel, though output.bits is %d\n",

@@ -49,10 +49,10 @@ typedef struct HdConsole {
 /* Initialises the console; it needs no closing. */
 void hd_console_open(HdConsole *console, const HdReportPlan *reporting);
 
-/* Reports the run before it begins, and what its films cannot keep of the picture style. `name` is
-   the scene's, for people. */
-void hd_console_report_run(const HdConsole *console, const char *name, const HdScene *scene,
-                           const HdOutputPlan *plan, int frame_count);
+/* Reports the run of some frames before it begins, and what its films cannot keep of the picture
+   style. `name` is the scene's, for people. */
+void hd_console_report_run(const HdConsole *console, const char *name, const HdSceneFile *file,
+                           const HdOutputPlan *plan, const HdFrameList *frames);
 
 /* Reports the number of frames that are finished already, and starts to count the others. */
 void hd_console_start(HdConsole *console, const HdResume *resume);

@@ -16,6 +16,7 @@
 #include "render/backends.h"
 #include "run/load_scene.h"
 #include "scene/frame_list.h"
+#include "scene/sample_pattern.h"
 #include "verify/self_test_report.h"
 
 /* ---- devices ---- */
@@ -230,7 +231,7 @@ static void print_table(const Run *run) {
     printf("%s on %s %d, %s (%s)\n", hd_scene_name(run->options->scene.path), device->backend->name,
            device->index, device->name, device->driver);
     printf("pictures of %d x %d pixels, %d x %d samples\n\n", run->tuning.width, run->tuning.height,
-           run->scene->samples_per_side, run->scene->samples_per_side);
+           run->scene->samples_per_side, hd_sample_rows(run->scene));
     printf("%-52s %10s %7s\n", "candidate", "ms", "ratio");
     for (int i = 0; i < run->tuning.count; i++)
         print_candidate(&run->tuning, i);

@@ -24,10 +24,10 @@ ROW("--output", "-o", "SCENE", "Scene file to write", HD_COMMAND_CONVERT,
     TEXTS(store.names, store.count, 1), .expected = "the name of a file",
     .standard = "standard output", .takes_file = true)
 ROW("--layers", NULL, "LIST",
-    "Extra channels for OpenEXR: depth, normal and object number of the first hit, number of "
-    "samples in the pixel, bound on its truncation error",
+    "Extra channels for OpenEXR: depth, normal and object number of the first hit, bound on the "
+    "pixel's truncation error",
     HD_COMMAND_RENDER, .type = HD_OPTION_SET, AT(store.layers), .choices = hd_layer_names,
-    .use = "for compositing, or to see where samples go")
+    .use = "for compositing")
 ROW("--set", NULL, "PATH=VALUE",
     "Replace a value of the scene, such as camera.field_of_view=40; up to 64 times",
     HD_COMMAND_RENDER | HD_COMMAND_CHECK | HD_COMMAND_TUNE | HD_COMMAND_VIEW,
@@ -37,8 +37,9 @@ ROW("--strict-files", NULL, NULL,
     "Refuse meshes, their libraries and textures for wrong items, otherwise notes",
     HD_COMMAND_RENDER | HD_COMMAND_CHECK | HD_COMMAND_TUNE | HD_COMMAND_VIEW,
     FLAG(scene.strict_files))
-OPTION(const char *frames, "--frames", "-f", "LIST", "Render only these frames, such as 0-9,20",
-       MEASURING, TEXT(frames, NULL), .standard = "all")
+OPTION(const char *frames, "--frames", "-f", "LIST",
+       "Render only these frames, such as 0-9,20; 0-99:2 is every second one", MEASURING,
+       TEXT(frames, NULL), .standard = "all")
 ROW("--again", NULL, NULL,
     "Render all frames. Without it, finished pictures of a numbered PNG sequence are kept if their "
     "pixels would be the same",
@@ -48,6 +49,14 @@ ROW("--no-sync", NULL, NULL,
     "cut",
     HD_COMMAND_CLASSIC | HD_COMMAND_RENDER, FLAG(store.no_sync),
     .use = "for many small frames on a slow disk")
+OPTION(const char *mesh, "--mesh", NULL, "MODEL.obj",
+       "Show this mesh on a floor, lit and wholly in view, whatever its size", HD_COMMAND_NEW,
+       TEXT(mesh, "the name of a file"), .takes_file = true)
+OPTION(
+    const char *up, "--up", NULL, "AXIS",
+    "Axis of the mesh that points up; auto: z if it stands on z=0 and not on y=0, or is far from "
+    "y=0; otherwise y",
+    HD_COMMAND_NEW, ONE_OF(HD_OPTION_WORD, up, "auto", "y", "z"), .standard = "auto")
 OPTION(bool terminal, "--terminal", NULL, NULL,
        "Show the scene in this terminal instead of a window", HD_COMMAND_VIEW, FLAG(terminal),
        .use = "over ssh, or without a display")
@@ -64,15 +73,13 @@ ROW("--cutoff", NULL, "W", "End rays whose weight is below W in every channel; 0
     REAL(scene.cutoff, 0.0, 1.0), .below_high = true, .standard = OF_SCENE,
     .role = HD_DECIDES_NUMBERS)
 ROW("--aa", NULL, "NAME",
-    "Antialiasing by N x N samples. grid: in the middles of N x N cells; multijitter: also one in "
-    "each of N * N columns and rows, with about 0.8 of the error in the mean; adaptive: as many "
-    "samples of the grid as the pixel needs, by an estimate without guarantee",
+    "Antialiasing by N x N samples. grid: in the middles of N x N cells; multijitter: one in each "
+    "cell and in each of N * N columns and rows, with about 0.8 of the error in the mean",
     RENDERING | HD_COMMAND_VIEW, .type = HD_OPTION_CHOICE, AT(scene.sampling),
-    .choices = hd_sampling_names, .standard = OF_SCENE, .use = "adaptive for many samples",
-    .role = HD_DECIDES_PIXELS)
+    .choices = hd_sampling_names, .standard = OF_SCENE, .role = HD_DECIDES_PIXELS)
 ROW("--max-error", NULL, "E",
     "Maximum truncation error of a pixel, in 1/255 units. Depth, cut-off and lights follow from it "
-    "instead of from the scene. With '--aa adaptive' also the target of the sampling error",
+    "instead of from the scene",
     RENDERING | HD_COMMAND_VIEW, REAL(scene.max_error, HD_MIN_ERROR, HD_MAX_ERROR),
     .standard = OF_SCENE, .use = "to choose accuracy rather than depth", .role = HD_DECIDES_PIXELS)
 OPTION(bool reference, "--reference", NULL, NULL,

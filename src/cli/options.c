@@ -393,7 +393,7 @@ static bool spell_value(const HdOptions *options, const HdOptionSpec *spec, char
         return *real != *(const double *)unset;
     case HD_OPTION_CHOICE:
         snprintf(value, 64, "%s", spec->choices[*number > 0 ? *number : 0]);
-        return *number > 0;
+        return *number != *(const int *)unset;
     case HD_OPTION_SIZE:
     case HD_OPTION_CROP:
         snprintf(value, 64, "%dx%d", area->width, area->height);

@@ -83,13 +83,14 @@ static void format_range(const HdField *field, char text[128]) {
         snprintf(text, 128, "%s %s, %s %s", field->above_low ? "above" : "at least", low,
                  field->below_high ? "below" : "at most", high);
     else
-        snprintf(text, 128, "%s..%s", low, high);
+        snprintf(text, 128, "%s..%s%s", low, high, field->has_sign ? " or negative" : "");
 }
 
 /* Writes type and range of a field. */
 static void format_values(const HdField *field, char text[HD_EXPECTED_SIZE]) {
     static const char *const types[HD_FIELD_MATERIALS + 1] = {
         [HD_FIELD_INTEGER] = "integer",
+        [HD_FIELD_RATE] = "integer or \"n000/1001\"",
         [HD_FIELD_NUMBER] = "number",
         [HD_FIELD_FACTOR] = "number",
         [HD_FIELD_SCALE] = "number or [x, y, z]",

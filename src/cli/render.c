@@ -152,6 +152,7 @@ static HdStatus settle(Run *run, const HdOptions *options, HdError *error) {
     const HdStorePlan *store = &options->store;
     const HdRenderOptions *render = &options->devices.render;
     const HdOutputSettings *settings = &run->file->output;
+    const HdScene *scene = &run->file->scene;
     HdOutputPlan *outputs = &run->outputs;
     const char *usual = run->frames.count == 1 ? "hedron.png" : "hedron.mp4";
     const char *name = settings->path[0] != '\0' ? settings->path : usual;
@@ -160,10 +161,12 @@ static HdStatus settle(Run *run, const HdOptions *options, HdError *error) {
         hd_outputs_settle(outputs, is_named ? store->names : &name, is_named ? store->count : 1,
                           &settings->style, run->frames.count, error);
     outputs->options = store->given;
+    outputs->crop = scene->crop;
+    outputs->background = hd_scale(scene->background, scene->exposure);
     outputs->durability = store->no_sync ? HD_WITHOUT_SYNC : HD_DURABLE;
     if (status == HD_OK)
-        status = hd_outputs_add_layers(outputs, store->layers,
-                                       hd_scene_has_error_bound(&run->file->scene), error);
+        status =
+            hd_outputs_add_layers(outputs, store->layers, hd_scene_has_error_bound(scene), error);
     if (status != HD_OK)
         return status;
     if (render->math == HD_MATH_STRICT && (outputs->bears_fingerprints || outputs->film_count > 0))
@@ -190,7 +193,7 @@ static HdStatus render_frames(Run *run, const HdOptions *options, HdError *error
     HdStatus status = settle(run, options, error);
     if (status != HD_OK)
         return status;
-    hd_console_report_run(&run->console, name, &run->file->scene, &run->outputs, run->frames.count);
+    hd_console_report_run(&run->console, name, run->file, &run->outputs, &run->frames);
     hd_escape(slash != NULL ? slash + 1 : name, escaped, sizeof escaped);
     run->outputs.scene = escaped;
     status = hd_resume_find(&run->resume, &run->outputs, &run->frames, error);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs the commands about scene files: check, convert, new. */
+/* Runs the commands about scene files: check, convert. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
 #include <inttypes.h>
@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/text.h"
+#include "cli/mesh_report.h"
 #include "cli/options.h"
 #include "image/picture.h"
 #include "input/files.h"
@@ -46,7 +47,8 @@ static json_t *list_problems(const char *message, const char *name) {
 
 /* Returns NULL if out of memory. */
 static json_t *describe_scene(const char *name, HdStatus status, const HdProblems *notes,
-                              const HdScene *scene, const HdError *error) {
+                              const HdSceneFile *file, const HdError *error) {
+    const HdScene *scene = &file->scene;
     json_t *problems = status == HD_OK ? json_array() : list_problems(error->message, name);
     json_t *described =
         json_pack("{s:o, s:b, s:o, s:o}", "scene", hd_json_device_text(name), "fine",
@@ -54,15 +56,18 @@ static json_t *describe_scene(const char *name, HdStatus status, const HdProblem
     if (status != HD_OK || described == NULL)
         return described;
     json_t *counts =
-        json_pack("{s:i, s:i, s:I, s:i, s:i}", "solids", scene->solid_count, "meshes",
+        json_pack("{s:i, s:i, s:I, s:o, s:i, s:i}", "solids", scene->solid_count, "meshes",
                   scene->instance_count, "triangles", (json_int_t)hd_scene_triangle_count(scene),
-                  "lights", hd_scene_light_count(scene), "frames", scene->frame_count);
+                  "places", hd_mesh_report_json(file, 0), "lights", hd_scene_light_count(scene),
+                  "frames", scene->frame_count);
     json_object_update_new(described, counts);
     return described;
 }
 
-static void print_fine(const char *name, const HdScene *scene, const HdProblems *notes) {
-    int lights = hd_scene_light_count(scene);
+static void print_fine(const char *name, const HdSceneFile *file, const HdProblems *notes) {
+    const HdScene *scene = &file->scene;
+    const int lights = hd_scene_light_count(scene);
+    char prefix[HD_MAX_PATH + 2];
     printf("%s: fine, %d solid%s, ", name, scene->solid_count, hd_plural(scene->solid_count));
     if (scene->mesh_count > 0)
         printf("%d mesh%s of %" PRId64 " triangles in %d place%s, ", scene->mesh_count,
@@ -70,6 +75,8 @@ static void print_fine(const char *name, const HdScene *scene, const HdProblems 
                scene->instance_count, hd_plural(scene->instance_count));
     printf("%d light%s, %d frame%s\n", lights, hd_plural(lights), scene->frame_count,
            hd_plural(scene->frame_count));
+    snprintf(prefix, sizeof prefix, "%s: ", name);
+    hd_mesh_report_print(stdout, prefix, file, 0);
     hd_problems_print(notes, stdout, name, ": note: ");
 }
 
@@ -90,9 +97,9 @@ static HdStatus check_scene(const char *operand, const HdScenePlan *plan, json_t
     if (status == HD_OK)
         hd_note_darkness(&file.scene, file.output.style.picture.curve, 0, &notes);
     if (list != NULL)
-        *list = hd_json_append(*list, describe_scene(name, status, &notes, &file.scene, error));
+        *list = hd_json_append(*list, describe_scene(name, status, &notes, &file, error));
     else if (status == HD_OK)
-        print_fine(name, &file.scene, &notes);
+        print_fine(name, &file, &notes);
     if (status == HD_OK)
         hd_scene_file_free(&file);
     return status;
@@ -193,36 +200,4 @@ HdStatus hd_command_convert(const HdOptions *options, HdError *error) {
                                 : hd_scene_file_print(stdout, &file, error);
     hd_scene_file_free(&file);
     return status;
-}
-
-/* ---- new ---- */
-
-/* Leaves a new and whole file, or removes it on failure. */
-static HdStatus write_new(const char *path, HdError *error) {
-    size_t size;
-    const char *text = hd_starter_scene_text(&size);
-    FILE *out = fopen(path, "wbx");
-    if (out == NULL && errno == EEXIST)
-        return hd_fail(error, HD_BAD_INPUT, "%s exists already, expected a new name", path);
-    if (out == NULL)
-        return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(errno));
-    const bool is_written = fwrite(text, 1, size, out) == size && fflush(out) == 0;
-    const int why = errno;
-    if (fclose(out) == 0 && is_written)
-        return HD_OK;
-    remove(path);
-    return hd_fail(error, HD_FAILED, "cannot write %s: %s", path,
-                   strerror(is_written ? errno : why));
-}
-
-HdStatus hd_command_new(const HdOptions *options, HdError *error) {
-    const char *name = options->operand_count > 0 ? options->operands[0] : "scene";
-    const char *ending = hd_path_has_ending(name, ".json") ? "" : ".json";
-    char path[HD_MAX_PATH];
-    if (snprintf(path, sizeof path, "%s%s", name, ending) >= (int)sizeof path)
-        return hd_fail(error, HD_BAD_INPUT, "the name of the scene has %zu bytes, expected fewer",
-                       strlen(name));
-    HD_TRY(write_new(path, error));
-    printf("%s\n", path);
-    return HD_OK;
 }

@@ -109,7 +109,7 @@ const HdStatisticsKey hd_statistics_keys[] = {
     {NULL, "clamps", NULL, "Contributions cut to 2^16", clamps, 0, NULL},
     {"missing", "largest", "1/255",
      "Bound on the truncation error of the worst pixel, without the error of sampling; only with "
-     "--max-error, '--aa adaptive' or --reference",
+     "--max-error or --reference",
      largest_bound, 0, has_bound},
     {"missing", "mean", "1/255", "The same, mean of all pixels", mean_bound, 0, has_bound},
     {NULL, NULL, NULL, NULL, NULL, 0, NULL},

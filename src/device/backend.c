@@ -45,11 +45,21 @@ bool hd_render_options_are_possible(const HdRenderOptions *options) {
            options->pipeline < HD_PIPELINE_COUNT;
 }
 
-static const char *list_lanes(int max) {
-    if (max == 1)
-        return "the processor has registers for 1 lane in this precision";
-    return max == 4 ? "the processor has registers for 1 or 4 lanes in this precision"
-                    : "the processor has registers for 1, 4 or 8 lanes in this precision";
+static const char *list_lanes(int offered) {
+    static const struct {
+        int offered;
+        const char *text;
+    } lists[] = {
+        {1, "the processor has registers for 1 lane in this precision"},
+        {1 | 4, "the processor has registers for 1 or 4 lanes in this precision"},
+        {1 | 2 | 4, "the processor has registers for 1, 2 or 4 lanes in this precision"},
+        {1 | 4 | 8, "the processor has registers for 1, 4 or 8 lanes in this precision"},
+        {1 | 4 | 8 | 16, "the processor has registers for 1, 4, 8 or 16 lanes in this precision"},
+    };
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
+        if (lists[i].offered == offered)
+            return lists[i].text;
+    return "the processor has no kernels with that number of lanes in this precision";
 }
 
 const char *hd_device_unsupported_reason(const HdDevice *device, const HdRenderOptions *options) {
@@ -62,9 +72,9 @@ const char *hd_device_unsupported_reason(const HdDevice *device, const HdRenderO
     bool has_groups = !device->is_cpu || options->test.groups;
     if (options->lanes > 1 && has_groups)
         return "several lanes need a CPU";
-    int max_lanes = device->max_lanes[options->precision];
-    if (max_lanes > 0 && options->lanes > max_lanes)
-        return list_lanes(max_lanes);
+    const int offered = device->lanes[options->precision];
+    if (options->lanes > 0 && offered > 0 && (options->lanes & offered) == 0)
+        return list_lanes(offered);
     if (has_groups && !device->has_wide_atomics &&
         hd_pipeline_is_wavefront(hd_choose_pipeline(device, options, NULL)))
         return "the wavefront pipeline needs 64-bit integer atomics, which the device lacks; "

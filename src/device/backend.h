@@ -27,7 +27,7 @@ typedef struct HdDevice {
     char name[256];
     char driver[256];  /* platform, driver and versions, for people */
     bool is_cpu;       /* a CPU, which may have several lanes */
-    int max_lanes[2];  /* lanes of a CPU, at most, by HdPrecision; 0: no limit */
+    int lanes[2];      /* of a CPU, by HdPrecision: the sum of the counts it offers; 0: any */
     int compute_units; /* with clock_mhz a rough measure of speed, to choose among devices */
     int clock_mhz;
     int nvidia_arch; /* 61 for sm_61, whose kernels can have a register limit; 0: not NVIDIA */

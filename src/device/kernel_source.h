@@ -22,6 +22,7 @@ typedef struct HdKernelNeeds {
     bool lit_from_behind;
     bool many_lights;  /* enough of them to cull lights by clusters */
     bool bounded;      /* pixels come with an error bound */
+    bool cut_outs;     /* materials of meshes have holes */
     bool small_tables; /* the tables of solids fit in constant memory, if the device has it */
 } HdKernelNeeds;
 

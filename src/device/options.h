@@ -31,9 +31,8 @@ enum {
     HD_MAX_LAUNCH_MS = 10000
 };
 
-/* X(lanes): possible rays of a packet; and the same in words. */
-#define HD_LANE_COUNTS(X)       X(1) X(4) X(8) X(16)
-#define HD_LANE_COUNTS_IN_WORDS "1, 4, 8 or 16"
+/* X(lanes): possible rays of a packet, powers of two. */
+#define HD_LANE_COUNTS(X) X(1) X(2) X(4) X(8) X(16)
 
 typedef struct HdRenderOptions {
     int lanes;   /* one of HD_LANE_COUNTS; 0: automatic */

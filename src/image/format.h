@@ -10,27 +10,38 @@
 #include <stdio.h>
 
 #include "base/error.h"
+#include "base/vector.h"
 #include "image/frame.h"
 
 /* How a picture stores values: PNG in 8 or 16 bits; OpenEXR in half, or float for 32 bits; PFM in
    float; others in 8 bits. OpenEXR and PFM are linear. */
 typedef struct HdPictureStyle {
     HdCurve curve;
-    int bits; /* 8, 16 or 32 */
+    int bits;       /* 8, 16 or 32 */
+    bool has_alpha; /* PNG has the frame's alpha, if the frame has it; OpenEXR always does */
 } HdPictureStyle;
 
 /* Storage of frames. */
 typedef struct HdOutputStyle {
     HdPictureStyle picture; /* films use its curve and 8 bits */
     int frames_per_second;  /* for films */
+    bool is_ntsc;           /* films have 1000/1001 of that rate, such as 24000/1001 */
 } HdOutputStyle;
 
-/* Metadata of a picture besides the program's version, if its format can hold it: the same on every
-   device and at any time. */
+/* The picture's position in a larger one: its first pixel is the larger one's (left, top). */
+typedef struct HdCrop {
+    int whole_width, whole_height; /* size of the larger one; 0: no crop */
+    int left, top;
+} HdCrop;
+
+/* What a picture needs besides its frame and style, mostly metadata: the same on every device and
+   at any time. */
 typedef struct HdPictureLabel {
     const char *scene;   /* name; UTF-8 without control characters, as the options */
     const char *options; /* options of the command line that affect pixels; "": none */
     int frame;
+    HdCrop crop;
+    HdVec3 background; /* radiance behind the objects, times exposure */
     bool has_fingerprint;
     uint64_t fingerprint; /* the frame's fingerprint (output/fingerprint.h), which marks it as
                              finished */
@@ -66,6 +77,7 @@ struct HdFormat {
     HdStatus (*write)(const HdFrame *frame, const HdPictureStyle *style,
                       const HdPictureLabel *label, FILE *stream, const char *path, HdError *error);
     bool has_layers;      /* holds alpha and the frame's layers */
+    bool has_alpha;       /* holds alpha if the style asks for it */
     int max_encoded_bits; /* most bits of a style that an encoded frame on its curve suffices for;
                              more need the radiance */
 
@@ -74,8 +86,9 @@ struct HdFormat {
     HdStatus (*load)(HdFrame *frame, const unsigned char *bytes, size_t size, const char *name,
                      HdError *error);
 
-    /* Textures: decodes into a cleared texture, whose values stay on their curve. After a failure
-       the caller clears it, because it may hold memory. */
+    /* Textures: decodes into a cleared texture, whose values stay on their curve; alpha, if there
+       is one, in place of colours for a mask. After a failure the caller clears it, because it may
+       hold memory. */
     HdStatus (*decode)(HdTexture *texture, const unsigned char *bytes, size_t size,
                        const char *name, HdError *error);
 

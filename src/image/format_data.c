@@ -70,24 +70,72 @@ static HdStatus check_head(const unsigned char *bytes, size_t size, const char *
     return HD_OK;
 }
 
-/* Names a foreign format by its first bytes, unless the picture is in the data format. */
-static HdStatus refuse_foreign(const unsigned char *bytes, size_t size, const char *name,
-                               HdError *error) {
+/* ---- files of other kinds ---- */
+
+/* Names a file by its first bytes; NULL: not known. */
+static const char *kind_by_signature(const unsigned char *bytes, size_t size) {
     static const struct {
         size_t at, size;
-        const char *bytes, *format;
-    } known[] = {{0, 4, "GIF8", "GIF"},
-                 {8, 4, "WEBP", "WebP"},
-                 {0, 2, "BM", "BMP"},
-                 {0, 3, "II*", "TIFF"},
-                 {0, 4, "MM\0*", "TIFF"}};
+        const char *bytes, *kind;
+    } known[] = {
+        {0, 4, "GIF8", "a GIF picture"},
+        {8, 4, "WEBP", "a WebP picture"},
+        {0, 2, "BM", "a BMP picture"},
+        {0, 3, "II*", "a TIFF picture"},
+        {0, 4, "MM\0*", "a TIFF picture"},
+        {4, 7, "ftypavi", "an AVIF picture"},
+        {4, 7, "ftyphei", "a HEIC picture"},
+        {4, 8, "ftypmif1", "an AVIF or HEIC picture"},
+        {0, 4, "DDS ", "a DDS picture"},
+        {0, 4, "8BPS", "a Photoshop file"},
+        {0, 4, "\x76\x2f\x31\x01", "an OpenEXR picture"},
+        {0, 2, "#?", "a Radiance picture"},
+        {0, 19, "version https://git-", "a pointer of Git LFS ('git lfs pull' fetches the file)"}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (size >= known[i].at + known[i].size &&
             memcmp(bytes + known[i].at, known[i].bytes, known[i].size) == 0)
-            return hd_fail(error, HD_BAD_INPUT,
-                           "%s is a %s picture, expected PNG, JPEG or the data format", name,
-                           known[i].format);
-    return HD_BAD_INPUT;
+            return known[i].kind;
+    return NULL;
+}
+
+/* Names a file of tags, which starts with "<" after a byte order mark and blanks. */
+static const char *kind_by_tag(const unsigned char *bytes, size_t size) {
+    enum { LOOKED_AT = 512 };
+    char head[LOOKED_AT + 1] = {0};
+    size_t first = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+    memcpy(head, bytes, hd_min_size(size, LOOKED_AT));
+    first += strspn(head + first, " \t\r\n");
+    if (head[first] != '<')
+        return NULL;
+    return strstr(head, "<svg") != NULL || strstr(head, "<?xml") != NULL ? "an SVG or XML file"
+                                                                         : "a web page (HTML)";
+}
+
+/* TGA has a signature at its end, if any, and few legal values in its head. */
+static bool is_tga(const unsigned char *bytes, size_t size) {
+    static const char mark[] = "TRUEVISION-XFILE."; /* and a NUL */
+    if (size >= sizeof mark && memcmp(bytes + size - sizeof mark, mark, sizeof mark) == 0)
+        return true;
+    if (size < 18 || bytes[1] > 1 || bytes[2] > 11 || (bytes[2] & 7) == 0 || (bytes[2] & 4) != 0)
+        return false;
+    const bool has_size = (bytes[12] | bytes[13]) != 0 && (bytes[14] | bytes[15]) != 0;
+    return has_size && strchr("\x08\x0f\x10\x18\x20", bytes[16]) != NULL && bytes[16] != 0;
+}
+
+/* Names the kind of a file that is no picture in the data format, if it is known. */
+static HdStatus refuse_foreign(const unsigned char *bytes, size_t size, const char *name,
+                               HdError *error) {
+    const char *kind = kind_by_signature(bytes, size);
+    if (kind == NULL)
+        kind = kind_by_tag(bytes, size);
+    if (kind == NULL && is_tga(bytes, size))
+        kind = "a TGA picture";
+    if (size == 0)
+        kind = "an empty file";
+    if (kind == NULL)
+        return HD_BAD_INPUT;
+    return hd_fail(error, HD_BAD_INPUT, "%s is %s, expected PNG, JPEG or the data format", name,
+                   kind);
 }
 
 static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t size,

@@ -32,7 +32,7 @@ enum { CHANNELS = 3, MESSAGE_SIZE = 256 };
 static const uint64_t MAX_CHUNK_BYTES = UINT64_C(1) << 30;
 
 /* Array of a frame that holds a channel. */
-typedef enum Source { RADIANCE, FIRST, EFFORT } Source;
+typedef enum Source { RADIANCE, FIRST, BOUNDS } Source;
 
 /* A channel of a file; r, g, b come first. */
 typedef struct Channel {
@@ -52,8 +52,7 @@ static const Channel channels[] = {
     {"normal.Y", FIRST, HD_FIRST_NORMAL + 1, HD_LAYER_NORMAL},
     {"normal.Z", FIRST, HD_FIRST_NORMAL + 2, HD_LAYER_NORMAL},
     {"object", FIRST, HD_FIRST_OBJECT, HD_LAYER_OBJECT},
-    {"samples", EFFORT, HD_EFFORT_SAMPLES, HD_LAYER_SAMPLES},
-    {"bound", EFFORT, HD_EFFORT_BOUND, HD_LAYER_BOUND},
+    {"bound", BOUNDS, 0, HD_LAYER_BOUND},
 };
 enum { ALL_CHANNELS = sizeof channels / sizeof *channels };
 
@@ -137,6 +136,19 @@ static exr_result_t add_channels(exr_context_t context, int part, const HdFrame 
     return EXR_ERR_SUCCESS;
 }
 
+/* Places a crop in the window of the whole picture. */
+static exr_result_t write_windows(exr_context_t context, int part, const HdFrame *frame,
+                                  const HdCrop *crop) {
+    const exr_attr_box2i_t data = {.min.x = crop->left,
+                                   .min.y = crop->top,
+                                   .max.x = crop->left + frame->width - 1,
+                                   .max.y = crop->top + frame->height - 1};
+    const exr_attr_box2i_t display = {.max.x = crop->whole_width - 1,
+                                      .max.y = crop->whole_height - 1};
+    EXR_TRY((exr_result_t)exr_set_data_window(context, part, &data));
+    return (exr_result_t)exr_set_display_window(context, part, &display);
+}
+
 static exr_result_t write_attributes(exr_context_t context, int part, const HdFrame *frame,
                                      bool is_half, const HdPictureLabel *label) {
     EXR_TRY(exr_initialize_required_attr_simple(context, part, frame->width, frame->height,
@@ -144,6 +156,8 @@ static exr_result_t write_attributes(exr_context_t context, int part, const HdFr
     EXR_TRY(add_channels(context, part, frame, is_half));
     if (label == NULL)
         return EXR_ERR_SUCCESS;
+    if (label->crop.whole_width > 0)
+        EXR_TRY(write_windows(context, part, frame, &label->crop));
     EXR_TRY(exr_attr_set_string(context, part, "software", "hedron " HD_VERSION));
     EXR_TRY(exr_attr_set_string(context, part, "scene", label->scene));
     EXR_TRY(exr_attr_set_int(context, part, "frame", label->frame));
@@ -161,8 +175,8 @@ static const Channel *channel_named(const char *name) {
 static float value_of(const HdFrame *frame, const Channel *channel, size_t pixel) {
     if (channel->source == RADIANCE)
         return frame->rgb[pixel * CHANNELS + (size_t)channel->offset];
-    if (channel->source == EFFORT)
-        return frame->effort[pixel * HD_EFFORT_FLOATS + (size_t)channel->offset];
+    if (channel->source == BOUNDS)
+        return frame->bounds[pixel];
     const float *first = frame->first + pixel * (size_t)frame->first_floats;
     if (channel->layer == HD_LAYER_DEPTH && first[HD_FIRST_OBJECT] == 0.0F)
         return INFINITY;
@@ -173,15 +187,16 @@ static float value_of(const HdFrame *frame, const Channel *channel, size_t pixel
 static unsigned char *fill_plane(const HdFrame *frame, const exr_coding_channel_info_t *to,
                                  size_t first, size_t count, unsigned char *plane) {
     const Channel *channel = channel_named(to->channel_name);
+    const bool is_half = to->data_type == EXR_PIXEL_HALF;
     for (size_t i = 0; i < count; i++) {
         const float value = value_of(frame, channel, first + i);
-        const uint16_t half = to->data_type == EXR_PIXEL_HALF ? half_of(value) : 0;
-        if (to->data_type == EXR_PIXEL_HALF)
+        const uint16_t half = is_half ? half_of(value) : 0;
+        if (is_half)
             memcpy(plane + i * sizeof half, &half, sizeof half);
         else
             memcpy(plane + i * sizeof value, &value, sizeof value);
     }
-    return plane + count * (size_t)to->bytes_per_element;
+    return plane + count * (is_half ? sizeof(uint16_t) : sizeof(float));
 }
 
 /* Writes the lines of a chunk, channel by channel. */
@@ -202,7 +217,9 @@ static exr_result_t write_chunk(exr_context_t context, int part, int y, int line
                                 const HdFrame *frame, unsigned char *planes,
                                 exr_encode_pipeline_t *pipeline) {
     exr_chunk_info_t chunk;
-    EXR_TRY(exr_write_scanline_chunk_info(context, part, y, &chunk));
+    exr_attr_box2i_t window;
+    EXR_TRY(exr_get_data_window(context, part, &window));
+    EXR_TRY(exr_write_scanline_chunk_info(context, part, window.min.y + y, &chunk));
     EXR_TRY(y == 0 ? exr_encoding_initialize(context, part, &chunk, pipeline)
                    : exr_encoding_update(context, part, &chunk, pipeline));
     fill_chunk(pipeline, frame, y, lines, planes);

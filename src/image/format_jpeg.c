@@ -21,7 +21,9 @@ typedef struct Reader {
     struct jpeg_error_mgr errors;
     struct jpeg_progress_mgr progress;
     jmp_buf back;
+    size_t size; /* bytes of the file */
     bool is_memory_short;
+    bool is_cut_short;
     char message[JMSG_LENGTH_MAX];
 } Reader;
 
@@ -32,11 +34,27 @@ static void on_error(j_common_ptr jpeg) {
     longjmp(reader->back, 1);
 }
 
-/* libjpeg would fill missing or wrong pixels with grey. The ignored warnings change no pixel. */
+/* Returns whether the picture ends early, with bytes enough that its pixels take no time without
+   them. libjpeg reads an end marker after the last byte. */
+static bool ends_early(const Reader *reader) {
+    enum { PIXELS_PER_BYTE = 4096 }; /* a dozen times those of one colour */
+    const struct jpeg_decompress_struct *jpeg = &reader->jpeg;
+    const int code = reader->errors.msg_code;
+    const bool is_end =
+        code == JWRN_JPEG_EOF || (code == JWRN_HIT_MARKER && jpeg->unread_marker == JPEG_EOI);
+    return is_end && (uint64_t)jpeg->image_width * jpeg->image_height / PIXELS_PER_BYTE <=
+                         (uint64_t)reader->size;
+}
+
+/* libjpeg fills missing or wrong pixels with grey. The ignored warnings change no pixel. */
 static void on_message(j_common_ptr jpeg, int level) {
+    Reader *reader = jpeg->client_data;
     const int code = jpeg->err->msg_code;
-    if (level < 0 && code != JWRN_EXTRANEOUS_DATA && code != JWRN_JFIF_MAJOR)
+    if (level >= 0 || code == JWRN_EXTRANEOUS_DATA || code == JWRN_JFIF_MAJOR)
+        return;
+    if (!ends_early(reader))
         on_error(jpeg);
+    reader->is_cut_short = true;
 }
 
 static void on_progress(j_common_ptr jpeg) {
@@ -62,11 +80,10 @@ static bool try_head(Reader *reader, const unsigned char *bytes, size_t size) {
     return true;
 }
 
-/* Makes decoding identical for every libjpeg and processor: an integer inverse transform, no
-   interpolation of chroma, and no smoothing between blocks. */
+/* Makes decoding identical for every processor: an integer inverse transform, and no smoothing
+   between the blocks of a file that ends early. Chroma is interpolated as by default. */
 static void set_exact(struct jpeg_decompress_struct *jpeg) {
     jpeg->dct_method = JDCT_ISLOW;
-    jpeg->do_fancy_upsampling = FALSE;
     jpeg->do_block_smoothing = FALSE;
     jpeg->out_color_space = JCS_RGB;
 }
@@ -107,12 +124,15 @@ static HdStatus decode_with(Reader *reader, HdTexture *texture, const unsigned c
                        "expected 1 or 3",
                        name, jpeg->num_components);
     HD_TRY(hd_texture_create(texture, jpeg->image_width, jpeg->image_height, name, error));
-    return try_rows(reader, texture) ? HD_OK : fail_reading(reader, name, error);
+    if (!try_rows(reader, texture))
+        return fail_reading(reader, name, error);
+    texture->is_cut_short = reader->is_cut_short;
+    return HD_OK;
 }
 
 static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                        const char *name, HdError *error) {
-    Reader reader = {.is_memory_short = false};
+    Reader reader = {.size = size};
     const HdStatus status = decode_with(&reader, texture, bytes, size, name, error);
     jpeg_destroy_decompress(&reader.jpeg);
     return status;

@@ -8,6 +8,7 @@
 #include <sys/types.h>
 
 #include "base/limits.h"
+#include "base/minmax.h"
 #include "image/format.h"
 
 /* A file being read. */
@@ -107,17 +108,33 @@ static HdStatus next_row(void *state, float *values, HdError *error) {
     return HD_OK;
 }
 
-/* Writes in the machine's byte order, which the scale's sign states. */
+/* Writes each value with its low byte first, on every machine. */
+static bool put_floats(const float *values, size_t count, FILE *stream) {
+    enum { AT_ONCE = 1024 };
+    unsigned char bytes[4 * AT_ONCE];
+    bool good = true;
+    for (size_t first = 0; first < count && good; first += AT_ONCE) {
+        const size_t some = hd_min_size(count - first, AT_ONCE);
+        for (size_t i = 0; i < some; i++) {
+            uint32_t bits;
+            memcpy(&bits, values + first + i, sizeof bits);
+            for (int k = 0; k < 4; k++)
+                bytes[4 * i + (size_t)k] = (unsigned char)(bits >> (8 * k) & 0xff);
+        }
+        good = fwrite(bytes, 4, some, stream) == some;
+    }
+    return good;
+}
+
+/* The scale's sign states the order of bytes. */
 static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
                       const HdPictureLabel *label, FILE *stream, const char *path, HdError *error) {
-    static const uint16_t one = 1;
-    const char *scale = *(const unsigned char *)&one == 1 ? "-1.0" : "1.0";
     const size_t values = (size_t)frame->width * 3;
     (void)style; /* always linear */
     (void)label; /* cannot hold metadata */
-    bool good = fprintf(stream, "PF\n%d %d\n%s\n", frame->width, frame->height, scale) > 0;
+    bool good = fprintf(stream, "PF\n%d %d\n-1.0\n", frame->width, frame->height) > 0;
     for (int y = frame->height - 1; y >= 0 && good; y--)
-        good = fwrite(frame->rgb + values * (size_t)y, sizeof(float), values, stream) == values;
+        good = put_floats(frame->rgb + values * (size_t)y, values, stream);
     return good ? HD_OK : hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(errno));
 }
 

@@ -32,7 +32,7 @@ typedef struct PngReader {
     size_t allowed;   /* bytes left to read */
     const char *name; /* for messages */
     HdPictureFacts facts;
-    bool is_interlaced;
+    bool is_interlaced, wants_alpha;
     int passes; /* over the same rows */
     int next;
     char message[MESSAGE_SIZE];
@@ -44,6 +44,8 @@ typedef struct PngWriter {
     FILE *stream;
     uint64_t hash; /* hash of all bytes so far (hash.h) */
     uint16_t *row; /* owned */
+    bool has_alpha;
+    float *straight; /* owned; colours of a row without the background, with alpha only */
     char message[MESSAGE_SIZE];
 } PngWriter;
 
@@ -84,11 +86,28 @@ static void limit_reading(png_structp png) {
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_AS_DEFAULT, (png_const_bytep) "sRGB", 1);
 }
 
-/* Converts every kind to RGB, with 16 bits if it has them, otherwise 8. */
-static void convert_to_rgb(png_structp png) {
+/* Replaces RGBA by three times A, in place. */
+static void repeat_alpha(png_structp png, png_row_infop row, png_bytep data) {
+    const size_t size = row->bit_depth / 8;
+    (void)png;
+    for (size_t i = 0; i < row->width; i++)
+        for (size_t c = 0; c < 3; c++)
+            memmove(data + (3 * i + c) * size, data + (4 * i + 3) * size, size);
+}
+
+/* Converts every kind to RGB, with 16 bits if it has them, otherwise 8; or to its alpha, if it has
+   one and that is wanted. */
+static void convert_to_rgb(png_structp png, png_infop info, bool wants_alpha) {
+    const bool has_alpha = (png_get_color_type(png, info) & PNG_COLOR_MASK_ALPHA) != 0 ||
+                           png_get_valid(png, info, PNG_INFO_tRNS) != 0;
     png_set_expand(png);
-    png_set_strip_alpha(png);
     png_set_gray_to_rgb(png);
+    if (!wants_alpha || !has_alpha) {
+        png_set_strip_alpha(png);
+        return;
+    }
+    png_set_read_user_transform_fn(png, repeat_alpha);
+    png_set_user_transform_info(png, NULL, png_get_bit_depth(png, info) == 16 ? 16 : 8, 3);
 }
 
 static bool try_head(PngReader *reader) {
@@ -102,7 +121,7 @@ static bool try_head(PngReader *reader) {
     reader->is_interlaced = png_get_interlace_type(png, info) != PNG_INTERLACE_NONE;
     reader->facts.curve =
         png_get_valid(png, info, PNG_INFO_sRGB) != 0 ? HD_CURVE_SRGB : HD_CURVE_LINEAR;
-    convert_to_rgb(png);
+    convert_to_rgb(png, info, reader->wants_alpha);
     reader->passes = png_set_interlace_handling(png);
     png_read_update_info(png, info);
     reader->facts.width = (int)png_get_image_width(png, info);
@@ -130,14 +149,17 @@ static void close_reader(void *rows) {
    chunks, and skips all but those of pixels and sRGB. Rejects a file larger than 16 MiB plus twice
    the size of its pixels. Faults of the file are HD_BAD_INPUT, here and below; HD_FAILED: out of
    memory. Returns NULL on error. */
-static PngReader *open_reader(FILE *file, const char *name, HdError *error) {
+static PngReader *open_reader(FILE *file, const char *name, bool wants_alpha, HdError *error) {
     PngReader *reader = malloc(sizeof *reader);
     if (reader == NULL) {
         hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
         return NULL;
     }
-    *reader = (PngReader){
-        .file = file, .allowed = MAX_EXTRA_BYTES, .name = name, .message = "out of memory"};
+    *reader = (PngReader){.file = file,
+                          .allowed = MAX_EXTRA_BYTES,
+                          .name = name,
+                          .wants_alpha = wants_alpha,
+                          .message = "out of memory"};
     reader->png =
         png_create_read_struct(PNG_LIBPNG_VER_STRING, reader->message, on_error, on_warning);
     if (reader->png != NULL)
@@ -221,8 +243,8 @@ static void write_head(PngWriter *writer, const HdFrame *frame, const HdPictureS
     png_set_compression_strategy(png, Z_RLE);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
     png_set_IHDR(png, writer->info, (png_uint_32)frame->width, (png_uint_32)frame->height,
-                 style->bits, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
+                 style->bits, writer->has_alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (style->curve == HD_CURVE_SRGB)
         png_set_sRGB(png, writer->info, PNG_sRGB_INTENT_PERCEPTUAL);
     else
@@ -232,24 +254,69 @@ static void write_head(PngWriter *writer, const HdFrame *frame, const HdPictureS
     png_write_info(png, writer->info);
 }
 
-/* Fills a row of the file in big endian; 16-bit codes are made in place. */
-static void make_row(const HdFrame *frame, const HdPictureStyle *style, int y, uint16_t *row) {
-    const size_t width = (size_t)frame->width, values = 3 * width, first = width * (size_t)y;
+/* Stores 16-bit codes in big endian, in place. */
+static void swap_codes(uint16_t *row, size_t values) {
     unsigned char *bytes = (unsigned char *)row;
-    for (size_t i = 0; i < width && frame->is_encoded; i++)
-        memcpy(bytes + 3 * i, frame->rgba + 4 * (first + i), 3);
-    if (frame->is_encoded)
-        return;
-    if (style->bits == 8) {
-        hd_curve_encode8(style->curve, frame->rgb + 3 * first, values, bytes);
-        return;
-    }
-    hd_curve_encode16(style->curve, frame->rgb + 3 * first, values, row);
     for (size_t i = 0; i < values; i++) {
         const unsigned code = row[i];
         bytes[2 * i] = (unsigned char)(code >> 8);
         bytes[2 * i + 1] = (unsigned char)(code & 0xff);
     }
+}
+
+static float alpha_of(const HdFrame *frame, size_t pixel) {
+    return frame->first[pixel * (size_t)frame->first_floats + HD_FIRST_ALPHA];
+}
+
+/* Computes the colours of the objects alone: PNG's are not multiplied by alpha. */
+static const float *make_straight(const PngWriter *writer, const HdFrame *frame, HdVec3 behind,
+                                  size_t first) {
+    const double background[] = {behind.x, behind.y, behind.z};
+    for (size_t i = 0; i < 3 * (size_t)frame->width; i++) {
+        const double alpha = (double)alpha_of(frame, first + i / 3),
+                     seen = (double)frame->rgb[3 * first + i];
+        writer->straight[i] =
+            alpha > 0.0 ? (float)((seen - (1.0 - alpha) * background[i % 3]) / alpha) : 0.0F;
+    }
+    return writer->straight;
+}
+
+/* Inserts alpha after the codes of each pixel, which lie at the start of the row. */
+static void insert_alpha(const HdFrame *frame, int bits, size_t first, unsigned char *bytes) {
+    const size_t size = (size_t)bits / 8;
+    for (size_t x = (size_t)frame->width; x-- > 0;) {
+        const float alpha = alpha_of(frame, first + x);
+        unsigned char *place = bytes + size * (4 * x + 3);
+        uint16_t code;
+        memmove(bytes + size * 4 * x, bytes + size * 3 * x, 3 * size);
+        if (bits == 8) {
+            hd_curve_encode8(HD_CURVE_LINEAR, &alpha, 1, place);
+        } else {
+            hd_curve_encode16(HD_CURVE_LINEAR, &alpha, 1, &code);
+            memcpy(place, &code, sizeof code);
+        }
+    }
+}
+
+/* Fills a row of the file. */
+static void make_row(const PngWriter *writer, const HdFrame *frame, const HdPictureStyle *style,
+                     HdVec3 background, int y) {
+    const size_t width = (size_t)frame->width, values = 3 * width, first = width * (size_t)y;
+    unsigned char *bytes = (unsigned char *)writer->row;
+    for (size_t i = 0; i < width && frame->is_encoded; i++)
+        memcpy(bytes + 3 * i, frame->rgba + 4 * (first + i), 3);
+    if (frame->is_encoded)
+        return;
+    const float *rgb = writer->has_alpha ? make_straight(writer, frame, background, first)
+                                         : frame->rgb + 3 * first;
+    if (style->bits == 8)
+        hd_curve_encode8(style->curve, rgb, values, bytes);
+    else
+        hd_curve_encode16(style->curve, rgb, values, writer->row);
+    if (writer->has_alpha)
+        insert_alpha(frame, style->bits, first, bytes);
+    if (style->bits > 8)
+        swap_codes(writer->row, writer->has_alpha ? 4 * width : values);
 }
 
 /* ---- the end ---- */
@@ -297,11 +364,12 @@ static void write_end(PngWriter *writer, const HdPictureLabel *label) {
 
 static bool try_write(PngWriter *writer, const HdFrame *frame, const HdPictureStyle *style,
                       const HdPictureLabel *label) {
+    const HdVec3 background = label != NULL ? label->background : hd_vec3(0.0, 0.0, 0.0);
     if (setjmp(png_jmpbuf(writer->png)) != 0)
         return false;
     write_head(writer, frame, style, label);
     for (int y = 0; y < frame->height; y++) {
-        make_row(frame, style, y, writer->row);
+        make_row(writer, frame, style, background, y);
         png_write_row(writer->png, (png_const_bytep)writer->row);
     }
     write_end(writer, label);
@@ -312,15 +380,19 @@ static HdStatus write_frame(const HdFrame *frame, const HdPictureStyle *style,
                             const HdPictureLabel *label, FILE *stream, const char *path,
                             HdError *error) {
     PngWriter writer = {.stream = stream, .hash = HD_HASH_START, .message = "out of memory"};
-    writer.row = malloc((size_t)frame->width * 3 * sizeof *writer.row);
+    writer.has_alpha = style->has_alpha && frame->first != NULL;
+    writer.row = malloc((size_t)frame->width * 4 * sizeof *writer.row);
+    if (writer.has_alpha)
+        writer.straight = malloc((size_t)frame->width * 3 * sizeof *writer.straight);
     writer.png =
         png_create_write_struct(PNG_LIBPNG_VER_STRING, writer.message, on_error, on_warning);
     if (writer.png != NULL)
         writer.info = png_create_info_struct(writer.png);
-    const bool good =
-        writer.row != NULL && writer.info != NULL && try_write(&writer, frame, style, label);
+    const bool good = writer.row != NULL && (writer.straight != NULL || !writer.has_alpha) &&
+                      writer.info != NULL && try_write(&writer, frame, style, label);
     png_destroy_write_struct(&writer.png, &writer.info);
     free(writer.row);
+    free(writer.straight);
     return good ? HD_OK : hd_fail(error, HD_FAILED, "cannot write %s: %s", path, writer.message);
 }
 
@@ -343,13 +415,13 @@ static HdStatus create_texture(HdTexture *texture, const unsigned char *bytes, s
 }
 
 static PngReader *open_bytes(const unsigned char *bytes, size_t size, const char *name,
-                             HdError *error) {
+                             bool wants_alpha, HdError *error) {
     FILE *file = fmemopen((void *)bytes, size, "rb"); /* only read */
     if (file == NULL) {
         hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
         return NULL;
     }
-    PngReader *reader = open_reader(file, name, error);
+    PngReader *reader = open_reader(file, name, wants_alpha, error);
     if (reader == NULL)
         fclose(file);
     return reader;
@@ -363,7 +435,7 @@ static void close_bytes(PngReader *reader) {
 static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                        const char *name, HdError *error) {
     HD_TRY(create_texture(texture, bytes, size, name, error));
-    PngReader *reader = open_bytes(bytes, size, name, error);
+    PngReader *reader = open_bytes(bytes, size, name, texture->is_mask, error);
     if (reader == NULL)
         return error->status;
     const HdStatus status = read_rows(reader, texture->texels, texture->height, error);
@@ -390,7 +462,7 @@ static HdStatus load_rows(HdFrame *frame, PngReader *reader, const char *name, H
 static HdStatus load(HdFrame *frame, const unsigned char *bytes, size_t size, const char *name,
                      HdError *error) {
     HdStatus status;
-    PngReader *reader = open_bytes(bytes, size, name, error);
+    PngReader *reader = open_bytes(bytes, size, name, false, error);
     if (reader == NULL)
         return error->status;
     const HdPictureFacts *facts = &reader->facts;
@@ -409,7 +481,7 @@ static HdStatus load(HdFrame *frame, const unsigned char *bytes, size_t size, co
 
 static HdStatus open_rows(void **rows, FILE *file, const char *path, HdPictureFacts *facts,
                           HdError *error) {
-    PngReader *reader = open_reader(file, path, error);
+    PngReader *reader = open_reader(file, path, false, error);
     if (reader == NULL)
         return error->status;
     if (reader->is_interlaced) {
@@ -439,6 +511,7 @@ const HdFormat hd_format_png = {
     .name = "PNG",
     .write = write_frame,
     .max_encoded_bits = 8,
+    .has_alpha = true,
     .load = load,
     .decode = decode,
     .begins = begins,

@@ -8,7 +8,7 @@
 #include "base/limits.h"
 #include "system/machine.h"
 
-const char *const hd_layer_names[] = {"depth", "normal", "object", "samples", "bound", NULL};
+const char *const hd_layer_names[] = {"depth", "normal", "object", "bound", NULL};
 
 HdStatus hd_frame_create(HdFrame *frame, int width, int height, HdError *error) {
     return hd_frame_create_with(frame, width, height, HD_RADIANCE_FLOATS, error);
@@ -49,33 +49,26 @@ static int first_floats_of(unsigned layers) {
     return (layers & HD_LAYER_BIT(HD_LAYER_ALPHA)) != 0 ? 1 : 0;
 }
 
-static int effort_floats_of(unsigned layers) {
-    const unsigned effort = HD_LAYER_BIT(HD_LAYER_SAMPLES) | HD_LAYER_BIT(HD_LAYER_BOUND);
-    return (layers & effort) != 0 ? HD_EFFORT_FLOATS : 0;
+static int bound_floats_of(unsigned layers) {
+    return (layers & HD_LAYER_BIT(HD_LAYER_BOUND)) != 0 ? 1 : 0;
 }
 
 size_t hd_layer_bytes(unsigned layers) {
-    return sizeof(float) * (size_t)(first_floats_of(layers) + effort_floats_of(layers));
+    return sizeof(float) * (size_t)(first_floats_of(layers) + bound_floats_of(layers));
 }
 
 HdStatus hd_frame_add_layers(HdFrame *frame, unsigned layers, HdError *error) {
     const size_t pixels = (size_t)frame->width * (size_t)frame->height;
-    const int first = first_floats_of(layers), effort = effort_floats_of(layers);
+    const int first = first_floats_of(layers), bounds = bound_floats_of(layers);
     if (first > 0)
         frame->first = calloc(pixels * (size_t)first, sizeof *frame->first);
-    if (effort > 0)
-        frame->effort = calloc(pixels * (size_t)effort, sizeof *frame->effort);
-    if ((first > 0 && frame->first == NULL) || (effort > 0 && frame->effort == NULL))
+    if (bounds > 0)
+        frame->bounds = calloc(pixels, sizeof *frame->bounds);
+    if ((first > 0 && frame->first == NULL) || (bounds > 0 && frame->bounds == NULL))
         return HD_NO_ROOM(error, "the layers of %d x %d pixels", frame->width, frame->height);
     frame->layers = layers;
     frame->first_floats = first;
     return HD_OK;
-}
-
-void hd_frame_fill_samples(HdFrame *frame, int samples) {
-    const size_t pixels = (size_t)frame->width * (size_t)frame->height;
-    for (size_t i = 0; frame->effort != NULL && i < pixels; i++)
-        frame->effort[i * HD_EFFORT_FLOATS + HD_EFFORT_SAMPLES] = (float)samples;
 }
 
 void hd_frame_encode(const HdFrame *frame, HdCurve curve) {
@@ -87,7 +80,7 @@ void hd_frame_free(HdFrame *frame) {
     free(frame->rgb);
     free(frame->rgba);
     free(frame->first);
-    free(frame->effort);
+    free(frame->bounds);
     memset(frame, 0, sizeof *frame);
 }
 
@@ -111,9 +104,9 @@ uint64_t hd_frame_hash(const HdFrame *frame) {
     const size_t values = (size_t)frame->width * (size_t)frame->height * (size_t)frame->floats;
     const int32_t size[] = {frame->width, frame->height};
     const uint64_t counts[] = {hd_frame_rays(frame), frame->shadow_tests, frame->clamps};
-    uint64_t hash = hd_hash_bytes(HD_HASH_START, size, sizeof size);
-    hash = hd_hash_bytes(hash, counts, sizeof counts);
-    return hd_hash_bytes(hash, frame->rgb, values * sizeof *frame->rgb);
+    uint64_t hash = hd_hash_numbers(HD_HASH_START, size, sizeof size, sizeof *size);
+    hash = hd_hash_numbers(hash, counts, sizeof counts, sizeof *counts);
+    return hd_hash_numbers(hash, frame->rgb, values * sizeof *frame->rgb, sizeof *frame->rgb);
 }
 
 HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, const char *name,

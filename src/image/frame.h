@@ -15,7 +15,6 @@ typedef enum HdLayer {
     HD_LAYER_DEPTH,
     HD_LAYER_NORMAL,
     HD_LAYER_OBJECT,
-    HD_LAYER_SAMPLES,
     HD_LAYER_BOUND, /* scenes with an error bound only */
     HD_LAYER_ALPHA
 } HdLayer;
@@ -29,7 +28,7 @@ extern const char *const hd_layer_names[]; /* by HdLayer; NULL-terminated */
 typedef struct HdFrameRequest {
     bool radiance;   /* fill `rgb` */
     HdCurve curve;   /* otherwise 8 bits on this curve suffice, if the device can encode them */
-    unsigned layers; /* layers that `first` and `effort` must hold */
+    unsigned layers; /* layers that `first` and `bounds` must hold */
 } HdFrameRequest;
 
 /* Floats of a pixel; HD_BOUNDED_FLOATS for scenes with an error bound. */
@@ -44,9 +43,6 @@ enum {
     HD_FIRST_OBJECT = HD_FIRST_NORMAL + 3, /* solids, floor, meshes, from 1 */
     HD_MAX_FIRST_FLOATS
 };
-
-/* Indices into HdFrame.effort. */
-enum { HD_EFFORT_SAMPLES, HD_EFFORT_BOUND, HD_EFFORT_FLOATS };
 
 typedef struct HdFrame {
     int width, height;
@@ -67,8 +63,8 @@ typedef struct HdFrame {
     unsigned layers;  /* HD_LAYER_BIT of the allocated layers */
     int first_floats; /* floats of a pixel in `first`: 0, 1 or HD_MAX_FIRST_FLOATS */
     float *first;     /* owned; first hits of the primary rays; NULL: not requested */
-    float *effort;    /* owned; HD_EFFORT_FLOATS a pixel: its samples and, with an error bound, its
-                         maximum error in 1/255 from omitted light; NULL: not requested */
+    float *bounds;    /* owned; with an error bound a pixel's maximum error in 1/255 from omitted
+                         light; NULL: not requested */
 } HdFrame;
 
 /* Counts of a part of a frame, laid out as the kernels' RayCounts; as in HdFrame. */
@@ -95,9 +91,6 @@ HdStatus hd_frame_add_layers(HdFrame *frame, unsigned layers, HdError *error);
 /* Returns the bytes of the layers a pixel. */
 size_t hd_layer_bytes(unsigned layers);
 
-/* Records this number of samples for each pixel in `effort`, if present. */
-void hd_frame_fill_samples(HdFrame *frame, int samples);
-
 /* Fills `rgba` from the radiance of a frame of HD_RADIANCE_FLOATS. */
 void hd_frame_encode(const HdFrame *frame, HdCurve curve);
 
@@ -119,7 +112,9 @@ enum { HD_MAX_TEXTURE_PIXELS = 1 << 28 };
 /* Linear values, 16 bits a channel, row by row from the top: r, g, b, r, g, b, ... */
 typedef struct HdTexture {
     int width, height;
-    uint16_t *texels; /* owned; width * height * 3 */
+    uint16_t *texels;  /* owned; width * height * 3 */
+    bool is_cut_short; /* its file ends early; the decoder made up the rest */
+    bool is_mask;      /* three times the opacity, not colours */
 } HdTexture;
 
 /* Checks the size against HD_MAX_TEXTURE_SIDE and the limit above, and allocates uninitialised

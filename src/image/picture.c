@@ -28,6 +28,14 @@ bool hd_format_is_film(const HdFormat *format) {
     return format != NULL && format->film_arguments[0] != NULL;
 }
 
+bool hd_format_has_alpha(const HdFormat *format) {
+    return format->has_layers || format->has_alpha;
+}
+
+double hd_frame_rate(const HdOutputStyle *style) {
+    return style->frames_per_second * (style->is_ntsc ? 1000.0 / 1001.0 : 1.0);
+}
+
 HdStatus hd_format_check_style(const char *path, const HdPictureStyle *style, HdError *error) {
     const HdFormat *format = hd_format_of(path);
     if (format != NULL && format->is_srgb_only && style->curve != HD_CURVE_SRGB)
@@ -75,19 +83,27 @@ HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, con
 static const int64_t MAX_TEXTURE_FILE = INT64_C(4) << 30;
 
 /* Everything except PNG and JPEG may be the data format, which has no signature. */
-HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
-                           const char *name, HdCurve curve, HdError *error) {
-    *texture = (HdTexture){0};
+static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t size,
+                       const char *name, HdError *error) {
     const HdFormat *format = hd_format_png.begins(bytes, size)    ? &hd_format_png
                              : hd_format_jpeg.begins(bytes, size) ? &hd_format_jpeg
                                                                   : &hd_format_data;
     const HdStatus status = format->decode(texture, bytes, size, name, error);
-    if (status == HD_OK)
-        hd_curve_decode16(curve, texture->texels,
-                          (size_t)texture->width * (size_t)texture->height * 3);
-    else
+    if (status != HD_OK)
         hd_texture_clear(texture);
     return status;
+}
+
+static size_t texels_of(const HdTexture *texture) {
+    return (size_t)texture->width * (size_t)texture->height;
+}
+
+HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
+                           const char *name, HdCurve curve, HdError *error) {
+    *texture = (HdTexture){0};
+    HD_TRY(decode(texture, bytes, size, name, error));
+    hd_curve_decode16(curve, texture->texels, texels_of(texture) * 3);
+    return HD_OK;
 }
 
 HdStatus hd_texture_read(HdTexture *texture, const char *path, HdCurve curve, HdError *error) {
@@ -96,6 +112,41 @@ HdStatus hd_texture_read(HdTexture *texture, const char *path, HdCurve curve, Hd
     *texture = (HdTexture){0};
     HD_TRY(hd_file_read(path, "texture", MAX_TEXTURE_FILE, &bytes, &size, error));
     const HdStatus status = hd_texture_decode(texture, bytes, size, path, curve, error);
+    free(bytes);
+    return status;
+}
+
+/* ---- masks ---- */
+
+static bool is_white(const HdTexture *texture) {
+    for (size_t i = 0; i < texels_of(texture) * 3; i++)
+        if (texture->texels[i] != UINT16_MAX)
+            return false;
+    return true;
+}
+
+static HdStatus decode_mask(HdTexture *mask, const unsigned char *bytes, size_t size,
+                            const char *name, HdError *error) {
+    mask->is_mask = true;
+    HD_TRY(decode(mask, bytes, size, name, error));
+    if (is_white(mask)) {
+        hd_texture_clear(mask);
+        HD_TRY(decode(mask, bytes, size, name, error));
+        mask->is_mask = true;
+    }
+    for (size_t i = 0; i < texels_of(mask); i++) {
+        uint16_t *at = mask->texels + 3 * i;
+        at[0] = at[1] = at[2] = (uint16_t)((at[0] + at[1] + at[2]) / 3);
+    }
+    return HD_OK;
+}
+
+HdStatus hd_mask_read(HdTexture *mask, const char *path, HdError *error) {
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    *mask = (HdTexture){0};
+    HD_TRY(hd_file_read(path, "texture", MAX_TEXTURE_FILE, &bytes, &size, error));
+    const HdStatus status = decode_mask(mask, bytes, size, path, error);
     free(bytes);
     return status;
 }

@@ -8,10 +8,10 @@
 #include "image/format.h"
 #include "system/atomic_file.h"
 
-/* hd_format_NAME is the format of files ending in .NAME. mp4: H.264, 4:2:0; mkv: FFV1, lossless
-   RGB; gif: 256 colours, endless loop. png: 8 or 16 bits, RGB; exr: half or float, linear; pfm:
-   float, linear; data: 8 bits, RGBA. */
-#define HD_FILM_FORMATS(FIRST, NEXT, LAST)    FIRST(mp4) NEXT(mkv) LAST(gif)
+/* hd_format_NAME is the format of files ending in .NAME. mp4, mov: H.264, 4:2:0; webm: VP9, 4:2:0;
+   mkv: FFV1, lossless RGB; gif: 256 colours, endless loop. png: 8 or 16 bits, RGB; exr: half or
+   float, linear; pfm: float, linear; data: 8 bits, RGBA. */
+#define HD_FILM_FORMATS(FIRST, NEXT, LAST)    FIRST(mp4) NEXT(mov) NEXT(webm) NEXT(mkv) LAST(gif)
 #define HD_PICTURE_FORMATS(FIRST, NEXT, LAST) FIRST(png) NEXT(exr) NEXT(pfm) LAST(data)
 
 #define HD_FORMAT_DECLARED(name) extern const HdFormat hd_format_##name;
@@ -33,6 +33,12 @@ const HdFormat *hd_format_of(const char *path);
 
 /* Returns whether a format is a film; NULL is not. */
 bool hd_format_is_film(const HdFormat *format);
+
+/* Returns whether files of a format can have alpha. */
+bool hd_format_has_alpha(const HdFormat *format);
+
+/* Returns the film's frames in a second. */
+double hd_frame_rate(const HdOutputStyle *style);
 
 /* Returns HD_BAD_INPUT for a film that cannot tag the style's curve, or a picture without so many
    bits. */
@@ -60,6 +66,10 @@ HdStatus hd_texture_read(HdTexture *texture, const char *path, HdCurve curve, Hd
 /* As above from memory; `name` is for messages. */
 HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                            const char *name, HdCurve curve, HdError *error);
+
+/* Reads a mask, 0 transparent to 65535 opaque in all channels: the alpha, or if that is opaque
+   everywhere or there is none, the mean of the channels on their curve. */
+HdStatus hd_mask_read(HdTexture *mask, const char *path, HdError *error);
 
 /* Maximum of display values. Values of 8 and 16 bits are integers on this scale, so their
    differences are exact; 257 is 1/255. */

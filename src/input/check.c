@@ -81,7 +81,8 @@ static void check_number(HdSceneChecker *checker, const HdField *field, const ch
     else if (field->below_high)
         snprintf(expected, sizeof expected, "at least %.15g and less than %.15g", low, high);
     else
-        snprintf(expected, sizeof expected, "a number from %.15g to %.15g", low, high);
+        snprintf(expected, sizeof expected, "a number from %.15g to %.15g%s", low, high,
+                 field->has_sign ? ", or its negative" : "");
     report(checker, "%s%s is %.15g, expected %s", what, part, value, expected);
 }
 
@@ -114,6 +115,10 @@ static void check_field(HdSceneChecker *checker, const HdField *field, const voi
     switch (field->type) {
     case HD_FIELD_INTEGER:
         check_int(checker, what, *(const int *)place, (int)field->low, (int)field->high);
+        break;
+    case HD_FIELD_RATE:
+        check_int(checker, what, ((const HdOutputStyle *)place)->frames_per_second, (int)field->low,
+                  (int)field->high);
         break;
     case HD_FIELD_NUMBER:
         check_number(checker, field, what, "", *(const double *)place);
@@ -455,7 +460,9 @@ static void check_instance(HdSceneChecker *checker, const HdScene *scene, int in
     check_int(checker, "number of its mesh", instance->mesh, 0, scene->mesh_count - 1);
     check_object(checker, "meshes", &entry);
     if (checker->problems->count == before)
-        check_size(checker, &scene->meshes[instance->mesh], instance->scale);
+        check_size(
+            checker, &scene->meshes[instance->mesh],
+            hd_vec3(fabs(instance->scale.x), fabs(instance->scale.y), fabs(instance->scale.z)));
     if (instance->has_material)
         hd_check_material(checker, &instance->material, true);
     leave(checker);
@@ -470,10 +477,6 @@ void hd_check_instances(HdSceneChecker *checker, const HdScene *scene) {
 
 /* Overlaps */
 
-static bool refracts(const HdSolid *solid) {
-    return solid->face.index_of_refraction != 1.0;
-}
-
 /* Writes "solids[1] (cube)". */
 static void name_solid(const HdSceneChecker *checker, const HdSolid *solid, int index,
                        char out[48]) {
@@ -484,49 +487,39 @@ static void name_solid(const HdSceneChecker *checker, const HdSolid *solid, int 
         snprintf(out, 48, "solid %d (%s)", index + 1, kind);
 }
 
-static void add_overlap(HdSceneChecker *checker, const char *refracting, const char *other,
-                        double depth) {
-    const bool is_json = checker->naming == HD_NAMING_JSON;
-    hd_problem(checker->problems,
-               "%s: it refracts and overlaps %s, %.3g deep; move them apart or give it %s",
-               refracting, other, depth,
-               is_json ? "index_of_refraction 1" : "an index of refraction of 1");
-}
-
-static void check_pair(HdSceneChecker *checker, const HdSolid *solids, int first, int second) {
+/* Checks two solids that both let rays pass; `refracts` tells of each whether it bends them. */
+static void check_pair(HdSceneChecker *checker, const HdSolid *solids, const bool *refracts,
+                       int first, int second) {
     char name[48], other_name[48];
-    if (checker->is_solid_wrong[second] || !(refracts(&solids[first]) || refracts(&solids[second])))
+    const HdSolid *a = &solids[first], *b = &solids[second];
+    if (!(refracts[first] || refracts[second]) || hd_is_opaque(&a->face) || hd_is_opaque(&b->face))
         return;
-    const double depth = hd_solid_overlap(&solids[first], &solids[second]);
-    const int subject = refracts(&solids[first]) ? first : second;
+    const double depth = hd_solid_overlap(a, b);
+    const int subject = refracts[first] ? first : second;
     const int other = first + second - subject;
-    if (depth <= 0.0)
+    if (depth <= 0.0 || hd_solid_holds(a, b) || hd_solid_holds(b, a))
         return;
     name_solid(checker, &solids[subject], subject, name);
     name_solid(checker, &solids[other], other, other_name);
-    add_overlap(checker, name, other_name, depth);
+    hd_problem(checker->problems,
+               "%s: it refracts and overlaps %s, %.3g deep; move them apart, or one wholly into "
+               "the other, clear of its faces",
+               name, other_name, depth);
 }
 
-static void check_above_floor(HdSceneChecker *checker, const HdScene *scene, int index) {
-    char name[48];
-    if (!scene->floor.present || checker->is_floor_wrong || !refracts(&scene->solids[index]))
-        return;
-    const double depth = hd_floor_overlap(&scene->solids[index], &scene->floor);
-    if (depth <= 0.0)
-        return;
-    name_solid(checker, &scene->solids[index], index, name);
-    add_overlap(checker, name, "the floor", depth);
-}
-
-/* Checks that refracting solids keep clear of others, if all positions and sizes are valid. */
-static void check_overlaps(HdSceneChecker *checker, const HdScene *scene) {
-    for (int i = 0; i < checker->solid_count; i++) {
+/* Checks that of two solids that overlap, and of which one refracts, one is opaque or within the
+   other, if all positions and sizes are valid. */
+static void check_overlaps(HdSceneChecker *checker, const HdSolid *solids) {
+    bool refracts[HD_MAX_SOLIDS];
+    for (int i = 0; i < checker->solid_count; i++)
         if (checker->is_solid_wrong[i])
-            continue;
+            return;
+    for (int i = 0; i < checker->solid_count; i++)
+        refracts[i] = solids[i].face.index_of_refraction !=
+                      hd_index_around(solids, checker->solid_count, &solids[i]);
+    for (int i = 0; i < checker->solid_count; i++)
         for (int j = i + 1; j < checker->solid_count; j++)
-            check_pair(checker, scene->solids, i, j);
-        check_above_floor(checker, scene, i);
-    }
+            check_pair(checker, solids, refracts, i, j);
 }
 
 /* Missing parts (rim, edge lights, floor, texture) need no check. */
@@ -542,7 +535,7 @@ void hd_check_scene(HdSceneChecker *checker, const HdScene *scene) {
     check_camera_path(checker, scene);
     leave(checker);
     if (!checker->is_any_solid_wrong)
-        check_overlaps(checker, scene);
+        check_overlaps(checker, scene->solids);
 }
 
 HdStatus hd_scene_validate(const HdScene *scene, HdError *error) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "input/fields.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -46,11 +47,13 @@
 /* Enums are stored as int. */
 _Static_assert(sizeof(HdSolidKind) == sizeof(int), "an HdSolidKind is as large as an int");
 _Static_assert(sizeof(HdCurve) == sizeof(int), "an HdCurve is as large as an int");
+_Static_assert(sizeof(HdUpAxis) == sizeof(int), "an HdUpAxis is as large as an int");
 _Static_assert(sizeof(HdMeshNormals) == sizeof(int), "an HdMeshNormals is as large as an int");
 
 static const HdChoice versions[] = {{"1", 1}, {NULL, 0}};
 static const HdChoice curves[] = {{"srgb", HD_CURVE_SRGB}, {"linear", HD_CURVE_LINEAR}, {NULL, 0}};
 static const HdChoice bits[] = {{"8", 8}, {"16", 16}, {"32", 32}, {NULL, 0}};
+static const HdChoice up_axes[] = {{"z", HD_UP_Z}, {"y", HD_UP_Y}, {NULL, 0}};
 static const HdChoice normals[] = {
     {"file", HD_NORMALS_FILE}, {"flat", HD_NORMALS_FLAT}, {"smooth", HD_NORMALS_SMOOTH}, {NULL, 0}};
 #define KIND_CHOICE(kind, name) {name, kind},
@@ -66,15 +69,16 @@ static const HdField image_fields[] = {
      MEASURE("pixels"), DEFAULT(480)},
     {AT(HdScene, samples_per_side, "samples", "n: each pixel is the mean of n x n samples"),
      INTEGER(1, HD_MAX_SAMPLES_PER_SIDE), .name = "samples per side", DEFAULT(3)},
+    {AT(HdScene, sample_rows, "sample_rows", "With multijitter, m: n x m samples instead of n x n"),
+     INTEGER(1, HD_MAX_SAMPLES_PER_SIDE), .zero_is_absent = true},
     {AT(HdScene, depth, "depth", "Maximum ray depth: reflections and transmissions in a row"),
      INTEGER(0, HD_MAX_DEPTH), DEFAULT(8)},
     {AT(HdScene, cutoff, "cutoff",
         "Rays end when their weight is below this in every channel; 0: never"),
      NUMBER(0.0, 1.0), .below_high = true, DEFAULT(0.0)},
     {AT(HdScene, sampling, "aa",
-        "Antialiasing: multijitter has one sample in each of n x n cells and in each of their "
-        "columns and rows, grid one in the middle of each cell, adaptive as many of the grid's as "
-        "needed"),
+        "Antialiasing: multijitter has one sample in each of n x n cells and in each of n * n "
+        "columns and rows of the pixel, grid one in the middle of each cell"),
      CHOICE(samplings, HD_SAMPLING_MULTIJITTER)},
     {AT(HdScene, max_error, "max_error",
         "Maximum truncation error of a pixel; 0: off. Otherwise rays and lights end by this bound, "
@@ -131,15 +135,18 @@ static const HdField output_fields[] = {
     {AT(HdSceneFile, output.path, "path",
         "File of the picture, sequence or film; #### or %04d stands for the frame number"),
      TEXT, EXAMPLE("\"out/%04d.png\"")},
-    {AT(HdSceneFile, output.style.frames_per_second, "frames_per_second", "Frame rate of a film"),
-     INTEGER(1, HD_MAX_FRAMES_PER_SECOND), MEASURE("frames/s"),
-     DEFAULT(HD_DEFAULT_FRAMES_PER_SECOND)},
+    {AT(HdSceneFile, output.style, "frames_per_second", "Frame rate of a film"),
+     .type = HD_FIELD_RATE, .low = 1, .high = HD_MAX_FRAMES_PER_SECOND, MEASURE("frames/s"),
+     EXAMPLE("\"24000/1001\""), DEFAULT(HD_DEFAULT_FRAMES_PER_SECOND)},
     {AT(HdSceneFile, output.style.picture.curve, "curve",
         "Transfer curve of the values in the file; never linear for a GIF"),
      CHOICE(curves, HD_CURVE_SRGB)},
     {AT(HdSceneFile, output.style.picture.bits, "bits",
         "Bits of a channel: 8 or 16 for PNG; 32 makes OpenEXR float instead of half"),
      CHOICE(bits, 8), MEASURE("bits")},
+    {AT(HdSceneFile, output.style.picture.has_alpha, "alpha",
+        "Whether PNG has alpha; colours are then without the background"),
+     .type = HD_FIELD_BOOLEAN, DEFAULT(0)},
 };
 static const HdObjectType output = COMPLETE_TYPE(HdSceneFile, output_fields, NULL);
 
@@ -169,7 +176,7 @@ static const HdField material_fields[] = {
         "Transmission of rays inside the solid; as outside unless given"),
      NUMBER(0.0, 1.0), INNER_SIDE},
     {AT(HdMaterial, index_of_refraction, "index_of_refraction",
-        "Index inside the solid; outside it is 1. With 1 rays go straight on"),
+        "Index inside the solid; outside it is 1, or that of a solid around it"),
      NUMBER(HD_MIN_INDEX_OF_REFRACTION, HD_MAX_INDEX_OF_REFRACTION), DEFAULT(1.0)},
     {AT(HdMaterial, lit_from_behind, "lit_from_behind",
         "Whether lights behind a face shine through it"),
@@ -178,7 +185,8 @@ static const HdField material_fields[] = {
 const HdObjectType hd_material_fields = TYPE(
     HdMaterial, material_fields,
     "Reflection and transmission add up to at most 1, outside and inside. A solid that refracts "
-    "must not overlap another solid or the floor. One-way mirrors show the infinity effect: little "
+    "may overlap what is opaque or the floor, or be within another. One-way "
+    "mirrors show the infinity effect: little "
     "reflection and much transmission outside, an inner_reflection of about 0.9.");
 
 #define MATERIAL .type = HD_FIELD_MATERIAL, REQUIRED
@@ -249,12 +257,19 @@ static const HdObjectType solid = TYPE(HdSolid, solid_fields, NULL);
 static const HdField mesh_fields[] = {
     {AT(HdMeshEntry, file, "file", "Wavefront OBJ file, relative to the scene's folder"),
      .type = HD_FIELD_FILE, EXAMPLE("\"teapot.obj\""), REQUIRED},
-    {AT(HdMeshEntry, instance.position, "position", "Position of the mesh's origin in the world"),
+    {AT(HdMeshEntry, instance.up, "up", "Axis of the object that points up"),
+     CHOICE(up_axes, HD_UP_Z)},
+    {AT(HdMeshEntry, size, "size",
+        "Length of the longest side of its box in object space; the mesh then stands on position"),
+     LENGTH, .zero_is_absent = true},
+    {AT(HdMeshEntry, instance.position, "position",
+        "Position of the mesh's origin in the world; with size, that below the middle of its box"),
      POSITION, WORLD, DEFAULT(0.0)},
     {AT(HdMeshEntry, instance.rotation_degrees, "rotation", ROTATION_TEXT), ROTATION},
     {AT(HdMeshEntry, instance.scale, "scale",
-        "Factor from object to world units: one number, or one for each axis of the object"),
-     .type = HD_FIELD_SCALE, .low = HD_MIN_LENGTH, .high = HD_MAX_NUMBER, WHITE},
+        "Factor from object to world units: one number, or one for each axis of the object. "
+        "Negative ones mirror"),
+     .type = HD_FIELD_SCALE, .low = HD_MIN_LENGTH, .high = HD_MAX_NUMBER, .has_sign = true, WHITE},
     {AT(HdMeshEntry, normals, "normals",
         "Shading normals: those of the file, flat if it has none; flat; or smooth except at "
         "creases"),
@@ -265,14 +280,14 @@ static const HdField mesh_fields[] = {
     {AT(HdMeshEntry, instance.material, "material",
         "Name of a material that replaces those of the file, except for Ke and map_Kd"),
      .type = HD_FIELD_MATERIAL, .flag_offset = offsetof(HdMeshEntry, instance.has_material)},
-    {AT(HdMeshEntry, ambient, "ambient",
-        "Factor of the file's Ka, which most programs set to 1"),
+    {AT(HdMeshEntry, ambient, "ambient", "Factor of the file's Ka, which most programs set to 1"),
      NUMBER(0.0, 1.0), DEFAULT(0.0)},
 };
 static const HdObjectType mesh =
     TYPE(HdMeshEntry, mesh_fields,
-         "The vertices of the file are in object space. They are scaled, then rotated, then moved. "
-         "Entries that differ only in their place and material share one mesh in memory.");
+         "The vertices of the file are in object space. They are scaled, turned upright, rotated, "
+         "then moved. Entries with the same file, normals, crease and ambient share one mesh in "
+         "memory.");
 
 static const HdField light_fields[] = {
     {AT(HdLight, position, "position", "Position of the light"), POSITION, WORLD,
@@ -355,10 +370,12 @@ bool hd_field_may_be_absent(const HdField *field) {
 
 bool hd_field_is_given(const HdField *field, const void *owner) {
     const char *begin = owner;
+    const void *value = begin + field->offset;
     if (field->type == HD_FIELD_TEXT)
         return begin[field->offset] != '\0';
     if (field->zero_is_absent)
-        return *(const double *)(const void *)(begin + field->offset) != 0.0;
+        return field->type == HD_FIELD_INTEGER ? *(const int *)value != 0
+                                               : *(const double *)value != 0.0;
     if (field->flag_offset != 0)
         return *(const bool *)(const void *)(begin + field->flag_offset);
     return field->is_given == NULL || field->is_given(owner);
@@ -389,6 +406,8 @@ int hd_field_count(const HdField *field, const void *owner) {
 }
 
 bool hd_field_holds(const HdField *field, double value) {
+    if (field->has_sign)
+        value = fabs(value);
     const bool from = field->above_low ? value > field->low : value >= field->low;
     const bool to = field->below_high ? value < field->high : value <= field->high;
     return from && to;
@@ -396,10 +415,10 @@ bool hd_field_holds(const HdField *field, double value) {
 
 int hd_field_parts(const HdField *field) {
     static const int parts[HD_FIELD_MATERIALS + 1] = {
-        [HD_FIELD_BOOLEAN] = 1,  [HD_FIELD_INTEGER] = 1, [HD_FIELD_NUMBER] = 1,
-        [HD_FIELD_FACTOR] = 1,   [HD_FIELD_CHOICE] = 1,  [HD_FIELD_VECTOR] = 3,
-        [HD_FIELD_UNSCALED] = 3, [HD_FIELD_VECTORS] = 3, [HD_FIELD_SCALE] = 3,
-        [HD_FIELD_PATH] = 3};
+        [HD_FIELD_BOOLEAN] = 1, [HD_FIELD_INTEGER] = 1,  [HD_FIELD_NUMBER] = 1,
+        [HD_FIELD_FACTOR] = 1,  [HD_FIELD_CHOICE] = 1,   [HD_FIELD_RATE] = 1,
+        [HD_FIELD_VECTOR] = 3,  [HD_FIELD_UNSCALED] = 3, [HD_FIELD_VECTORS] = 3,
+        [HD_FIELD_SCALE] = 3,   [HD_FIELD_PATH] = 3};
     return parts[field->type];
 }
 
@@ -412,7 +431,10 @@ void hd_field_set(const HdField *field, void *owner, const double numbers[3]) {
         *(int *)place = (int)numbers[0];
     else if (field->type == HD_FIELD_NUMBER)
         *(double *)place = numbers[0];
-    else if (field->type == HD_FIELD_FACTOR)
+    else if (field->type == HD_FIELD_RATE) {
+        ((HdOutputStyle *)place)->frames_per_second = (int)numbers[0];
+        ((HdOutputStyle *)place)->is_ntsc = numbers[1] != 0.0;
+    } else if (field->type == HD_FIELD_FACTOR)
         *(HdVec3 *)place = hd_scale(*(const HdVec3 *)place, numbers[0]);
     else if (field->type == HD_FIELD_PATH)
         *(HdPath *)place = (HdPath){.is_fixed = true, .point = vector};
@@ -432,7 +454,8 @@ static void expected_range(const HdField *field, const char *what, char out[HD_E
         hd_short_number(field->high, high);
     }
     if (!field->above_low && !field->below_high)
-        snprintf(out, HD_EXPECTED_SIZE, "%s from %s to %s", what, low, high);
+        snprintf(out, HD_EXPECTED_SIZE, "%s from %s to %s%s", what, low, high,
+                 field->has_sign ? ", or its negative" : "");
     else
         snprintf(out, HD_EXPECTED_SIZE, "%s %s %s and %s %s", what,
                  field->above_low ? "above" : "of at least", low,
@@ -463,9 +486,13 @@ void hd_field_expected_count(const HdField *field, char out[HD_EXPECTED_SIZE]) {
 void hd_field_expected(const HdField *field, int parts, char out[HD_EXPECTED_SIZE]) {
     static const char number[] = "a number", vector[] = "three numbers, each a number";
     static const char *const of_range[HD_FIELD_MATERIALS + 1] = {
-        [HD_FIELD_NUMBER] = number,        [HD_FIELD_FACTOR] = number,
-        [HD_FIELD_INTEGER] = "an integer", [HD_FIELD_VECTOR] = vector,
-        [HD_FIELD_UNSCALED] = vector,      [HD_FIELD_SCALE] = "one number or three, each a number"};
+        [HD_FIELD_NUMBER] = number,
+        [HD_FIELD_FACTOR] = number,
+        [HD_FIELD_INTEGER] = "an integer",
+        [HD_FIELD_RATE] = "an integer or \"n000/1001\", n",
+        [HD_FIELD_VECTOR] = vector,
+        [HD_FIELD_UNSCALED] = vector,
+        [HD_FIELD_SCALE] = "one number or three, each a number"};
     static const char *const plain[] = {
         [HD_FIELD_BOOLEAN] = "true or false",
         [HD_FIELD_TEXT] = "a string that is not empty",

@@ -29,6 +29,7 @@ typedef enum HdFieldType {
     HD_FIELD_FACTOR,   /* number */
     HD_FIELD_VECTORS,  /* array of vectors; HdVec3[most], and their number if it varies */
     HD_FIELD_CHOICE,   /* one of `choices`; int or an enum */
+    HD_FIELD_RATE,     /* integer n, or "n000/1001"; HdOutputStyle */
     HD_FIELD_SCALE,    /* number, or a vector; HdVec3 */
     HD_FIELD_TEXT,     /* string; char[HD_MAX_PATH], empty if absent */
     HD_FIELD_FILE,     /* string, a path relative to the scene's folder; char *, owned */
@@ -53,6 +54,7 @@ typedef struct HdField {
     bool required;
     bool above_low, below_high; /* the bound itself is out of range */
     double low, high;           /* range of the number, or of each component of a vector */
+    bool has_sign;              /* the range is that of the absolute value */
     double least_but_zero;      /* least value besides 0 in a valid scene; 0: no such limit */
     bool is_unseen;             /* does not affect pixels */
     bool is_light;              /* vectors are red, green and blue, not x, y and z */

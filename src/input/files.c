@@ -10,6 +10,8 @@
 #include "input/check.h"
 #include "input/classic.h"
 #include "mesh/mesh.h"
+#include "scene/contact.h"
+#include "scene/placement.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 
@@ -42,7 +44,12 @@ bool hd_texture_path_is_relative(const char *path) {
            strcmp(path, HD_BUILTIN_TEXTURE) != 0;
 }
 
-HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdError *error) {
+static void note_cut_short(const HdTexture *texture, const char *path, HdProblems *notes) {
+    if (texture->is_cut_short && notes != NULL)
+        hd_problem(notes, "%s ends early, so a part of the picture is grey or coarse", path);
+}
+
+HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdProblems *notes, HdError *error) {
     HdTexture *texture = &file->scene.floor.texture;
     char expanded[HD_MAX_PATH];
     if (file->texture_path[0] == '\0')
@@ -51,7 +58,9 @@ HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdError *error) {
         return hd_texture_decode(texture, hd_default_texture, hd_default_texture_size,
                                  "the built-in texture", file->texture_curve, error);
     HD_TRY(hd_path_expand_home(file->texture_path, expanded, error));
-    return hd_texture_read(texture, expanded, file->texture_curve, error);
+    HD_TRY(hd_texture_read(texture, expanded, file->texture_curve, error));
+    note_cut_short(texture, expanded, notes);
+    return HD_OK;
 }
 
 /* Meshes */
@@ -147,8 +156,10 @@ static HdStatus place_instances(Loader *loader) {
         sorted != NULL && loader->first_entry != NULL && scene->instances != NULL;
     if (has_memory) {
         scene->instance_count = (int)count;
-        for (size_t i = 0; i < count; i++)
+        for (size_t i = 0; i < count; i++) {
             scene->instances[i] = loader->file->mesh_entries[i].instance;
+            scene->instances[i].entry = (int)i;
+        }
         number_meshes(loader, sorted);
     }
     free(sorted);
@@ -162,6 +173,7 @@ static double bytes_of(const HdMesh *mesh) {
                           sizeof *mesh->corner_uvs + sizeof *mesh->material_of;
     return (double)mesh->vertex_count * sizeof *mesh->vertices +
            (double)mesh->normal_count * sizeof *mesh->normals +
+           (mesh->colours != NULL ? (double)mesh->vertex_count * sizeof *mesh->colours : 0.0) +
            (double)mesh->uv_count * sizeof *mesh->uvs + mesh->triangle_count * corner +
            (double)mesh->material_count * sizeof *mesh->materials;
 }
@@ -217,23 +229,37 @@ static HdStatus read_meshes(Loader *loader) {
 
 /* Textures */
 
-static int compare_textures(const void *a, const void *b) {
-    const HdMeshMaterial *first = *(HdMeshMaterial *const *)a;
-    const HdMeshMaterial *second = *(HdMeshMaterial *const *)b;
-    return strcmp(first->texture, second->texture);
+/* A picture that a material needs. */
+typedef struct Use {
+    const char *path;
+    bool is_mask, is_clamped;
+    int *number; /* of the picture; -1: its file is none */
+} Use;
+
+static int compare_uses(const void *a, const void *b) {
+    const Use *first = a, *second = b;
+    const int paths = strcmp(first->path, second->path);
+    if (paths != 0 || first->is_mask != second->is_mask)
+        return paths != 0 ? paths : first->is_mask - second->is_mask;
+    return first->is_clamped - second->is_clamped;
 }
 
-static HdStatus read_picture(Loader *loader, const char *path, int *number) {
+static HdStatus read_picture(Loader *loader, const Use *use, int *number) {
     HdPicture *picture = &loader->scene->pictures[loader->scene->picture_count];
-    const HdStatus status = hd_texture_read(&picture->texture, path, HD_CURVE_SRGB, loader->error);
+    const HdStatus status =
+        use->is_mask ? hd_mask_read(&picture->texture, use->path, loader->error)
+                     : hd_texture_read(&picture->texture, use->path, HD_CURVE_SRGB, loader->error);
     *number = -1;
     if (status == HD_BAD_INPUT) {
-        hd_fault(&loader->texture_faults, "texture", 1,
-                 "%s; materials with this texture use their colour only", loader->error->message);
+        hd_fault(&loader->texture_faults, use->is_mask ? "mask" : "texture", 1,
+                 "%s; materials with this %s", loader->error->message,
+                 use->is_mask ? "mask have no holes" : "texture use their colour only");
         return HD_OK;
     }
     if (status != HD_OK)
         return status;
+    note_cut_short(&picture->texture, use->path, loader->notes);
+    picture->is_clamped = use->is_clamped;
     const double pixels = (double)picture->texture.width * picture->texture.height;
     *number = loader->scene->picture_count++;
     loader->capacity -= pixels * 3 * sizeof *picture->texture.texels;
@@ -241,36 +267,46 @@ static HdStatus read_picture(Loader *loader, const char *path, int *number) {
         hd_problem(
             loader->problems,
             "meshes: the files up to the texture %s need more memory than 1/%d of this machine's",
-            path, HD_MESH_MEMORY_PART);
+            use->path, HD_MESH_MEMORY_PART);
     return HD_OK;
 }
 
-static HdStatus read_pictures(Loader *loader, HdMeshMaterial **textured, size_t count) {
+static HdStatus read_pictures(Loader *loader, Use *uses, size_t count) {
     int number = -1;
-    qsort(textured, count, sizeof(HdMeshMaterial *), compare_textures);
+    qsort(uses, count, sizeof *uses, compare_uses);
     for (size_t i = 0; i < count && loader->capacity >= 0.0; i++) {
-        if (i == 0 || compare_textures(&textured[i - 1], &textured[i]) != 0)
-            HD_TRY(read_picture(loader, textured[i]->texture, &number));
-        textured[i]->picture = number;
+        if (i == 0 || compare_uses(&uses[i - 1], &uses[i]) != 0)
+            HD_TRY(read_picture(loader, &uses[i], &number));
+        *uses[i].number = number;
     }
     return HD_OK;
+}
+
+/* Lists the pictures of a mesh's materials; returns their count. */
+static size_t list_uses(const HdMesh *mesh, Use *uses) {
+    size_t count = 0;
+    for (int k = 0; k < mesh->material_count; k++) {
+        HdMeshMaterial *m = &mesh->materials[k];
+        if (m->texture != NULL)
+            uses[count++] = (Use){m->texture, false, m->is_clamped, &m->picture};
+        if (m->mask != NULL)
+            uses[count++] = (Use){m->mask, true, m->is_clamped, &m->mask_picture};
+    }
+    return count;
 }
 
 static HdStatus load_pictures(Loader *loader) {
     HdScene *scene = loader->scene;
     size_t most = 1, count = 0;
     for (int i = 0; i < scene->mesh_count; i++)
-        most += (size_t)scene->meshes[i].material_count;
-    HdMeshMaterial **textured = malloc(most * sizeof(HdMeshMaterial *));
+        most += 2 * (size_t)scene->meshes[i].material_count;
+    Use *uses = malloc(most * sizeof *uses);
     scene->pictures = calloc(most, sizeof *scene->pictures);
-    const bool has_memory = textured != NULL && scene->pictures != NULL;
+    const bool has_memory = uses != NULL && scene->pictures != NULL;
     for (int i = 0; i < scene->mesh_count && has_memory; i++)
-        for (int k = 0; k < scene->meshes[i].material_count; k++)
-            if (scene->meshes[i].materials[k].texture != NULL)
-                textured[count++] = &scene->meshes[i].materials[k];
-    const HdStatus status =
-        has_memory ? read_pictures(loader, textured, count) : fail_memory(loader);
-    free(textured);
+        count += list_uses(&scene->meshes[i], uses + count);
+    const HdStatus status = has_memory ? read_pictures(loader, uses, count) : fail_memory(loader);
+    free(uses);
     return status;
 }
 
@@ -282,6 +318,26 @@ static void report_texture_faults(const Loader *loader) {
 
 /* Loading */
 
+static void fit_instances(const Loader *loader) {
+    HdScene *scene = loader->scene;
+    for (int i = 0; i < scene->instance_count; i++)
+        if (loader->file->mesh_entries[i].size > 0.0)
+            hd_instance_fit(&scene->instances[i], hd_mesh_of(scene, i),
+                            loader->file->mesh_entries[i].size);
+}
+
+static HdStatus drop_second_instances(Loader *loader) {
+    int dropped;
+    HD_TRY(hd_scene_drop_second_instances(loader->scene, &dropped, loader->error));
+    if (dropped > 0)
+        hd_problem(
+            loader->notes,
+            "meshes: %d of them %s in the place of an earlier one of the same file; only the "
+            "first one counts",
+            dropped, dropped == 1 ? "is" : "are");
+    return HD_OK;
+}
+
 static HdStatus load(Loader *loader) {
     HdSceneChecker checker = {.problems = loader->problems, .naming = HD_NAMING_JSON};
     HD_TRY(place_instances(loader));
@@ -291,8 +347,9 @@ static HdStatus load(Loader *loader) {
     if (loader->problems->count > 0)
         return HD_OK;
     HD_TRY(hd_scene_build_meshes(loader->scene, loader->error));
+    fit_instances(loader);
     hd_check_instances(&checker, loader->scene);
-    return HD_OK;
+    return loader->problems->count > 0 ? HD_OK : drop_second_instances(loader);
 }
 
 HdStatus hd_scene_file_load_meshes(HdSceneFile *file, HdProblems *problems, HdProblems *notes,

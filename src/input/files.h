@@ -25,15 +25,15 @@ HdStatus hd_default_input(HdSceneFile *input, HdError *error);
 
 /* Loads the texture that the scene names, if any: the embedded one or a file ("~" is the home
    folder). */
-HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdError *error);
+HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdProblems *notes, HdError *error);
 
 /* Loads the files of the entries of "meshes", each once for all entries that agree, with their
    materials and textures. Builds the hierarchies and fills in the scene's meshes, instances and
-   pictures. Reports unusable files in `problems`, if the scene is strict all wrong ones; if it has any at the end, earlier ones included,
-   the scene has no meshes. Reports the reader's notes in `notes` (NULL: nowhere), also faults that it
-   passes over, unless the scene is strict, and unreadable textures, whose materials keep their
-   colour. Fails with HD_FAILED if memory is short, and with
-   HD_INTERRUPTED after a signal. */
+   pictures. Reports unusable files in `problems`, if the scene is strict all wrong ones; if it has
+   any at the end, earlier ones included, the scene has no meshes. Reports the reader's notes in
+   `notes` (NULL: nowhere), also faults that it passes over, unless the scene is strict, and
+   unreadable textures, whose materials keep their colour. Fails with HD_FAILED if memory is short,
+   and with HD_INTERRUPTED after a signal. */
 HdStatus hd_scene_file_load_meshes(HdSceneFile *file, HdProblems *problems, HdProblems *notes,
                                    HdError *error);
 

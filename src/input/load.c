@@ -94,6 +94,21 @@ static bool read_vector(Reader *reader, const HdField *field, const json_t *valu
     return is_read;
 }
 
+/* Reads an integer n, or "n000/1001", which sets the second number. */
+static bool read_rate(Reader *reader, const HdField *field, const json_t *value, double *out) {
+    const char *text = json_string_value(value);
+    char *end = NULL;
+    const double number = json_number_value(value);
+    const long top = text != NULL && text[0] >= '1' && text[0] <= '9' ? strtol(text, &end, 10) : 0;
+    const bool is_ntsc = end != NULL && strcmp(end, "/1001") == 0 && top % 1000 == 0;
+    const double frames = is_ntsc ? (double)(top / 1000) : floor(number);
+    if ((!is_ntsc && frames != number) || !hd_field_holds(field, frames))
+        return refuse(reader, field, value, 0);
+    out[0] = frames;
+    out[1] = is_ntsc ? 1.0 : 0.0;
+    return true;
+}
+
 /* Reads a vector or one number for every axis. */
 static bool read_scale(Reader *reader, const HdField *field, const json_t *value, double *out) {
     if (json_array_size(value) == 3)
@@ -129,7 +144,7 @@ static void read_numbers(Reader *reader, const HdField *field, const json_t *val
         [HD_FIELD_NUMBER] = read_number,   [HD_FIELD_FACTOR] = read_number,
         [HD_FIELD_VECTOR] = read_vector,   [HD_FIELD_UNSCALED] = read_vector,
         [HD_FIELD_PATH] = read_vector,     [HD_FIELD_SCALE] = read_scale,
-        [HD_FIELD_CHOICE] = read_choice};
+        [HD_FIELD_CHOICE] = read_choice,   [HD_FIELD_RATE] = read_rate};
     double numbers[3] = {0.0, 0.0, 0.0};
     if (of_type[field->type](reader, field, value, numbers))
         hd_field_set(field, owner, numbers);
@@ -422,7 +437,7 @@ static void read_object(Reader *reader, const HdObjectType *type, const json_t *
 
 /* Checks that an output path is empty, or has a known ending and a number only if allowed. */
 static void check_output_path(HdSceneReport *report, const char *path) {
-    char quoted[HD_WORDS_SIZE];
+    char quoted[HD_WORDS_SIZE], name[HD_MAX_PATH];
     HdError error;
     if (path[0] == '\0')
         return;
@@ -433,13 +448,14 @@ static void check_output_path(HdSceneReport *report, const char *path) {
                   "is %s, expected the name of a film (" HD_FILM_ENDINGS
                   ") or of a picture (" HD_PICTURE_ENDINGS ")",
                   quoted);
-    else if (hd_format_is_film(format) && hd_pattern_has_number(path))
+    else if (hd_format_is_film(format) && hd_pattern_has_directive(path))
         hd_report(report,
-                  "is %s, expected a film without a number (%%d or #) in its name, or pictures "
+                  "is %s, expected a film without a number (%%d) in its name, or pictures "
                   "(" HD_PICTURE_ENDINGS ")",
                   quoted);
-    else if (!hd_format_is_film(format) && strpbrk(path, "%#") != NULL &&
-             hd_pattern_check(path, &error) != HD_OK)
+    else if (!hd_format_is_film(format) &&
+             (hd_pattern_has_number(path) ? hd_pattern_check(path, &error)
+                                          : hd_pattern_format_single(path, name, &error)) != HD_OK)
         hd_report(report, "cannot be used: %s", error.message);
 }
 
@@ -572,7 +588,7 @@ static HdStatus parse_json(json_t **root, const char *text, size_t size, const c
 /* Loads the files; only lack of memory and a signal are failures of its own. */
 static HdStatus load_files(HdSceneFile *file, const HdSceneSource *source, HdProblems *problems,
                            HdError *error) {
-    HdStatus status = hd_scene_file_load_texture(file, error);
+    HdStatus status = hd_scene_file_load_texture(file, source->file_notes, error);
     if (status == HD_BAD_INPUT)
         hd_problem(problems, "floor.texture.file: %s", error->message);
     else if (status != HD_OK)
@@ -602,6 +618,11 @@ static void note_seldom_meant(const HdSceneFile *file, HdProblems *notes) {
         hd_problem(notes,
                    "output.bits is %d, but output.path is a film, which has 8 bits a channel",
                    bits);
+    if (file->output.style.picture.has_alpha && file->output.path[0] != '\0' &&
+        !hd_format_has_alpha(hd_format_of(file->output.path)))
+        hd_problem(notes,
+                   "output.alpha is true, but output.path is neither PNG nor OpenEXR, which alone "
+                   "have alpha");
 }
 
 static HdStatus build(HdSceneFile *file, json_t *root, const HdSceneSource *source,

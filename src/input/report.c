@@ -342,7 +342,6 @@ static const struct Synonym {
     {"radius", "circumradius"},
     {"radius", "disc_radius"},
     {"size", "circumradius"},
-    {"size", "scale"},
     {"type", "kind"},
     {"shape", "kind"},
     {"count", "per_edge"},

@@ -35,7 +35,9 @@ typedef struct HdMeshEntry {
     HdMeshNormals normals;
     double crease_degrees; /* crease angle of smooth normals */
     double ambient;        /* factor of the file's Ka */
-    HdInstance instance;   /* instance without the index of its mesh */
+    double size;           /* 0: none; the instances of the scene are fitted to it
+                              (hd_instance_fit) */
+    HdInstance instance;   /* instance without the index of its mesh, not fitted */
 } HdMeshEntry;
 
 typedef struct HdSceneFile {

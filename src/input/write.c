@@ -230,6 +230,9 @@ static void get_numbers(const Writer *writer, const HdField *field, const void *
         out[0] = *(const int *)place;
     } else if (field->type == HD_FIELD_NUMBER) {
         out[0] = *(const double *)place;
+    } else if (field->type == HD_FIELD_RATE) {
+        out[0] = ((const HdOutputStyle *)place)->frames_per_second;
+        out[1] = ((const HdOutputStyle *)place)->is_ntsc ? 1.0 : 0.0;
     } else {
         const HdVec3 vector = *(const HdVec3 *)place;
         const bool is_divided = field->type == HD_FIELD_UNSCALED && !is_hashed(writer);
@@ -244,6 +247,12 @@ static void print_choice(Printer *printer, const char *word) {
     (hd_choice_is_number(word) ? put_raw : put_string)(printer, word);
 }
 
+static void print_ntsc(Printer *printer, int frames) {
+    char text[32];
+    snprintf(text, sizeof text, "%d000/1001", frames);
+    put_string(printer, text);
+}
+
 static void print_numbers(Printer *printer, const HdField *field, const double numbers[3]) {
     const HdVec3 vector = hd_vec3(numbers[0], numbers[1], numbers[2]);
     const bool is_even = vector.x == vector.y && vector.y == vector.z;
@@ -251,6 +260,8 @@ static void print_numbers(Printer *printer, const HdField *field, const double n
         put_raw(printer, numbers[0] != 0.0 ? "true" : "false");
     else if (field->type == HD_FIELD_CHOICE)
         print_choice(printer, hd_field_choice(field, (int)numbers[0]));
+    else if (field->type == HD_FIELD_RATE && numbers[1] != 0.0)
+        print_ntsc(printer, (int)numbers[0]);
     else if (hd_field_parts(field) == 1 || (field->type == HD_FIELD_SCALE && is_even))
         put_number(printer, numbers[0]); /* same on every axis */
     else
@@ -412,9 +423,16 @@ static void print_count(Printer *printer, const char *key, double number) {
 }
 
 static void print_range(Printer *printer, const HdField *field, const char *type) {
+    const double low = field->has_sign ? -field->high : field->low;
     print_pair(printer, "type", type);
-    print_count(printer, field->above_low ? "exclusiveMinimum" : "minimum", field->low);
+    print_count(printer, field->above_low ? "exclusiveMinimum" : "minimum", low);
     print_count(printer, field->below_high ? "exclusiveMaximum" : "maximum", field->high);
+    if (!field->has_sign)
+        return;
+    put_open_at(printer, "not", '{');
+    print_count(printer, "exclusiveMinimum", -field->low);
+    print_count(printer, "exclusiveMaximum", field->low);
+    put_close(printer, '}');
 }
 
 static void open_array(Printer *printer, int least, int most) {
@@ -438,7 +456,8 @@ static void print_choices(Printer *printer, const HdField *field) {
 }
 
 static void print_number(Printer *printer, const HdField *field) {
-    print_range(printer, field, field->type == HD_FIELD_INTEGER ? "integer" : "number");
+    const bool is_whole = field->type == HD_FIELD_INTEGER || field->type == HD_FIELD_RATE;
+    print_range(printer, field, is_whole ? "integer" : "number");
 }
 
 static void print_part(Printer *printer, const HdField *field) {
@@ -454,6 +473,18 @@ static void print_either(Printer *printer, const HdField *field) {
     put_close(printer, '}');
     put_open(printer, '{');
     (is_path ? print_part : print_vector)(printer, field);
+    put_close(printer, '}');
+    put_close(printer, ']');
+}
+
+static void print_rate(Printer *printer, const HdField *field) {
+    put_open_at(printer, "oneOf", '[');
+    put_open(printer, '{');
+    print_number(printer, field);
+    put_close(printer, '}');
+    put_open(printer, '{');
+    print_pair(printer, "type", "string");
+    print_pair(printer, "pattern", "^([1-9][0-9]?|1[0-9]{2}|2[0-3][0-9]|240)000/1001$");
     put_close(printer, '}');
     put_close(printer, ']');
 }
@@ -495,7 +526,8 @@ static void print_type(Printer *printer, const HdField *field) {
         [HD_FIELD_SCALE] = print_either,    [HD_FIELD_TEXT] = print_text,
         [HD_FIELD_FILE] = print_text,       [HD_FIELD_MATERIAL] = print_text,
         [HD_FIELD_PATH] = print_either,     [HD_FIELD_OBJECT] = print_part,
-        [HD_FIELD_LIST] = print_array,      [HD_FIELD_MATERIALS] = print_materials};
+        [HD_FIELD_LIST] = print_array,      [HD_FIELD_MATERIALS] = print_materials,
+        [HD_FIELD_RATE] = print_rate};
     of_type[field->type](printer, field);
 }
 

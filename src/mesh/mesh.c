@@ -103,13 +103,61 @@ HdStatus hd_mesh_build(HdMesh *mesh, HdThreadPool *pool, HdError *error) {
     return status;
 }
 
+static double reach_of_box(const HdBox *box, HdVec3 d) {
+    return d.x * (double)(d.x > 0.0 ? box->upper[0] : box->lower[0]) +
+           d.y * (double)(d.y > 0.0 ? box->upper[1] : box->lower[1]) +
+           d.z * (double)(d.z > 0.0 ? box->upper[2] : box->lower[2]);
+}
+
+static double reach_of_leaf(const HdMesh *mesh, int32_t leaf, HdVec3 direction) {
+    const HdVec3 middle = hd_mesh_centre(mesh);
+    const int first = leaf >> HD_LEAF_SHIFT, count = leaf & HD_MAX_LEAF;
+    double most = -HUGE_VAL;
+    for (int i = first; i < first + count; i++)
+        for (int k = 0; k < 3; k++) {
+            const HdVec3 corner = mesh->vertices[mesh->corners[mesh->tree.order[i]][k]];
+            most = fmax(most, hd_dot(direction, hd_sub(corner, middle)));
+        }
+    return most / hd_mesh_half_side(mesh);
+}
+
+/* Looks only into boxes that reach farther than the corners found so far. */
+double hd_mesh_reach(const HdMesh *mesh, HdVec3 direction) {
+    struct {
+        int32_t child;
+        double reach;
+    } waiting[HD_MAX_HIERARCHY_DEPTH + 1] = {{0, HUGE_VAL}};
+    double most = -HUGE_VAL;
+    for (int count = 1; count > 0;) {
+        const int32_t child = waiting[--count].child;
+        if (waiting[count].reach <= most)
+            continue;
+        if (child < 0) {
+            most = fmax(most, reach_of_leaf(mesh, ~child, direction));
+            continue;
+        }
+        const HdBuildNode *node = &mesh->tree.nodes[child];
+        const double reach[2] = {reach_of_box(&node->box[0], direction),
+                                 reach_of_box(&node->box[1], direction)};
+        const int farther = reach[1] > reach[0];
+        for (int i = 0; i < 2; i++) {
+            const int next = i == 0 ? !farther : farther;
+            waiting[count].child = node->child[next];
+            waiting[count++].reach = reach[next];
+        }
+    }
+    return most;
+}
+
 void hd_mesh_free(HdMesh *mesh) {
     for (int i = 0; mesh->materials != NULL && i < mesh->material_count; i++) {
         free(mesh->materials[i].name);
         free(mesh->materials[i].texture);
+        free(mesh->materials[i].mask);
     }
     free(mesh->materials);
     free(mesh->vertices);
+    free(mesh->colours);
     free(mesh->normals);
     free(mesh->uvs);
     free(mesh->corners);

@@ -44,7 +44,10 @@ typedef struct HdMeshMaterial {
     HdMaterial material;
     HdVec3 emission; /* emitted radiance */
     char *texture;
-    int picture; /* number among the pictures of the scene; -1: none */
+    char *mask;       /* likewise, of the picture that cuts holes where it is below a half */
+    int picture;      /* number among the pictures of the scene; -1: none */
+    int mask_picture; /* likewise */
+    bool is_clamped;  /* the pictures continue their borders' texels instead of repeating */
     int passes_as;
     bool is_opaque_to_shadows;
 } HdMeshMaterial;
@@ -53,6 +56,7 @@ typedef struct HdMeshMaterial {
 typedef struct HdMesh {
     int vertex_count, normal_count, uv_count, triangle_count, material_count;
     HdVec3 *vertices;
+    HdVec3 *colours;              /* of vertices, 0..1, tint the materials'; NULL: none */
     HdVec3 *normals;              /* need not be unit, but those of corners are not 0; NULL: none */
     double (*uvs)[2];             /* (0, 0) is the texture's lower left corner; NULL: none */
     int32_t (*corners)[3];        /* vertices of each triangle */
@@ -107,6 +111,10 @@ static inline double hd_mesh_half_side(const HdMesh *mesh) {
     HdVec3 sides = hd_sub(mesh->upper, mesh->lower);
     return 0.5 * fmax(sides.x, fmax(sides.y, sides.z));
 }
+
+/* Returns the largest product of `direction` with a corner of a built mesh, relative to the centre
+   of its box and in units of half its longest side. */
+double hd_mesh_reach(const HdMesh *mesh, HdVec3 direction);
 
 /* Frees what the mesh owns and clears it. */
 void hd_mesh_free(HdMesh *mesh);

@@ -28,7 +28,8 @@ static const Parameters defaults = {.Kd = {1.0f, 1.0f, 1.0f},
 
 typedef struct Definition {
     Parameters parameters;
-    char *texture; /* owned; NULL: none */
+    char *texture, *mask; /* owned; NULL: none */
+    HdMapOptions options; /* of the texture, or else of the mask */
     bool is_defined;
 } Definition;
 
@@ -81,7 +82,7 @@ static double clamp_noted(const Notes *notes, const char *name, double value, do
     return legal;
 }
 
-static HdVec3 colour(const Notes *notes, const char *name, const float from[3], double high) {
+static HdVec3 colour(const Notes *notes, const char *name, const float *from, double high) {
     return hd_vec3(clamp_noted(notes, name, (double)from[0], 0.0, high),
                    clamp_noted(notes, name, (double)from[1], 0.0, high),
                    clamp_noted(notes, name, (double)from[2], 0.0, high));
@@ -264,9 +265,9 @@ static void keep_illum(Reader *reader, HdSpan line) {
         reader->material->parameters.illum = (int)value;
 }
 
-/* Returns the folders of the library's textures: "./" if the mesh has no folder, so that a later
+/* Returns the folders of the library's pictures: "./" if the mesh has no folder, so that a later
    name can only be a file's. */
-static HdObjPlace place_of_textures(const Reader *reader) {
+static HdObjPlace place_of_pictures(const Reader *reader) {
     HdSpan base = hd_obj_folder(hd_span_of(reader->libraries->path));
     if (base.begin == base.end)
         base = hd_span_of("./");
@@ -274,30 +275,45 @@ static HdObjPlace place_of_textures(const Reader *reader) {
 }
 
 /* Returns the path, also of a missing file that may be named so. NULL: none, or out of memory. */
-static char *find_texture(Reader *reader, HdSpan name) {
+static char *find_picture(Reader *reader, const char *keyword, HdSpan name) {
     HdObjMemory *memory = reader->libraries->memory;
-    const HdObjPlace place = place_of_textures(reader);
+    const HdObjPlace place = place_of_pictures(reader);
     const char *fault = hd_obj_file_name_fault(name);
-    if (fault == NULL && *name.begin == '-')
-        fault = "a name without options before it";
     bool is_elsewhere;
     char *path = hd_obj_find_file(memory, &place, name, &is_elsewhere);
     if (path != NULL && is_elsewhere)
-        pass_over(reader, "elsewhere", "map_Kd is '%.*s', which is not there; %s is used",
+        pass_over(reader, "elsewhere", "%s is '%.*s', which is not there; %s is used", keyword,
                   hd_span_shown(name), name.begin, path);
     else if (path == NULL && fault != NULL)
-        pass_over(reader, "map_Kd", "map_Kd is '%.*s', expected %s; there will be no texture",
+        pass_over(reader, keyword, "%s is '%.*s', expected %s; the line is left out", keyword,
                   hd_span_shown(name), name.begin, fault);
     return path != NULL || fault != NULL ? path : hd_obj_path(memory, &place, name);
 }
 
-/* The last texture counts. */
-static void keep_texture(Reader *reader, HdSpan line) {
-    char *path = reader->material != &reader->unused ? find_texture(reader, hd_rest(line)) : NULL;
+/* Keeps a texture (map_Kd), or a mask (map_d); the last one counts. Both lie by the texture's
+   options. */
+static void keep_picture(Reader *reader, const char *keyword, HdSpan line) {
+    Definition *to = reader->material;
+    const bool is_mask = strcmp(keyword, "map_d") == 0;
+    HdMapOptions options;
+    HdSpan wrong;
+    if (to == &reader->unused)
+        return;
+    if (!hd_take_map_options(&line, &options, &wrong)) {
+        pass_over(reader, keyword,
+                  "%s is '%.*s', expected options of the format with their values; the line is "
+                  "left out",
+                  keyword, hd_span_shown(wrong), wrong.begin);
+        return;
+    }
+    char *path = find_picture(reader, keyword, hd_rest(line));
     if (path == NULL)
         return;
-    free(reader->material->texture);
-    reader->material->texture = path;
+    if (!is_mask || to->texture == NULL)
+        to->options = options;
+    char **kept = is_mask ? &to->mask : &to->texture;
+    free(*kept);
+    *kept = path;
 }
 
 static void note_unused(Reader *reader, HdSpan keyword) {
@@ -333,7 +349,9 @@ static void read_statement(Reader *reader, HdSpan keyword, HdSpan line) {
     else if (hd_span_is(keyword, "illum"))
         keep_illum(reader, line);
     else if (hd_span_is(keyword, "map_Kd"))
-        keep_texture(reader, line);
+        keep_picture(reader, "map_Kd", line);
+    else if (hd_span_is(keyword, "map_d"))
+        keep_picture(reader, "map_d", line);
     else
         note_unused(reader, keyword);
 }
@@ -481,7 +499,8 @@ static void define_materials(Libraries *libraries, HdMesh *mesh) {
         notes.name = material->name;
         make_material(&definition->parameters, material, &notes);
         material->texture = definition->texture;
-        definition->texture = NULL;
+        material->mask = definition->mask;
+        definition->texture = definition->mask = NULL;
         remark_hidden(material, &notes);
     }
 }
@@ -515,8 +534,8 @@ static bool name_materials(HdNameTable *names, HdObjMemory *memory, HdMesh *mesh
         return false;
     mesh->material_count = names->count;
     for (int i = 0; i < names->count; i++) {
-        mesh->materials[i] =
-            (HdMeshMaterial){.name = names->names[i].owned, .picture = -1, .passes_as = -1};
+        mesh->materials[i] = (HdMeshMaterial){
+            .name = names->names[i].owned, .picture = -1, .mask_picture = -1, .passes_as = -1};
         names->names[i].owned = NULL;
     }
     return true;
@@ -528,7 +547,8 @@ static bool allocate(Libraries *libraries) {
         hd_obj_allocate(libraries->memory, count, sizeof *libraries->definitions);
     libraries->order = hd_obj_allocate(libraries->memory, count, sizeof *libraries->order);
     for (size_t i = 0; libraries->definitions != NULL && i < count; i++)
-        libraries->definitions[i] = (Definition){.parameters = defaults};
+        libraries->definitions[i] =
+            (Definition){.parameters = defaults, .options = {.scale = {1.0, 1.0}}};
     return libraries->definitions != NULL && libraries->order != NULL;
 }
 
@@ -543,8 +563,8 @@ static bool add_plain_names(HdNameTable *names, HdObjMemory *memory) {
 }
 
 bool hd_obj_read_materials(HdMesh *mesh, const char *path, HdNameTable *names,
-                           const char *libraries, size_t size, HdObjMemory *memory,
-                           HdProblems *faults, HdProblems *notes) {
+                           const char *libraries, size_t size, HdMapOptions **options,
+                           HdObjMemory *memory, HdProblems *faults, HdProblems *notes) {
     Libraries all = {
         .path = path, .memory = memory, .fault_list = faults, .notes = notes, .materials = names};
     const int count = names->count;
@@ -557,8 +577,13 @@ bool hd_obj_read_materials(HdMesh *mesh, const char *path, HdNameTable *names,
     }
     hd_faults_report(&all.faults, path, faults);
     hd_faults_report(&all.remarks, path, notes);
-    for (int i = 0; all.definitions != NULL && i < names->count; i++)
+    *options = hd_obj_allocate(memory, (size_t)names->count, sizeof **options);
+    for (int i = 0; all.definitions != NULL && i < names->count; i++) {
+        if (*options != NULL)
+            (*options)[i] = all.definitions[i].options;
         free(all.definitions[i].texture);
+        free(all.definitions[i].mask);
+    }
     free(all.definitions);
     free(all.order);
     return !memory->has_refused;

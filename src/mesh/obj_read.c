@@ -3,7 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/curve.h"
 #include "mesh/obj_lines.h"
+#include "mesh/obj_twins.h"
 #include "system/path.h"
 
 _Static_assert(sizeof(HdVec3) == 3 * sizeof(double), "three numbers of the text are a vector");
@@ -39,6 +41,8 @@ typedef struct Text {
     HdFaults faults; /* of this file, not yet in the list */
 
     Elements elements[KIND_COUNT];
+    Row colours; /* of the first vertices, as written */
+    double largest_colour;
     Row faces;
     Row corners; /* corners of the faces, in order */
     int64_t triangle_count;
@@ -150,6 +154,27 @@ static bool keep_numbers(Text *text, Kind kind, HdSpan line) {
     if (row->count == MAX_ELEMENTS)
         return fail_line(text, "there are more than %d %s", (int)MAX_ELEMENTS, kinds[kind].plural);
     return append(text, row, (size_t)kinds[kind].max_numbers * sizeof *numbers, 1, numbers);
+}
+
+/* Keeps the colour of the last vertex, if the line has one after the place. Earlier vertices
+   without one are white. */
+static bool keep_colour(Text *text, HdSpan line) {
+    static const double white[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}; /* on either scale */
+    const size_t vertices = text->elements[VERTEX].row.count;
+    double colour[3];
+    for (int i = 0; i < 3; i++)
+        hd_next_word(&line);
+    for (int i = 0; i < 3; i++) {
+        const HdSpan word = hd_next_word(&line);
+        if (is_statement_end(word) || hd_number_fault(word, &colour[i]) != NULL)
+            return true;
+    }
+    for (int i = 0; i < 3; i++)
+        text->largest_colour = fmax(text->largest_colour, colour[i]);
+    while (text->colours.count < vertices - 1)
+        if (!append(text, &text->colours, sizeof white, 1, white))
+            return false;
+    return append(text, &text->colours, sizeof colour, 1, colour);
 }
 
 /* Reads "-12" or "12"; without digits, `*number` is 0. Returns NULL if there are too many
@@ -304,7 +329,7 @@ static bool take_line(Text *text, HdSpan line) {
     if (is_statement_end(word))
         return true;
     if (hd_span_is(word, "v"))
-        return keep_numbers(text, VERTEX, line);
+        return keep_numbers(text, VERTEX, line) && keep_colour(text, line);
     if (hd_span_is(word, "f"))
         return keep_face(text, line);
     if (hd_span_is(word, "vn"))
@@ -411,6 +436,7 @@ static void *release_numbers(Text *text, Kind kind) {
 static void free_text(Text *text) {
     for (int kind = 0; kind < KIND_COUNT; kind++)
         free(text->elements[kind].row.data);
+    free(text->colours.data);
     free(text->faces.data);
     free(text->corners.data);
     free(text->libraries.data);
@@ -418,6 +444,24 @@ static void free_text(Text *text) {
 }
 
 /* ---- from the text to the mesh ---- */
+
+/* Moves the colours of vertices to the mesh as light. Exporters write sRGB, up to 1 or 255. */
+static bool move_colours(Text *text, HdMesh *mesh) {
+    const double white = text->largest_colour > 1.0 ? 255.0 : 1.0;
+    const size_t count = (size_t)mesh->vertex_count;
+    const double *from = text->colours.data;
+    if (from == NULL)
+        return true;
+    double *to = hd_obj_allocate(text->lines.memory, count, sizeof *mesh->colours);
+    if (to == NULL)
+        return false;
+    for (size_t i = 0; i < 3 * count; i++) {
+        const double share = i < 3 * text->colours.count ? from[i] / white : 1.0;
+        to[i] = hd_curve_to_linear(HD_CURVE_SRGB, fmin(fmax(share, 0.0), 1.0));
+    }
+    mesh->colours = (HdVec3 *)to;
+    return true;
+}
 
 /* Moves the elements to the mesh; drops texture coordinates and normals that no corner names. */
 static void move_elements(Text *text, HdMesh *mesh) {
@@ -512,18 +556,28 @@ static bool cut_face(HdMesh *mesh, const Polygon *capacity, const Corner *corner
     return true;
 }
 
-static HdStatus add_faces(const Text *text, HdMesh *mesh, const Polygon *capacity) {
+static HdStatus add_faces(const Text *text, HdMesh *mesh, const Polygon *capacity,
+                          HdObjTwins *twins) {
     const Corner *corners = text->corners.data;
+    size_t twin_count = 0;
     for (size_t i = 0; i < text->faces.count; i++) {
         const Face *face = (const Face *)text->faces.data + i;
         const int32_t material = text->names.names[face->material].stand_in;
-        if (!cut_face(mesh, capacity, corners, face->corner_count, material))
+        if (hd_obj_is_twin(twins, &corners->element[VERTEX], face->corner_count))
+            twin_count++;
+        else if (!cut_face(mesh, capacity, corners, face->corner_count, material))
             return hd_fail(text->lines.error, HD_BAD_INPUT,
                            "%s: face %zu is not convex and has %d corners, expected at most %d",
                            text->lines.path, i + 1, (int)face->corner_count,
                            (int)HD_MAX_CONCAVE_CORNERS);
         corners += face->corner_count;
     }
+    if (twin_count > 0)
+        hd_problem(
+            text->notes,
+            "%s: %zu of its faces coincide with earlier ones, corner by corner, and are left "
+            "out",
+            text->lines.path, twin_count);
     return HD_OK;
 }
 
@@ -532,24 +586,36 @@ static HdStatus take_faces(const Text *text, HdMesh *mesh) {
     const size_t most = (size_t)text->max_corners;
     const Polygon capacity = {hd_obj_allocate(memory, most, sizeof *capacity.points),
                               hd_obj_allocate(memory, most, sizeof *capacity.triangles)};
+    HdObjTwins twins = {0};
     const bool has_memory =
-        capacity.points != NULL && capacity.triangles != NULL && allocate_triangles(text, mesh);
+        capacity.points != NULL && capacity.triangles != NULL && allocate_triangles(text, mesh) &&
+        hd_obj_twins_begin(&twins, mesh->vertices, KIND_COUNT, text->faces.count, memory);
     const HdStatus status =
-        has_memory ? add_faces(text, mesh, &capacity) : hd_obj_fail_memory(&text->lines);
+        has_memory ? add_faces(text, mesh, &capacity, &twins) : hd_obj_fail_memory(&text->lines);
+    hd_obj_twins_end(&twins, memory);
     free(capacity.points);
     free(capacity.triangles);
     return status;
 }
 
 static HdStatus take_mesh(Text *text, HdMesh *mesh) {
+    HdObjMemory *memory = text->lines.memory;
+    HdMapOptions *options = NULL;
     move_elements(text, mesh);
     round_vertices(text, mesh);
     hd_faults_report(&text->faults, text->lines.path, text->fault_list);
-    if (!hd_obj_read_materials(mesh, text->lines.path, &text->names, text->libraries.data,
-                               text->libraries.count, text->lines.memory, text->fault_list,
+    HdStatus status = HD_OK;
+    if (!move_colours(text, mesh) ||
+        !hd_obj_read_materials(mesh, text->lines.path, &text->names, text->libraries.data,
+                               text->libraries.count, &options, memory, text->fault_list,
                                text->notes))
-        return hd_obj_fail_memory(&text->lines);
-    HD_TRY(take_faces(text, mesh));
+        status = hd_obj_fail_memory(&text->lines);
+    if (status == HD_OK)
+        status = take_faces(text, mesh);
+    if (status == HD_OK && !hd_obj_place_pictures(mesh, options, memory))
+        status = hd_obj_fail_memory(&text->lines);
+    free(options);
+    HD_TRY(status);
     const int count = mesh->triangle_count;
     hd_mesh_drop_degenerate(mesh);
     if (mesh->triangle_count == 0)

@@ -104,12 +104,28 @@ void hd_name_table_free(HdNameTable *table);
 /* The material of faces before the first `usemtl`. */
 #define HD_OBJ_NO_MATERIAL "default"
 
+/* The options of a picture: it shows at scale * (u, v) + offset. */
+typedef struct HdMapOptions {
+    double scale[2], offset[2];
+    bool is_clamped;
+} HdMapOptions;
+
+/* Takes the options from the front of a map statement; those without effect here are skipped.
+   Returns false, with the option in `fault`, if one is unknown or lacks its values. */
+bool hd_take_map_options(HdSpan *line, HdMapOptions *options, HdSpan *fault);
+
 /* Moves `names` to the mesh at `path` as materials, defined by the libraries or else white and
    opaque. A name that no library defines with the comment behind it gets a stand-in without, among
-   further materials. `libraries` are zero-terminated names in `size` bytes. Reports wrong
-   statements in `faults`, others without effect in `notes`. Returns false if out of memory. */
+   further materials. Sets an owned array of the options of each material's pictures. `libraries`
+   are zero-terminated names in `size` bytes. Reports wrong statements in `faults`, others without
+   effect in `notes`. Returns false if out of memory. */
 bool hd_obj_read_materials(HdMesh *mesh, const char *path, HdNameTable *names,
-                           const char *libraries, size_t size, HdObjMemory *memory,
-                           HdProblems *faults, HdProblems *notes);
+                           const char *libraries, size_t size, HdMapOptions **options,
+                           HdObjMemory *memory, HdProblems *faults, HdProblems *notes);
+
+/* Applies the options of each material's pictures to a mesh with its triangles. Pictures do not
+   repeat if all texture coordinates of their material lie within them. Returns false if out of
+   memory. */
+bool hd_obj_place_pictures(HdMesh *mesh, const HdMapOptions *options, HdObjMemory *memory);
 
 #endif

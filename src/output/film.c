@@ -21,7 +21,8 @@ static uint64_t name_of(const HdSegments *segments, const HdOutputPlan *plan,
     const int begin = index * segments->length;
     const char *format = output->format->name;
     uint64_t hash = hd_hash_bytes(plan->fingerprint, format, strlen(format));
-    hash = hd_frame_fingerprint(hash, plan->style.frames_per_second);
+    const int rate = plan->style.frames_per_second;
+    hash = hd_frame_fingerprint(hash, plan->style.is_ntsc ? -rate : rate);
     for (int i = 0; i < hd_segment_frames(segments, index); i++)
         hash = hd_frame_fingerprint(hash, frames->frames[begin + i]);
     return hash;
@@ -46,7 +47,7 @@ HdStatus hd_segments_find(HdSegments *segments, const HdOutputPlan *plan, const 
     if (!output->is_film)
         return HD_OK;
     HD_TRY(hd_output_file(output, 0, segments->film, error));
-    /* Whole seconds, so that frame times equal those of a film made in one go. */
+    /* Whole seconds, or 1.001 s, so that frame times equal those of a film made in one go. */
     const int rate = plan->style.frames_per_second;
     const int length = (HD_MIN_SEGMENT + rate - 1) / rate * rate;
     if (!plan->has_fingerprint || frames->count <= length)

@@ -129,6 +129,8 @@ static HdStatus write_picture(const HdOutputPlan *outputs, int index, Slot *slot
         .scene = outputs->scene,
         .options = outputs->options,
         .frame = number,
+        .crop = outputs->crop,
+        .background = outputs->background,
         .has_fingerprint = outputs->has_fingerprint,
         .fingerprint = hd_frame_fingerprint(outputs->fingerprint, number),
     };

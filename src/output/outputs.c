@@ -24,12 +24,12 @@ static HdStatus settle_output(HdOutput *output, const char *name, const HdPictur
         .name = name,
         .format = format != NULL ? format : &hd_format_data,
         .is_film = hd_format_is_film(format),
-        .is_numbered = hd_pattern_has_number(name),
+        .is_numbered = !hd_format_is_film(format) && hd_pattern_has_number(name),
     };
-    if (output->is_film && output->is_numbered)
+    if (output->is_film && hd_pattern_has_directive(name))
         return hd_fail(error, HD_BAD_INPUT,
-                       "'%s' asks for numbered films: a film has no number (%%d or #) in its name, "
-                       "and pictures end in " HD_PICTURE_ENDINGS,
+                       "'%s' asks for numbered films: a film has no number (%%d) in its name, and "
+                       " pictures end in " HD_PICTURE_ENDINGS,
                        name);
     HD_TRY(hd_format_check_style(name, style, error));
     if (output->is_film)
@@ -84,9 +84,12 @@ static void sum_up(HdOutputPlan *plan) {
         const bool bears_fingerprints = format->load != NULL;
         plan->film_count += output->is_film;
         plan->bears_fingerprints |= bears_fingerprints;
+        const bool has_alpha =
+            format->has_layers || (format->has_alpha && plan->style.picture.has_alpha);
         plan->request.radiance |=
-            !output->is_film && plan->style.picture.bits > format->max_encoded_bits;
-        plan->request.layers |= format->has_layers ? HD_LAYER_BIT(HD_LAYER_ALPHA) : 0;
+            !output->is_film && (has_alpha || plan->style.picture.bits > format->max_encoded_bits);
+        plan->request.layers |= has_alpha ? HD_LAYER_BIT(HD_LAYER_ALPHA) : 0;
+        plan->has_layers |= format->has_layers;
         /* Only numbered pictures with fingerprints, and films, can save rendering. */
         plan->can_resume &= output->is_film || (bears_fingerprints && output->is_numbered);
     }
@@ -115,13 +118,12 @@ HdStatus hd_outputs_add_layers(HdOutputPlan *plan, unsigned layers, bool is_boun
                                HdError *error) {
     if (layers == 0)
         return HD_OK;
-    if (plan->request.layers == 0)
+    if (!plan->has_layers)
         return hd_fail(error, HD_BAD_INPUT,
                        "--layers is for OpenEXR: expected an output that ends in .exr");
     if (!is_bounded && (layers & HD_LAYER_BIT(HD_LAYER_BOUND)) != 0)
-        return hd_fail(
-            error, HD_BAD_INPUT,
-            "--layers has bound, expected --max-error, --aa adaptive or --reference with it");
+        return hd_fail(error, HD_BAD_INPUT,
+                       "--layers has bound, expected --max-error or --reference with it");
     plan->request.layers |= layers;
     return HD_OK;
 }

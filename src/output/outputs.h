@@ -25,6 +25,7 @@ typedef struct HdOutputPlan {
     int film_count;
     HdOutputStyle style;
     HdFrameRequest request;  /* contents of a frame that satisfy all outputs */
+    bool has_layers;         /* some outputs can hold layers */
     bool bears_fingerprints; /* formats of some pictures can */
     bool can_resume;         /* frames can be finished before the run (resume.h) */
     bool has_fingerprint; /* those pictures bear their frame's, and films are made in segments that
@@ -32,6 +33,8 @@ typedef struct HdOutputPlan {
     uint64_t fingerprint; /* fingerprint of the run (fingerprint.h), if any */
     const char *scene;    /* label of the pictures (HdPictureLabel), set by the caller */
     const char *options;
+    HdCrop crop;
+    HdVec3 background;
     bool resumes;            /* existing frames count as finished (resume.h) */
     HdDurability durability; /* durability of the files; durable unless the caller changes it */
 } HdOutputPlan;

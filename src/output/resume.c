@@ -37,9 +37,10 @@ bool hd_resume_film_lacks(const HdResume *resume, int output, int item) {
     return film->film[0] != '\0' && !hd_segments_have(film, item);
 }
 
-/* Films are made of pictures of 8 bits. */
+/* Films are made of pictures of 8 bits, which hold the background. */
 bool hd_resume_keeps(const HdResume *resume, const HdOutputPlan *plan, int item) {
-    if (plan->film_count < plan->count && plan->style.picture.bits == 8)
+    if (plan->film_count < plan->count && plan->style.picture.bits == 8 &&
+        !plan->style.picture.has_alpha)
         return true;
     for (int i = 0; i < plan->count; i++)
         if (hd_resume_film_lacks(resume, i, item))

@@ -48,7 +48,8 @@ static const char *const *output_arguments(const HdVideoPlan *plan) {
 static HdStatus start_ffmpeg(HdVideo *video, const char *ffmpeg, HdError *error) {
     char size[32], rate[16], target[HD_MAX_PATH + 8];
     snprintf(size, sizeof size, "%dx%d", video->plan.width, video->plan.height);
-    snprintf(rate, sizeof rate, "%d", video->plan.style.frames_per_second);
+    snprintf(rate, sizeof rate, video->plan.style.is_ntsc ? "%d000/1001" : "%d",
+             video->plan.style.frames_per_second);
     snprintf(target, sizeof target, "file:%s", video->file.temporary);
     /* clang-format off */
     const char *const start[] = {
@@ -132,11 +133,24 @@ static HdStatus fail_idle(const HdVideo *video, const char *program, const char 
                    program, video->timeout_ms / 1000, when, video->file.path, hd_child_tail(child));
 }
 
+/* Reports an encoder that this FFmpeg was built without. */
+static bool lacks_encoder(HdVideo *video, HdError *error) {
+    const char *what = strstr(hd_child_tail(&video->ffmpeg), "Unknown encoder");
+    if (what != NULL)
+        hd_fail(error, HD_UNAVAILABLE,
+                "FFmpeg cannot make %s: %.*s; expected an FFmpeg with that encoder, or another "
+                "format of film",
+                video->file.path, (int)strcspn(what, "\n"), what);
+    return what != NULL;
+}
+
 static HdStatus fail_early(HdVideo *video, HdError *error) {
     char how[64];
     hd_child_end(&video->ffmpeg, EXIT_TIMEOUT_MS, how);
     if (hd_interrupt_signal() != 0)
         return fail_interrupted(video, "FFmpeg", error);
+    if (lacks_encoder(video, error))
+        return HD_UNAVAILABLE;
     hd_fail(error, HD_FAILED, "FFmpeg ended early (%s) at frame %ld of %s; it said: %s", how,
             video->frames, video->file.path, hd_child_tail(&video->ffmpeg));
     report_missing_file(video, error);
@@ -167,7 +181,8 @@ HdStatus hd_video_add(HdVideo *video, const HdFrame *frame, HdError *error) {
    millisecond. */
 static void describe_part(const HdVideo *video, const char *path, int frames, FILE *out) {
     const int rate = video->plan.style.frames_per_second;
-    const int64_t microseconds = ((int64_t)frames * 1000000 + rate / 2) / rate;
+    const int64_t second = video->plan.style.is_ntsc ? 1001000 : 1000000;
+    const int64_t microseconds = (frames * second + rate / 2) / rate;
     fputs("file 'file:", out);
     for (const char *at = path; *at != '\0'; at++)
         if (*at == '\'')
@@ -201,6 +216,8 @@ static HdStatus end_ffmpeg(HdVideo *video, HdError *error) {
         return fail_interrupted(video, "FFmpeg", error);
     if (video->ffmpeg.is_stuck)
         return fail_idle(video, "FFmpeg", "after the last frame", &video->ffmpeg, error);
+    if (lacks_encoder(video, error))
+        return HD_UNAVAILABLE;
     return hd_fail(error, HD_FAILED, "FFmpeg could not make %s (%s); it said: %s", video->file.path,
                    how, hd_child_tail(&video->ffmpeg));
 }

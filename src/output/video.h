@@ -20,12 +20,13 @@ typedef struct HdVideoPlan {
 } HdVideoPlan;
 
 /* Finds FFmpeg ("ffmpeg" and "ffprobe" in PATH), makes missing folders, and starts FFmpeg without a
-   shell, writing to a temporary file in the folder of `path`. Formats: MP4 is H.264, yuv420p,
-   BT.709, an odd width or height padded by one pixel. MKV is FFV1, lossless RGB. GIF has a palette
-   for each frame, ordered dither, an endless loop, and times rounded to centiseconds. Frames are
-   8-bit RGBA of one size, alpha 255, on the style's curve, which the film names; a GIF must be
-   sRGB, or it is HD_BAD_INPUT. Joined films have that size and style, and the segment format of
-   `format`; only a GIF is encoded again. Fails with HD_UNAVAILABLE if FFmpeg is missing. */
+   shell, writing to a temporary file in the folder of `path`. Formats: MP4 and MOV are H.264, WebM
+   is VP9, both yuv420p, BT.709, an odd width or height padded by one pixel. MKV is FFV1, lossless
+   RGB. GIF has a palette for each frame, ordered dither, an endless loop, and times rounded to
+   centiseconds. Frames are 8-bit RGBA of one size, alpha 255, on the style's curve, which the film
+   names; a GIF must be sRGB, or it is HD_BAD_INPUT. Joined films have that size and style, and the
+   segment format of `format`; only a GIF is encoded again. Fails with HD_UNAVAILABLE if FFmpeg is
+   missing. */
 HdStatus hd_video_open(HdVideo **video, const char *path, const HdVideoPlan *plan, HdError *error);
 
 /* Adds the next film to join, and its number of frames. */
@@ -33,7 +34,8 @@ HdStatus hd_video_add_part(HdVideo *video, const char *path, int frames, HdError
 
 /* Sends a frame's `rgba` of the plan's size, unless one failed before. Blocks while FFmpeg is busy;
    fails if FFmpeg neither reads nor prints for 600 s, or HEDRON_FFMPEG_PATIENCE seconds. If FFmpeg
-   exited, the error quotes the end of its output; no signal occurs. */
+   exited, the error quotes the end of its output, or is HD_UNAVAILABLE if FFmpeg lacks the encoder;
+   no signal occurs. */
 HdStatus hd_video_add(HdVideo *video, const HdFrame *frame, HdError *error);
 
 /* Completes a film that has frames, none of which failed. Waits for FFmpeg, with the same timeout,

@@ -13,114 +13,6 @@
 #include "scene/sample_pattern.h"
 #include "system/thread_pool.h"
 
-/* ---- samples ---- */
-
-enum { BITS = 24, FLIPPED_BITS = (1 << (BITS - 1)) - 1 };
-
-typedef struct Point {
-    uint32_t x, y; /* coordinates in units of 2^-BITS */
-} Point;
-
-/* Returns a point of Sobol's first two dimensions: the reversed bits of i, and the same after
-   multiplication by Pascal's triangle modulo 2. */
-static Point sequence_point(uint32_t i) {
-    Point point = {0, 0};
-    uint32_t second = UINT32_C(1) << (BITS - 1);
-    for (int bit = 0; bit < BITS; bit++) {
-        if (i >> bit & 1) {
-            point.x ^= UINT32_C(1) << (BITS - 1 - bit);
-            point.y ^= second;
-        }
-        second ^= second >> 1;
-    }
-    point.x ^= FLIPPED_BITS;
-    point.y ^= FLIPPED_BITS;
-    return point;
-}
-
-static int cell_of(uint32_t coordinate, int side) {
-    return (int)((uint64_t)coordinate * (uint64_t)side >> BITS);
-}
-
-static HdStatus create(HdSampleSet *set, int count, int grid_side, HdError *error) {
-    set->places = calloc((size_t)count, sizeof *set->places);
-    set->count = count;
-    set->grid_side = grid_side;
-    return set->places != NULL ? HD_OK : HD_NO_ROOM(error, "%d samples", count);
-}
-
-HdStatus hd_sample_set_grid(HdSampleSet *set, int side, HdError *error) {
-    const int count = side * side;
-    HD_TRY(create(set, count, side, error));
-    unsigned char *used = calloc((size_t)count, 1);
-    if (used == NULL) {
-        hd_sample_set_free(set);
-        return HD_NO_ROOM(error, "%d samples", count);
-    }
-    int found = 0;
-    for (uint32_t i = 0; found < count; i++) {
-        Point point = sequence_point(i);
-        int column = cell_of(point.x, side), row = cell_of(point.y, side);
-        if (used[row * side + column])
-            continue;
-        used[row * side + column] = 1;
-        set->places[found++] = column | row << 16;
-    }
-    free(used);
-    return HD_OK;
-}
-
-/* Marsaglia 2003, "Xorshift RNGs". */
-static uint32_t next_random(uint32_t *state) {
-    *state ^= *state << 13;
-    *state ^= *state >> 17;
-    *state ^= *state << 5;
-    return *state;
-}
-
-static void shuffle(int *numbers, int count, uint32_t *state) {
-    for (int i = 0; i < count; i++)
-        numbers[i] = i;
-    for (int i = count - 1; i > 0; i--) {
-        int other = (int)(next_random(state) % (uint32_t)(i + 1)), kept = numbers[i];
-        numbers[i] = numbers[other];
-        numbers[other] = kept;
-    }
-}
-
-/* Returns the coordinate, on the dense grid, of random position `within` in part `part` of cell
-   `cell`. */
-static int dense_place(int side, int cell, int part, uint32_t within) {
-    double place = cell + (part + (double)within / 4294967296.0) / side;
-    return (int)(place * HD_DENSE_GRID / side);
-}
-
-HdStatus hd_sample_set_dense(HdSampleSet *set, int side, HdError *error) {
-    int column_of[HD_MAX_SAMPLES_PER_SIDE] = {0}, row_of[HD_MAX_SAMPLES_PER_SIDE] = {0};
-    uint32_t state = 1 + (uint32_t)side * UINT32_C(2654435761);
-    HD_TRY(create(set, side * side, HD_DENSE_GRID, error));
-    shuffle(column_of, side, &state);
-    shuffle(row_of, side, &state);
-    for (int i = 0; i < set->count; i++) {
-        int column = i % side, row = i / side;
-        int x = dense_place(side, column, column_of[row], next_random(&state));
-        int y = dense_place(side, row, row_of[column], next_random(&state));
-        set->places[i] = x | y << 16;
-    }
-    return HD_OK;
-}
-
-HdStatus hd_sample_set_multijitter(HdSampleSet *set, int side, HdError *error) {
-    HD_TRY(create(set, side * side, side * side, error));
-    hd_multijitter(side, set->places);
-    return HD_OK;
-}
-
-void hd_sample_set_free(HdSampleSet *set) {
-    free(set->places);
-    memset(set, 0, sizeof *set);
-}
-
 /* ---- errors ---- */
 
 /* sRGB: 1 / f' is 1 / 12.92 = 0.0774 up to 0.0031308, then 2.2749 v^0.5833, which is concave. The
@@ -191,9 +83,9 @@ static HdStatus reserve_frame(HdBoundPasses *passes, int rows, HdError *error) {
 }
 
 static HdStatus reserve(HdBoundPasses *passes, int count, HdError *error) {
-    int at_once = hd_min(count, MAX_ENTRIES);
+    const int at_once = hd_min(count, MAX_ENTRIES);
     passes->entries =
-        hd_reserved(passes->entries, 2 * sizeof *passes->entries, at_once, &passes->entry_capacity);
+        hd_reserved(passes->entries, sizeof *passes->entries, at_once, &passes->entry_capacity);
     passes->open = hd_reserved(passes->open, sizeof *passes->open, count, &passes->open_capacity);
     if (passes->entries == NULL || passes->open == NULL)
         return HD_NO_ROOM(error, "a list of %d pixels", count);
@@ -215,22 +107,22 @@ static bool is_within(const HdBoundPasses *passes, const HdBoundedMean *mean) {
                hd_missing_allowed(passes->curve, limit, (double)hd_darkest(mean->rgb));
 }
 
-/* Requests of one submission. */
+/* Pixels of one submission. */
 typedef struct Part {
     HdBoundPasses *passes;
     const HdBoundPass *pass;
     double cutoff;
     bool is_first; /* first of several cut-offs */
-    int *open;     /* numbers of the requests; at first from, from + 1, ... */
+    int *open;     /* numbers of the pixels; at first from, from + 1, ... */
     int from, count;
 } Part;
 
-static int request_number(const Part *part, int i) {
+static int pixel_number(const Part *part, int i) {
     return part->is_first ? part->from + i : part->open[i];
 }
 
-/* Returns the list position of request i of `count`. Items render their 64 entries in Z order, so
-   neighbours share packets only if they are listed so. The last requests, which fill no item, stay
+/* Returns the list position of pixel i of `count`. Items render their 64 entries in Z order, so
+   neighbours share packets only if they are listed so. The last pixels, which fill no item, stay
    in order. */
 static int list_position(int i, int count) {
     enum { ITEM = HD_LISTED_WIDTH * HD_LISTED_WIDTH };
@@ -241,20 +133,18 @@ static int list_position(int i, int count) {
 static void list_entries(void *context, int first, int end) {
     const Part *part = context;
     for (int i = first; i < end; i++) {
-        const HdBoundRequest *request = &part->pass->requests[request_number(part, i)];
-        size_t place = (size_t)list_position(i, part->count);
-        part->passes->entries[2 * place] = request->pixel;
-        part->passes->entries[2 * place + 1] = request->first;
+        part->passes->entries[list_position(i, part->count)] =
+            part->pass->pixels[pixel_number(part, i)];
     }
 }
 
-/* Stores means and selects the requests beyond the limit. */
+/* Stores means and selects the pixels beyond the limit. */
 static int store_means(void *context, int first, int end, int *still_open) {
     const Part *part = context;
     const float *values = part->passes->frame.rgb;
     int left = 0;
     for (int i = first; i < end; i++) {
-        int number = request_number(part, i);
+        int number = pixel_number(part, i);
         HdBoundedMean *mean = &part->pass->means[number];
         float before = mean->bound;
         size_t place = (size_t)list_position(i, part->count);
@@ -269,13 +159,9 @@ static int store_means(void *context, int first, int end, int *still_open) {
 static HdStatus submit(const Part *part, HdWatched watched, HdError *error) {
     HdBoundPasses *passes = part->passes;
     HdFrameTables tables;
-    const HdSampleList list = {
+    const HdPixelList list = {
         .entries = passes->entries,
         .entry_count = part->count,
-        .places = passes->samples->places,
-        .place_count = passes->samples->count,
-        .grid_side = passes->samples->grid_side,
-        .samples = part->pass->samples,
         .bound_cutoff = part->cutoff,
         .max_left_out = passes->max_left_out,
     };
@@ -288,17 +174,17 @@ static HdStatus submit(const Part *part, HdWatched watched, HdError *error) {
     return status;
 }
 
-/* Renders the requests of a part and keeps those beyond the limit, in place. */
+/* Renders the pixels of a part and keeps those beyond the limit, in place. */
 static HdStatus bound_part(Part *part, HdWatched watched, HdError *error) {
     HdBoundPasses *passes = part->passes;
     hd_chunks_run(passes->threads, part->count, list_entries, part);
     HD_TRY(submit(part, watched, error));
-    add_counts(passes->sums, &passes->frame, part->count, part->pass->samples);
+    add_counts(passes->sums, &passes->frame, part->count, hd_sample_count(passes->scene));
     part->count = hd_chunks_choose(passes->threads, part->count, store_means, part, part->open);
     return HD_OK;
 }
 
-/* Renders the open requests, at first all. */
+/* Renders the open pixels, at first all. */
 static HdStatus bound_open(HdBoundPasses *passes, const HdBoundPass *pass, double cutoff,
                            bool is_first, HdWatched watched, int *open_count, HdError *error) {
     int left = 0;
@@ -314,8 +200,8 @@ static HdStatus bound_open(HdBoundPasses *passes, const HdBoundPass *pass, doubl
     return HD_OK;
 }
 
-/* Decreases the cut-off until no request is open; without a limit one cut-off suffices. Each step
-   gets most of the remaining weight, for few samples need another one. */
+/* Decreases the cut-off until no pixel is open; without a limit one cut-off suffices. Each step
+   gets most of the remaining weight, for few pixels need another one. */
 HdStatus hd_bound_pass(HdBoundPasses *passes, const HdBoundPass *pass, HdError *error) {
     double limit = passes->scene->max_error;
     double easy = limit > 0.0 && limit < EASY_LIMIT ? EASY_LIMIT : limit;
@@ -327,7 +213,7 @@ HdStatus hd_bound_pass(HdBoundPasses *passes, const HdBoundPass *pass, HdError *
     HD_TRY(reserve(passes, open, error));
     while (open > 0) {
         const double before = (double)hd_frame_rays(passes->sums),
-                     tried = (double)open * pass->samples;
+                     tried = (double)open * hd_sample_count(passes->scene);
         const HdWatched own = hd_watched_split(&watched, limit > 0.0 ? 0.875 : 1.0);
         HD_TRY(bound_open(passes, pass, cutoff, is_first, own, &open, error));
         if (cutoff <= last ||

@@ -1,11 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Renders one frame of a scene that is on a renderer (verify/trust.h): all its
-   samples, or with an error bound (hd_scene_has_error_bound) as many as each pixel needs.
-
-   Adaptive sampling (after Whitted 1980, section 6) starts with one sample per pixel. A pixel gets
-   16 if a neighbour differs in the picture or is uneven; then 64, 256, ... up to the whole grid,
-   while means of parts of its samples or of its neighbours' differ. The result is the same on all
-   devices, whatever was rendered before. */
+/* Renders one frame of a scene that is on a renderer (verify/trust.h), also with an error bound
+   (hd_scene_has_error_bound). */
 #ifndef HD_RENDER_FRAME_H
 #define HD_RENDER_FRAME_H
 
@@ -15,9 +10,9 @@
 typedef struct HdFrameMaker {
     HdRenderer *renderer;
     const HdScene *scene; /* scene on the renderer; size, crop, samples and less depth may differ */
-    HdFrameRequest request; /* its curve measures errors; frames with a bound are radiance */
-    HdWatch *watch;         /* NULL: none */
-    struct HdRefinement *refinement; /* private; for a scene with an error bound */
+    HdFrameRequest request;    /* its curve measures errors; frames with a bound are radiance */
+    HdWatch *watch;            /* NULL: none */
+    struct HdBounded *bounded; /* private; for a scene with an error bound */
 } HdFrameMaker;
 
 /* A frame in flight. The struct must stay in place until the frame ends, or until its tables are

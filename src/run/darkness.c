@@ -58,6 +58,7 @@ static HdStatus render_preview(Preview *seen, HdCurve curve, HdError *error) {
     small.width = hd_max(1, (int)(factor * small.width));
     small.height = hd_max(1, (int)(factor * small.height));
     small.samples_per_side = 1;
+    small.sample_rows = 0;
     small.depth = hd_min(small.depth, SMALL_DEPTH);
     small.cutoff = fmax(small.cutoff, small_cutoff);
     HD_TRY(hd_camera_at(&camera, &small, seen->frame, error));

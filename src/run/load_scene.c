@@ -85,8 +85,10 @@ static void set_numbers(HdScene *scene, const HdScenePlan *plan) {
         scene->width = plan->size.width;
         scene->height = plan->size.height;
     }
-    if (plan->samples > 0)
+    if (plan->samples > 0) {
         scene->samples_per_side = plan->samples;
+        scene->sample_rows = 0;
+    }
     if (plan->max_error > 0.0)
         scene->max_error = plan->max_error;
 }
@@ -125,6 +127,7 @@ static HdStatus apply_geometry(HdScene *scene, const HdScenePlan *plan, HdError 
     if (plan->geometry == HD_GEOMETRY_SOLIDS && plan->divisions > 0)
         return hd_fail(error, HD_BAD_INPUT, "--divisions needs --geometry triangles");
     hd_scene_separate_contacts(scene);
+    hd_scene_nest_solids(scene);
     if (plan->geometry == HD_GEOMETRY_SOLIDS)
         return HD_OK;
     return hd_scene_triangulate(scene, DISC_SIDES, plan->divisions > 0 ? plan->divisions : 1,
@@ -146,7 +149,7 @@ HdStatus hd_load_scene(HdSceneFile *file, const HdScenePlan *plan, HdProblems *n
     HD_TRY(status);
     status = hd_scene_apply_numbers(&file->scene, plan, error);
     if (status == HD_OK && plan->is_classic)
-        status = hd_scene_file_load_texture(file, error);
+        status = hd_scene_file_load_texture(file, notes, error);
     if (status == HD_OK)
         status = apply_geometry(&file->scene, plan, error);
     if (status != HD_OK)

@@ -2,6 +2,7 @@
 #include "scene/contact.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 /* ---- depth ---- */
 
@@ -161,12 +162,45 @@ double hd_solid_overlap(const HdSolid *a, const HdSolid *b) {
     return depth > touch ? depth : 0.0;
 }
 
-double hd_floor_overlap(const HdSolid *solid, const HdFloor *floor) {
-    Body body;
-    body_of_floor(&body, floor);
-    const double touch = touch_of(solid->centre, solid->circumradius, body.centre, body.radius);
-    const double depth = hd_floor_depth(solid, floor, touch);
-    return depth > touch ? depth : 0.0;
+/* ---- nesting ---- */
+
+/* Separation moves faces by less. */
+static const double clear_share = 0x1p-14;
+
+bool hd_solid_holds(const HdSolid *outer, const HdSolid *inner) {
+    const HdVec3 offset = hd_sub(inner->centre, outer->centre);
+    const double radius = outer->circumradius;
+    if (inner->circumradius > radius || hd_length(offset) > radius)
+        return false;
+    const HdPlatonic around = hd_solid_shape(outer), within = hd_solid_shape(inner);
+    const double most = (around.inradius - clear_share) * radius;
+    for (int i = 0; i < within.vertex_count; i++) {
+        const HdVec3 corner = hd_add(offset, hd_scale(within.vertex[i], inner->circumradius));
+        for (int f = 0; f < around.face_count; f++)
+            if (hd_dot(around.face_normal[f], corner) > most)
+                return false;
+    }
+    return true;
+}
+
+/* Of two solids that hold a third, the inner one has the smaller circumradius. */
+double hd_index_around(const HdSolid *solids, int count, const HdSolid *solid) {
+    double smallest = (double)INFINITY, index = 1.0;
+    for (int i = 0; i < count; i++)
+        if (&solids[i] != solid && solids[i].circumradius < smallest &&
+            hd_solid_holds(&solids[i], solid)) {
+            smallest = solids[i].circumradius;
+            index = solids[i].face.index_of_refraction;
+        }
+    return index;
+}
+
+void hd_scene_nest_solids(HdScene *scene) {
+    double around[HD_MAX_SOLIDS];
+    for (int i = 0; i < scene->solid_count; i++)
+        around[i] = hd_index_around(scene->solids, scene->solid_count, &scene->solids[i]);
+    for (int i = 0; i < scene->solid_count; i++)
+        scene->solids[i].face.index_of_refraction /= around[i];
 }
 
 /* ---- contact ---- */
@@ -326,4 +360,51 @@ void hd_scene_separate_contacts(HdScene *scene) {
         if (share <= max_inset_share)
             solid->circumradius *= 1.0 - share;
     }
+}
+
+/* ---- instances ---- */
+
+static int compare_vectors(HdVec3 a, HdVec3 b) {
+    if (a.x != b.x)
+        return a.x < b.x ? -1 : 1;
+    if (a.y != b.y)
+        return a.y < b.y ? -1 : 1;
+    return (a.z > b.z) - (a.z < b.z);
+}
+
+static int compare_places(const HdInstance *a, const HdInstance *b) {
+    int order = (a->mesh > b->mesh) - (a->mesh < b->mesh);
+    order = order != 0 ? order : (a->up > b->up) - (a->up < b->up);
+    order = order != 0 ? order : compare_vectors(a->position, b->position);
+    order = order != 0 ? order : compare_vectors(a->rotation_degrees, b->rotation_degrees);
+    return order != 0 ? order : compare_vectors(a->scale, b->scale);
+}
+
+/* Orders those of one place as in the scene. */
+static int compare_instances(const void *first, const void *second) {
+    const HdInstance *a = *(const HdInstance *const *)first;
+    const HdInstance *b = *(const HdInstance *const *)second;
+    const int order = compare_places(a, b);
+    return order != 0 ? order : (a > b) - (a < b);
+}
+
+HdStatus hd_scene_drop_second_instances(HdScene *scene, int *dropped, HdError *error) {
+    const size_t count = (size_t)scene->instance_count;
+    HdInstance **sorted = malloc((count + 1) * sizeof(HdInstance *));
+    if (sorted == NULL)
+        return HD_NO_ROOM(error, "%d places of meshes", scene->instance_count);
+    for (size_t i = 0; i < count; i++)
+        sorted[i] = &scene->instances[i];
+    qsort(sorted, count, sizeof(HdInstance *), compare_instances);
+    for (size_t i = count; i-- > 1;)
+        if (compare_places(sorted[i - 1], sorted[i]) == 0)
+            sorted[i]->mesh = -1;
+    free(sorted);
+    int kept = 0;
+    for (int i = 0; i < scene->instance_count; i++)
+        if (scene->instances[i].mesh >= 0)
+            scene->instances[kept++] = scene->instances[i];
+    *dropped = scene->instance_count - kept;
+    scene->instance_count = kept;
+    return HD_OK;
 }

@@ -17,8 +17,13 @@ double hd_floor_depth(const HdSolid *solid, const HdFloor *floor, double least);
    plus the rounding of large coordinates. */
 double hd_solid_overlap(const HdSolid *a, const HdSolid *b);
 
-/* Does the same for a solid and a floor, whose corners are projected onto their mean plane. */
-double hd_floor_overlap(const HdSolid *solid, const HdFloor *floor);
+/* Returns whether `inner` lies within `outer`, clear of its faces by a 16384th of its circumradius.
+ */
+bool hd_solid_holds(const HdSolid *outer, const HdSolid *inner);
+
+/* Returns the index of refraction around a solid: that of the innermost of `count` solids that
+   holds it, else 1. */
+double hd_index_around(const HdSolid *solids, int count, const HdSolid *solid);
 
 typedef enum HdContact {
     HD_CONTACT_NONE,
@@ -43,5 +48,13 @@ bool hd_contact_coincides(HdContact contact);
    floor, from lights on its faces and from earlier solids. The floor does not move. A solid that
    would shrink by more than a 1024th stays as it is. */
 void hd_scene_separate_contacts(HdScene *scene);
+
+/* Divides each solid's index of refraction by the index around it. Kernels know no other medium
+   outside of a solid than one of index 1. */
+void hd_scene_nest_solids(HdScene *scene);
+
+/* Removes instances whose mesh an earlier one has in the same place, as their triangles would
+   coincide, and sets `*dropped` to their number. HD_FAILED: out of memory. */
+HdStatus hd_scene_drop_second_instances(HdScene *scene, int *dropped, HdError *error);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Lists of frames such as "0-9,20". */
+/* Lists of frames such as "0-9,20,30-90:2". */
 #ifndef HD_SCENE_FRAME_LIST_H
 #define HD_SCENE_FRAME_LIST_H
 
@@ -12,8 +12,8 @@ typedef struct HdFrameList {
     int *frames; /* owned; ascending, without repetition */
 } HdFrameList;
 
-/* Parses numbers and ascending ranges, separated by commas, and merges overlaps. Frames are
-   numbered from 0 to frame_count - 1; NULL stands for all of them. */
+/* Parses numbers and ascending ranges, which may have a step, separated by commas, and merges
+   overlaps. Frames are numbered from 0 to frame_count - 1; NULL stands for all of them. */
 HdStatus hd_frame_list_parse(HdFrameList *list, const char *text, int frame_count, HdError *error);
 
 /* Writes the frames whose mark is `wanted`, one mark for each of the list, as the parser takes

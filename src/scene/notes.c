@@ -6,6 +6,7 @@
 #include "base/trigonometry.h"
 #include "scene/camera.h"
 #include "scene/contact.h"
+#include "scene/placement.h"
 #include "scene/scene.h"
 
 /* Degrees; less was probably given in radians, in which no field of view exceeds pi. */
@@ -110,6 +111,84 @@ static void note_contacts(const HdScene *scene, HdProblems *notes) {
                    overlapping.solid, overlapping.other, others_of(&overlapping, others));
 }
 
+/* ---- nesting ---- */
+
+/* Notes solids within refracting ones, which let rays pass. */
+static void note_nesting(const HdScene *scene, HdProblems *notes) {
+    Pairs nested = {0};
+    char others[48];
+    double around_first = 1.0;
+    for (int i = 0; i < scene->solid_count; i++) {
+        const HdSolid *solid = &scene->solids[i];
+        const double around = hd_index_around(scene->solids, scene->solid_count, solid);
+        if (around == 1.0 || hd_is_opaque(&solid->face))
+            continue;
+        if (nested.count == 0)
+            around_first = around;
+        count_pairs(&nested, i, "solids", i, 1);
+    }
+    if (nested.count > 0)
+        hd_problem(notes,
+                   "solids[%d] lies within a solid that refracts%s: its index_of_refraction, "
+                   "also one of 1, counts against that one's %.6g",
+                   nested.solid, others_of(&nested, others), around_first);
+}
+
+static bool is_glass(const HdMaterial *material) {
+    return material->index_of_refraction != 1.0 && !hd_is_opaque(material);
+}
+
+static bool instance_is_glass(const HdScene *scene, const HdInstance *instance) {
+    const HdMesh *mesh = &scene->meshes[instance->mesh];
+    bool found = instance->has_material && is_glass(&instance->material);
+    for (int i = 0; i < mesh->material_count && !instance->has_material; i++)
+        found |= is_glass(&mesh->materials[i].material);
+    return found;
+}
+
+/* A ball about an object that refracts. */
+typedef struct Ball {
+    const char *what;
+    int number;
+    HdVec3 centre;
+    double radius;
+} Ball;
+
+static Ball ball_of_instance(const HdScene *scene, int number) {
+    const HdInstance *instance = &scene->instances[number];
+    const HdMesh *mesh = &scene->meshes[instance->mesh];
+    const HdVec3 scale = instance->scale, half = hd_sub(mesh->upper, hd_mesh_centre(mesh));
+    return (Ball){"meshes", instance->entry, hd_placement_of(scene, number).start,
+                  hd_length(hd_vec3(half.x * scale.x, half.y * scale.y, half.z * scale.z))};
+}
+
+/* Comparing more would take long; a note on some is enough. */
+enum { MAX_BALLS = 1000 };
+
+static void note_glass_meshes(const HdScene *scene, HdProblems *notes) {
+    Ball balls[MAX_BALLS];
+    int count = 0;
+    for (int i = 0; i < scene->solid_count; i++)
+        if (is_glass(&scene->solids[i].face))
+            balls[count++] =
+                (Ball){"solids", i, scene->solids[i].centre, scene->solids[i].circumradius};
+    for (int i = 0; i < scene->instance_count && count < MAX_BALLS; i++) {
+        if (!instance_is_glass(scene, &scene->instances[i]))
+            continue;
+        const Ball ball = ball_of_instance(scene, i);
+        for (int j = 0; j < count; j++)
+            if (hd_length(hd_sub(balls[j].centre, ball.centre)) < balls[j].radius + ball.radius) {
+                hd_problem(notes,
+                           "meshes[%d] refracts and may be within %s[%d] or overlap it: a mesh "
+                           "counts its index_of_refraction against 1, so give one that lies "
+                           "within glass its index divided by the glass's",
+                           ball.number, balls[j].what, balls[j].number);
+                return;
+            }
+        balls[count++] = ball;
+    }
+}
+
 /* Smallest visible jump of a path, as a share of the distance between eye and target. */
 static const double min_jump = 1e-3;
 
@@ -164,4 +243,6 @@ void hd_scene_notes(const HdScene *scene, HdProblems *notes) {
     for (int i = 0; i < scene->solid_count; i++)
         note_edge_lights(&scene->solids[i], i, notes);
     note_contacts(scene, notes);
+    note_nesting(scene, notes);
+    note_glass_meshes(scene, notes);
 }

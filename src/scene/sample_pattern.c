@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "scene/sample_pattern.h"
 
-#include <stddef.h>
+#include <stdint.h>
 
 enum { MAX_LISTED = 16 };
 
@@ -37,9 +37,20 @@ static const Orders listed[] = {
 static const unsigned char rows_of_9[9] = {5, 1, 8, 4, 0, 6, 3, 7, 2};
 static const unsigned char rows_of_16[16] = {11, 2, 6, 15, 10, 3, 7, 13, 0, 8, 4, 12, 9, 1, 14, 5};
 
+int hd_sample_rows(const HdScene *scene) {
+    return scene->sampling == HD_SAMPLING_MULTIJITTER && scene->sample_rows > 0
+               ? scene->sample_rows
+               : scene->samples_per_side;
+}
+
+int hd_sample_count(const HdScene *scene) {
+    return scene->samples_per_side * hd_sample_rows(scene);
+}
+
 int hd_sample_lattice(const HdScene *scene) {
-    const int n = scene->samples_per_side;
-    return scene->sampling == HD_SAMPLING_MULTIJITTER ? n * n : n;
+    return scene->sampling == HD_SAMPLING_MULTIJITTER ? hd_sample_count(scene)
+           : scene->sampling == HD_SAMPLING_REFERENCE ? HD_DENSE_LATTICE
+                                                      : scene->samples_per_side;
 }
 
 /* Places the sample of each column into the list of its cells. */
@@ -64,17 +75,67 @@ static int rank_of(int number, int n) {
     return rank;
 }
 
-void hd_multijitter(int n, int *places) {
+static void multijitter(int columns, int rows, int *places) {
     int p[HD_MAX_SAMPLES_PER_SIDE], q[HD_MAX_SAMPLES_PER_SIDE];
-    if (n == 3 || n == 4) {
-        place_rows(n, n == 3 ? rows_of_9 : rows_of_16, places);
+    const bool is_square = columns == rows, is_listed = is_square && columns <= MAX_LISTED;
+    if (is_square && (columns == 3 || columns == 4)) {
+        place_rows(columns, columns == 3 ? rows_of_9 : rows_of_16, places);
         return;
     }
-    for (int i = 0; i < n; i++) {
-        p[i] = n <= MAX_LISTED ? listed[n].p[i] : rank_of(i, n);
-        q[i] = n <= MAX_LISTED ? listed[n].q[i] : rank_of(n - 1 - i, n);
+    for (int j = 0; j < rows; j++)
+        p[j] = is_listed ? listed[rows].p[j] : rank_of(is_square ? j : rows - 1 - j, rows);
+    for (int i = 0; i < columns; i++)
+        q[i] = is_listed ? listed[columns].q[i] : rank_of(is_square ? columns - 1 - i : i, columns);
+    for (int j = 0; j < rows; j++)
+        for (int i = 0; i < columns; i++)
+            places[j * columns + i] = (rows * i + p[j]) | (columns * j + q[i]) << 16;
+}
+
+/* Marsaglia 2003, "Xorshift RNGs". */
+static uint32_t next_random(uint32_t *state) {
+    *state ^= *state << 13;
+    *state ^= *state >> 17;
+    *state ^= *state << 5;
+    return *state;
+}
+
+static void shuffle(int *numbers, int count, uint32_t *state) {
+    for (int i = 0; i < count; i++)
+        numbers[i] = i;
+    for (int i = count - 1; i > 0; i--) {
+        int other = (int)(next_random(state) % (uint32_t)(i + 1)), kept = numbers[i];
+        numbers[i] = numbers[other];
+        numbers[other] = kept;
     }
-    for (int j = 0; j < n; j++)
-        for (int i = 0; i < n; i++)
-            places[j * n + i] = (n * i + p[j]) | (n * j + q[i]) << 16;
+}
+
+/* Returns the coordinate, on the dense lattice, of random position `within` in part `part` of cell
+   `cell`. */
+static int dense_place(int side, int cell, int part, uint32_t within) {
+    double place = cell + (part + (double)within / 4294967296.0) / side;
+    return (int)(place * HD_DENSE_LATTICE / side);
+}
+
+static void dense(int side, int *places) {
+    int column_of[HD_MAX_SAMPLES_PER_SIDE] = {0}, row_of[HD_MAX_SAMPLES_PER_SIDE] = {0};
+    uint32_t state = 1 + (uint32_t)side * UINT32_C(2654435761);
+    shuffle(column_of, side, &state);
+    shuffle(row_of, side, &state);
+    for (int i = 0; i < side * side; i++) {
+        int column = i % side, row = i / side;
+        int x = dense_place(side, column, column_of[row], next_random(&state));
+        int y = dense_place(side, row, row_of[column], next_random(&state));
+        places[i] = x | y << 16;
+    }
+}
+
+void hd_sample_places(const HdScene *scene, int *places) {
+    const int n = scene->samples_per_side;
+    if (scene->sampling == HD_SAMPLING_MULTIJITTER)
+        multijitter(n, hd_sample_rows(scene), places);
+    else if (scene->sampling == HD_SAMPLING_REFERENCE)
+        dense(n, places);
+    else
+        for (int i = 0; i < n * n; i++)
+            places[i] = i % n | i / n << 16;
 }

@@ -11,8 +11,7 @@
 const char *const hd_sampling_names[] = {HD_SAMPLINGS(SAMPLING_NAME) NULL};
 
 bool hd_scene_has_error_bound(const HdScene *scene) {
-    return scene->sampling == HD_SAMPLING_ADAPTIVE || scene->sampling == HD_SAMPLING_REFERENCE ||
-           scene->max_error > 0.0;
+    return scene->sampling == HD_SAMPLING_REFERENCE || scene->max_error > 0.0;
 }
 
 bool hd_scene_has_deep_trees(const HdScene *scene) {
@@ -35,6 +34,10 @@ HdPlatonic hd_solid_shape(const HdSolid *solid) {
     hd_platonic(solid->kind, &shape);
     hd_platonic_rotate(&shape, solid->rotation_degrees);
     return shape;
+}
+
+bool hd_is_opaque(const HdMaterial *face) {
+    return face->transmission == 0.0 && (!face->has_inner_side || face->inner_transmission == 0.0);
 }
 
 int hd_edge_light_count(const HdSolid *solid) {

@@ -63,12 +63,18 @@ typedef struct HdPicture {
     bool is_clamped; /* clamped at its border; otherwise it repeats */
 } HdPicture;
 
-/* A placed mesh: its points are scaled, then rotated as solids are, then moved. */
+/* A mesh's axis that points up. With y, (x, y, z) becomes (x, -z, y). */
+typedef enum HdUpAxis { HD_UP_Z, HD_UP_Y } HdUpAxis;
+
+/* A placed mesh: its points are scaled, then turned upright, then rotated as solids are, then
+   moved. */
 typedef struct HdInstance {
-    int mesh; /* index in HdScene.meshes */
+    int mesh;  /* index in HdScene.meshes */
+    int entry; /* number among the meshes of the scene file, which may list others; -1: none */
+    HdUpAxis up;
     HdVec3 position;
     HdVec3 rotation_degrees;
-    HdVec3 scale;      /* each positive */
+    HdVec3 scale;      /* none is 0; a negative one mirrors, and outer sides stay outer ones */
     bool has_material; /* `material` replaces all of the mesh's own materials */
     HdMaterial material;
 } HdInstance;
@@ -97,27 +103,18 @@ typedef struct HdPath {
     HdCylinderPath cylinder;
 } HdPath;
 
-/* Positions and number of a pixel's samples. */
+/* Positions of a pixel's samples (sample_pattern.h). */
 typedef enum HdSampling {
-    HD_SAMPLING_GRID,        /* all positions of a grid */
-    HD_SAMPLING_MULTIJITTER, /* one position in each cell of that grid (sample_pattern.h) */
-    HD_SAMPLING_ADAPTIVE,    /* positions of the grid, as many as the pixel needs */
-    HD_SAMPLING_REFERENCE    /* a low-discrepancy set, dense and the same in every pixel */
+    HD_SAMPLING_GRID,        /* the middles of cells */
+    HD_SAMPLING_MULTIJITTER, /* one in each cell, and one in each of as many columns and rows */
+    HD_SAMPLING_REFERENCE    /* likewise, at random in them */
 } HdSampling;
 
 /* X(value, name): the samplings that scenes and options name, in the order of HdSampling. */
-#define HD_SAMPLINGS(X)                                                                            \
-    X(HD_SAMPLING_GRID, "grid")                                                                    \
-    X(HD_SAMPLING_MULTIJITTER, "multijitter") X(HD_SAMPLING_ADAPTIVE, "adaptive")
+#define HD_SAMPLINGS(X) X(HD_SAMPLING_GRID, "grid") X(HD_SAMPLING_MULTIJITTER, "multijitter")
 
 /* Names by HdSampling; NULL ends them. */
 extern const char *const hd_sampling_names[];
-
-/* The picture's position in a larger one: its first pixel is the larger one's (left, top). */
-typedef struct HdCrop {
-    int whole_width, whole_height; /* size of the larger one; 0: no crop */
-    int left, top;
-} HdCrop;
 
 typedef struct HdScene {
     int frame_count;
@@ -125,7 +122,8 @@ typedef struct HdScene {
     double field_of_view_degrees; /* horizontal */
     int width, height;
     HdCrop crop;
-    int samples_per_side; /* n of at most n x n samples of a pixel, or of its grid */
+    int samples_per_side; /* n of n x n samples of a pixel, or of its columns of cells */
+    int sample_rows;      /* rows of cells of HD_SAMPLING_MULTIJITTER; 0: n */
     HdSampling sampling;
     double max_error; /* largest truncation error of a pixel, in 1/255 units; 0: no limit */
     int depth;        /* maximum ray depth; primary rays have depth 0 */
@@ -149,6 +147,9 @@ typedef struct HdScene {
 
 /* Returns the solid's shape about its centre, rotated, with circumradius 1. */
 HdPlatonic hd_solid_shape(const HdSolid *solid);
+
+/* Returns whether neither side of a face lets rays pass. */
+bool hd_is_opaque(const HdMaterial *face);
 
 /* Returns the number of lights on the edges of a valid solid. */
 int hd_edge_light_count(const HdSolid *solid);

@@ -479,7 +479,7 @@ static HdStatus add_materials(HdMesh *mesh, const HdSolid *solid, bool has_discs
     mesh->materials = calloc(HD_SOLID_MATERIAL_DISCS + (size_t)discs, sizeof *mesh->materials);
     if (mesh->materials == NULL)
         return no_memory(error);
-    HdMeshMaterial added = {.material = solid->face, .passes_as = -1};
+    HdMeshMaterial added = {.material = solid->face, .mask_picture = -1, .passes_as = -1};
     HD_TRY(add_material(mesh, "face", &added, error));
     added.material = solid->rim;
     HD_TRY(add_material(mesh, "rim", &added, error));
@@ -567,7 +567,8 @@ static void fill_floor_triangles(HdMesh *mesh, int divisions) {
 
 static HdStatus make_floor_mesh(HdMesh *mesh, const HdFloor *floor, int divisions, HdError *error) {
     const size_t n = (size_t)divisions, points = (n + 1) * (n + 1), triangles = 2 * n * n;
-    const HdMeshMaterial material = {.material = floor->material, .passes_as = -1};
+    const HdMeshMaterial material = {
+        .material = floor->material, .mask_picture = -1, .passes_as = -1};
     mesh->uvs = malloc(points * sizeof *mesh->uvs);
     mesh->corner_uvs = malloc(triangles * sizeof *mesh->corner_uvs);
     mesh->materials = calloc(1, sizeof *mesh->materials);
@@ -596,8 +597,10 @@ HdStatus hd_triangulate_floor(HdMesh *mesh, const HdFloor *floor, int divisions,
 
 /* Places the newest mesh. */
 static void add_instance(HdScene *made, HdVec3 position) {
-    made->instances[made->instance_count++] = (HdInstance){
-        .mesh = made->mesh_count++, .position = position, .scale = hd_vec3(1.0, 1.0, 1.0)};
+    made->instances[made->instance_count++] = (HdInstance){.mesh = made->mesh_count++,
+                                                           .entry = -1,
+                                                           .position = position,
+                                                           .scale = hd_vec3(1.0, 1.0, 1.0)};
 }
 
 /* Copies the texture as one that clamps at its border instead of repeating. */

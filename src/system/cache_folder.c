@@ -110,14 +110,20 @@ static const char *read_file(int descriptor, unsigned char **file, size_t *size)
     return done == (ssize_t)*size ? NULL : "it cannot be read";
 }
 
+/* Low byte first on every machine: they may share the folder. */
+static void write_checksum(unsigned char out[CHECKSUM_BYTES], uint64_t hash) {
+    for (int i = 0; i < CHECKSUM_BYTES; i++)
+        out[i] = (unsigned char)(hash >> (8 * i) & 0xff);
+}
+
 /* Moves the payload to the front. Returns the fault, or NULL. */
 static const char *extract_payload(unsigned char *file, size_t *size, const char *key) {
     const size_t key_bytes = strlen(key) + 1;
     const unsigned char *content = file + CHECKSUM_BYTES;
-    uint64_t checksum;
-    memcpy(&checksum, file, CHECKSUM_BYTES);
+    unsigned char checksum[CHECKSUM_BYTES];
     *size -= CHECKSUM_BYTES;
-    if (checksum != hd_hash_bytes(HD_HASH_START, content, *size))
+    write_checksum(checksum, hd_hash_bytes(HD_HASH_START, content, *size));
+    if (memcmp(file, checksum, CHECKSUM_BYTES) != 0)
         return "its checksum is wrong";
     if (*size < key_bytes || memcmp(content, key, key_bytes) != 0)
         return "it belongs to another key";
@@ -218,11 +224,12 @@ static HdStatus make_folder(const char *folder, HdError *error) {
 static HdStatus write_entry(const char *path, const char *key, const void *bytes, size_t size,
                             HdError *error) {
     const size_t key_bytes = strlen(key) + 1;
-    const uint64_t checksum =
-        hd_hash_bytes(hd_hash_bytes(HD_HASH_START, key, key_bytes), bytes, size);
+    unsigned char checksum[CHECKSUM_BYTES];
+    write_checksum(checksum,
+                   hd_hash_bytes(hd_hash_bytes(HD_HASH_START, key, key_bytes), bytes, size));
     HdAtomicFile file;
     HD_TRY(hd_atomic_file_open_private(&file, path, error));
-    fwrite(&checksum, 1, CHECKSUM_BYTES, file.stream); /* errors show when committing */
+    fwrite(checksum, 1, CHECKSUM_BYTES, file.stream); /* errors show when committing */
     fwrite(key, 1, key_bytes, file.stream);
     fwrite(bytes, 1, size, file.stream);
     return hd_atomic_file_commit(&file, HD_WITHOUT_SYNC, error);

@@ -14,6 +14,11 @@ void *hd_library_open(const char *path) {
     return dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
 }
 
+void *hd_library_open_as_linked(const char *path) {
+    return dlopen(path, RTLD_NOW | RTLD_GLOBAL | RTLD_NODELETE) != NULL ? dlopen(NULL, RTLD_NOW)
+                                                                        : NULL;
+}
+
 void hd_library_close(void *library) {
     if (library)
         dlclose(library);

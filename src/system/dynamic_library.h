@@ -16,6 +16,10 @@ typedef struct HdLibrarySymbol {
    library. */
 void *hd_library_open(const char *path);
 
+/* As hd_library_open, but finds a symbol where a program would that is linked with the library:
+   first in libraries that a user preloads. */
+void *hd_library_open_as_linked(const char *path);
+
 /* Releases the handle; the library stays loaded. NULL is allowed. */
 void hd_library_close(void *library);
 

@@ -149,7 +149,7 @@ bool hd_path_is_same(const char *first, const char *second) {
            strcmp(first_name, second_name) == 0;
 }
 
-/* a part of a pattern; "%%" is a character */
+/* a part of a pattern; "%%" and "%#" are characters */
 typedef enum Part { PART_CHARACTER, PART_NUMBER, PART_WRONG } Part;
 
 enum { MAX_DIGITS = 9 };
@@ -157,7 +157,7 @@ enum { MAX_DIGITS = 9 };
 /* Moves `*text`, which starts with a percent sign, past the directive if it is valid. */
 static Part read_directive(const char **text, int *digits) {
     const char *p = *text + 1;
-    if (p[0] == '%') {
+    if (p[0] == '%' || p[0] == '#') {
         *text = p + 1;
         return PART_CHARACTER;
     }
@@ -186,10 +186,11 @@ static Part read_part(const char **text, bool counts_hashes, int *digits) {
     return PART_NUMBER;
 }
 
-static bool has_number(const char *path, bool counts_hashes) {
+/* Returns whether there is a number, with '#' as one from `hashes` on. */
+static bool has_number(const char *path, const char *hashes) {
     int digits;
     while (*path != '\0') {
-        const Part part = read_part(&path, counts_hashes, &digits);
+        const Part part = read_part(&path, path >= hashes, &digits);
         if (part == PART_NUMBER)
             return true;
         if (part == PART_WRONG)
@@ -198,25 +199,30 @@ static bool has_number(const char *path, bool counts_hashes) {
     return false;
 }
 
+bool hd_pattern_has_directive(const char *path) {
+    return has_number(path, path + strlen(path));
+}
+
 bool hd_pattern_has_number(const char *path) {
-    return has_number(path, true);
+    return has_number(path, path + hd_folder_length(path));
 }
 
 /* Expands the pattern and counts its frame numbers. */
 static HdStatus expand(const char *pattern, int frame, char out[HD_MAX_PATH], int *numbers,
                        HdError *error) {
-    /* If the pattern has "%d" or "%0Nd", a '#' is an ordinary character. */
-    const bool counts_hashes = !has_number(pattern, false);
+    /* If the pattern has "%d" or "%0Nd", and in folders, a '#' is an ordinary character. */
+    const char *hashes =
+        pattern + (hd_pattern_has_directive(pattern) ? strlen(pattern) : hd_folder_length(pattern));
     size_t length = 0;
     int digits;
     *numbers = 0;
     for (const char *text = pattern; *text != '\0';) {
         char piece[16];
-        const Part part = read_part(&text, counts_hashes, &digits);
+        const Part part = read_part(&text, text >= hashes, &digits);
         if (part == PART_WRONG)
             return hd_fail(error, HD_BAD_INPUT,
                            "the pattern \"%s\" has \"%.*s\", expected %%d, %%0Nd with N from 1 to "
-                           "%d, 1 to %d #, or %%%% for a percent sign",
+                           "%d, 1 to %d #, or %%%% for a percent sign, %%# for #",
                            pattern, *text == '#' ? (int)strspn(text, "#") : 4, text, MAX_DIGITS,
                            MAX_DIGITS);
         const int size = part == PART_NUMBER ? snprintf(piece, sizeof piece, "%0*d", digits, frame)

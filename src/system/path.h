@@ -39,15 +39,18 @@ void hd_path_visit(const char *folder, void (*visit)(void *context, const char *
 /* Creates every missing folder above the file `path` with mode `mode`, before the umask. */
 HdStatus hd_path_make_parents(const char *path, unsigned mode, HdError *error);
 
-/* Returns whether `path` holds a frame number: "%d", "%0Nd" with N from 1 to 9, or 1 to 9 "#" for
-   as many digits. */
+/* Returns whether `path` holds a frame number: "%d", "%0Nd" with N from 1 to 9, or, in the file's
+   own name, 1 to 9 "#" for as many digits. */
 bool hd_pattern_has_number(const char *path);
 
-/* Checks a pattern: exactly one frame number; "%%" is a percent sign. Rejects other directives and
-   longer runs of "#". The pattern never reaches printf. */
+/* Returns whether `path` holds "%d" or "%0Nd". */
+bool hd_pattern_has_directive(const char *path);
+
+/* Checks a pattern: exactly one frame number; "%%" is a percent sign, "%#" a "#". Rejects other
+   directives and longer runs of "#". The pattern never reaches printf. */
 HdStatus hd_pattern_check(const char *pattern, HdError *error);
 
-/* Writes the name of a file without a frame number; "%%" becomes a percent sign. */
+/* Writes the name of a file without a frame number; "%%" and "%#" become their second character. */
 HdStatus hd_pattern_format_single(const char *name, char out[HD_MAX_PATH], HdError *error);
 
 /* Writes the name of one frame of a checked pattern. */

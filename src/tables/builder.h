@@ -8,7 +8,7 @@
 #include "kernels/host/shared.h"
 #include "mesh/hierarchy.h"
 #include "scene/camera.h"
-#include "scene/scene.h"
+#include "scene/placement.h"
 #include "tables/table.h"
 
 #if HD_DOUBLE
@@ -28,7 +28,8 @@ typedef struct HdLightSource {
 
 /* Counts of entries in the tables of meshes. */
 typedef struct HdMeshSizes {
-    size_t triangles, nodes, wide_nodes, normals, uvs, corner_normals, corner_uvs, mesh_materials;
+    size_t triangles, nodes, wide_nodes, normals, uvs, corner_normals, corner_uvs, corner_colours,
+        mesh_materials;
 } HdMeshSizes;
 
 typedef struct HdMeshPlace {
@@ -66,11 +67,6 @@ typedef struct HdBuilder {
     size_t texels;
     void *table[HD_SCENE_TABLE_COUNT];
 } HdBuilder;
-
-/* The map from mesh coordinates to world space: columns . p + start. */
-typedef struct HdPlacement {
-    HdVec3 columns[3], start;
-} HdPlacement;
 
 /* The floor's frame; the normal of the diagonals fits four nearly coplanar corners best. */
 typedef struct HdFloorFrame {
@@ -111,10 +107,7 @@ HdVec3 hd_max_radiance(const HdScene *scene);
 HdStatus hd_builder_prepare_meshes(HdBuilder *builder, HdError *error);
 void hd_builder_free_meshes(HdBuilder *builder);
 
-const HdMesh *hd_mesh_of(const HdScene *scene, int instance);
 const HdMaterial *hd_material_of(const HdInstance *instance, const HdMeshMaterial *material);
-/* Returns an instance's placement in world space. */
-HdPlacement hd_placement_of(const HdScene *scene, int instance);
 /* Computes the centre of the box about all instances, in world space; returns half its longest
    side. */
 double hd_box_meshes(const HdScene *scene, HdVec3 *centre);
@@ -147,7 +140,7 @@ void NAMED(hd_fill_lights)(const HdBuilder *builder);
     HdStatus hd_compile_scene_##precision(HdSceneTables *tables, const HdScene *scene,             \
                                           HdError *error);                                         \
     HdStatus hd_compile_frame_##precision(HdFrameTables *tables, const HdScene *scene,             \
-                                          const HdCamera *camera, const HdSampleList *list,        \
+                                          const HdCamera *camera, const HdPixelList *list,         \
                                           HdError *error);
 HD_DECLARE_COMPILERS(float)
 HD_DECLARE_COMPILERS(double)

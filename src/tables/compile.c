@@ -53,6 +53,7 @@ static void size_tables(const HdBuilder *builder, HdSceneTables *tables) {
         [HD_TABLE_corner_normals] = sizes->corner_normals + 1, /* likewise */
         [HD_TABLE_mesh_uvs] = sizes->uvs,
         [HD_TABLE_corner_uvs] = sizes->corner_uvs + 1,
+        [HD_TABLE_corner_colours] = sizes->corner_colours,
         [HD_TABLE_pictures] = (size_t)builder->picture_count,
     };
     tables->table_count = HD_SCENE_TABLE_COUNT;
@@ -110,9 +111,11 @@ static void describe_shape(const HdBuilder *builder, HdSceneTables *tables) {
     for (int s = 0; s < builder->solid_count; s++)
         describe_material(tables, &scene->solids[s].face);
     for (int i = 0; i < scene->instance_count; i++)
-        for (int m = 0; m < hd_mesh_of(scene, i)->material_count; m++)
-            describe_material(
-                tables, hd_material_of(&scene->instances[i], &hd_mesh_of(scene, i)->materials[m]));
+        for (int m = 0; m < hd_mesh_of(scene, i)->material_count; m++) {
+            const HdMeshMaterial *material = &hd_mesh_of(scene, i)->materials[m];
+            describe_material(tables, hd_material_of(&scene->instances[i], material));
+            tables->cut_outs |= material->mask_picture >= 0 && hd_mesh_of(scene, i)->uvs != NULL;
+        }
 }
 
 HdStatus NAMED(hd_compile_scene)(HdSceneTables *tables, const HdScene *scene, HdError *error) {
@@ -180,17 +183,17 @@ static void fill_fixed_point(View *view, const HdScene *scene, int samples) {
     view->from_fixed = (real)ldexp(1.0, view->pixel_shift - sample_bits);
 }
 
-/* Returns whether the frame's samples are those of a pattern, for all pixels alike. */
-static bool has_pattern(const HdScene *scene, const HdSampleList *list) {
-    return list == NULL && scene->sampling == HD_SAMPLING_MULTIJITTER;
+/* Returns whether the samples' positions are a table. */
+static bool is_patterned(const HdScene *scene, const HdPixelList *list) {
+    return list != NULL || scene->sampling != HD_SAMPLING_GRID;
 }
 
 static void fill_view(View *view, const HdFrameTables *tables, const HdScene *scene,
-                      const HdCamera *camera, const HdSampleList *list) {
+                      const HdCamera *camera, const HdPixelList *list) {
     const HdCrop *crop = &scene->crop;
     int whole_width = crop->whole_width > 0 ? crop->whole_width : scene->width;
     int whole_height = crop->whole_height > 0 ? crop->whole_height : scene->height;
-    int side = list != NULL ? list->grid_side : hd_sample_lattice(scene);
+    int side = hd_sample_lattice(scene);
     double step = camera->tangent_of_half_fov / ((double)whole_width * (double)side);
     hd_store3(view->forward, camera->forward);
     hd_store3(view->right, hd_scale(camera->right, step));
@@ -204,7 +207,7 @@ static void fill_view(View *view, const HdFrameTables *tables, const HdScene *sc
     view->first_row = 1 - whole_height * side + 2 * crop->top * side;
     view->depth = scene->depth;
     view->listed = list != NULL;
-    view->patterned = has_pattern(scene, list);
+    view->patterned = is_patterned(scene, list);
     fill_fixed_point(view, scene, tables->samples);
     if (list != NULL) {
         view->bound_cutoff = (real)list->bound_cutoff;
@@ -213,45 +216,41 @@ static void fill_view(View *view, const HdFrameTables *tables, const HdScene *sc
 }
 
 /* Copies the list; entries that fill up the frame's last row are empty. */
-static void fill_list(const HdFrameTables *tables, const HdSampleList *list) {
+static void fill_list(const HdFrameTables *tables, const HdPixelList *list) {
     int *entries = tables->table[HD_TABLE_entries].data;
     size_t words = tables->table[HD_TABLE_entries].bytes / sizeof *entries;
-    size_t filled = 2 * (size_t)list->entry_count;
+    size_t filled = (size_t)list->entry_count;
     memcpy(entries, list->entries, filled * sizeof *entries);
     for (size_t i = filled; i < words; i++)
         entries[i] = -1;
-    memcpy(tables->table[HD_TABLE_sample_places].data, list->places,
-           tables->table[HD_TABLE_sample_places].bytes);
 }
 
-static void fill_pattern(const HdFrameTables *tables, int samples_per_side) {
+static void fill_places(const HdFrameTables *tables, const HdScene *scene) {
     int *places = tables->table[HD_TABLE_sample_places].data;
-    hd_multijitter(samples_per_side, places);
+    hd_sample_places(scene, places);
     for (int i = 0; i < HD_PATTERN_SPARE; i++)
         places[tables->samples + i] = places[i % tables->samples];
 }
 
 HdStatus NAMED(hd_compile_frame)(HdFrameTables *tables, const HdScene *scene,
-                                 const HdCamera *camera, const HdSampleList *list, HdError *error) {
+                                 const HdCamera *camera, const HdPixelList *list, HdError *error) {
     int object_count = hd_object_count(scene);
     tables->table_count = HD_FRAME_TABLE_COUNT;
     tables->table[HD_TABLE_view].bytes = sizeof(View);
     tables->table[HD_TABLE_eye_offsets].bytes = (size_t)object_count * sizeof(Vector);
-    if (list != NULL) {
+    if (list != NULL)
         tables->table[HD_TABLE_entries].bytes =
-            2 * sizeof(int) * (size_t)tables->width * (size_t)tables->height;
-        tables->table[HD_TABLE_sample_places].bytes = sizeof(int) * (size_t)list->place_count;
-    } else if (has_pattern(scene, list)) {
+            sizeof(int) * (size_t)tables->width * (size_t)tables->height;
+    if (is_patterned(scene, list))
         tables->table[HD_TABLE_sample_places].bytes =
             sizeof(int) * ((size_t)tables->samples + HD_PATTERN_SPARE);
-    }
     for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
         HD_TRY(hd_table_allocate(&tables->table[i], "tables of a frame", error));
     fill_view(tables->table[HD_TABLE_view].data, tables, scene, camera, list);
     if (list != NULL)
         fill_list(tables, list);
-    else if (has_pattern(scene, list))
-        fill_pattern(tables, scene->samples_per_side);
+    if (is_patterned(scene, list))
+        fill_places(tables, scene);
     Vector *offsets = tables->table[HD_TABLE_eye_offsets].data;
     for (int object = 0; object < object_count; object++)
         offsets[object] = hd_as_vector(hd_sub(camera->eye, hd_object_centre(scene, object)));

@@ -58,6 +58,13 @@ static void fill_normals_and_uvs(const HdBuilder *builder, const HdMesh *mesh,
         fill_corners(corner_uvs, mesh, mesh->corner_uvs, first->uvs);
 }
 
+static void fill_colours(const HdBuilder *builder, const HdMesh *mesh, size_t first) {
+    Vector *out = (Vector *)builder->table[HD_TABLE_corner_colours] + first;
+    for (int i = 0; mesh->colours != NULL && i < mesh->triangle_count; i++)
+        for (int k = 0; k < 3; k++)
+            *out++ = hd_as_vector(mesh->colours[mesh->corners[triangle_in_order(mesh, i)][k]]);
+}
+
 /* ---- hierarchies ---- */
 
 /* Returns a child moved by `first_node`, or by `first_item` if it is a leaf. */
@@ -146,6 +153,7 @@ static void fill_instance(const HdBuilder *builder, Instance *out, int number,
     out->first_face = first_face;
     out->first_corner_normals = mesh->normals != NULL ? (int)first->corner_normals : -1;
     out->first_corner_uvs = mesh->uvs != NULL ? (int)first->corner_uvs : -1;
+    out->first_corner_colours = mesh->colours != NULL ? (int)first->corner_colours : -1;
 }
 
 /* ---- mesh materials ---- */
@@ -211,6 +219,7 @@ static int fill_mesh_materials(const HdBuilder *builder, int number, MeshMateria
         hd_store3(mesh_material->emission, material->emission);
         mesh_material->material = builder->first_mesh_material + first + i;
         mesh_material->picture = material->picture;
+        mesh_material->mask = mesh->uvs != NULL ? material->mask_picture : -1;
         NAMED(hd_fill_material)
         (&materials[mesh_material->material], hd_material_of(instance, material));
         set_filters(mesh_material, hd_material_of(instance, filter), filter->is_opaque_to_shadows);
@@ -235,6 +244,7 @@ void NAMED(hd_fill_meshes)(const HdBuilder *builder) {
         const HdMeshPlace *place = &builder->places[i];
         fill_triangles(builder, mesh, place);
         fill_normals_and_uvs(builder, mesh, place);
+        fill_colours(builder, mesh, place->first.corner_colours);
         if (!hd_has_hierarchy(scene, mesh))
             continue;
         if (builder->lanes > 1)

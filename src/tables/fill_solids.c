@@ -13,6 +13,7 @@ void NAMED(hd_fill_header)(const HdBuilder *builder, const HdSceneTables *tables
     header->refracts = tables->refracts;
     header->lit_from_behind = tables->lit_from_behind;
     header->bounded = tables->bounded;
+    header->cut_outs = tables->cut_outs;
     hd_store3(header->light_bound, hd_light_bound(builder->scene));
     header->solid_count = builder->solid_count;
     header->floor_end = builder->solid_count + (builder->has_floor ? 1 : 0);

@@ -8,38 +8,8 @@
 #include "base/minmax.h"
 #include "system/thread_pool.h"
 
-const HdMesh *hd_mesh_of(const HdScene *scene, int instance) {
-    return &scene->meshes[scene->instances[instance].mesh];
-}
-
 const HdMaterial *hd_material_of(const HdInstance *instance, const HdMeshMaterial *material) {
     return instance->has_material ? &instance->material : &material->material;
-}
-
-/* Computes the columns of the rotation matrix. */
-static void rotation_of(const HdInstance *instance, HdVec3 columns[3]) {
-    columns[0] = hd_vec3(1.0, 0.0, 0.0);
-    columns[1] = hd_vec3(0.0, 1.0, 0.0);
-    columns[2] = hd_vec3(0.0, 0.0, 1.0);
-    hd_rotate_points(columns, 3, instance->rotation_degrees);
-}
-
-HdPlacement hd_placement_of(const HdScene *scene, int number) {
-    const HdInstance *instance = &scene->instances[number];
-    const HdMesh *mesh = hd_mesh_of(scene, number);
-    HdVec3 middle = hd_mesh_centre(mesh);
-    HdPlacement to;
-    rotation_of(instance, to.columns);
-    to.columns[0] = hd_scale(to.columns[0], instance->scale.x);
-    to.columns[1] = hd_scale(to.columns[1], instance->scale.y);
-    to.columns[2] = hd_scale(to.columns[2], instance->scale.z);
-    to.start = instance->position;
-    to.start = hd_add(to.start, hd_scale(to.columns[0], middle.x));
-    to.start = hd_add(to.start, hd_scale(to.columns[1], middle.y));
-    to.start = hd_add(to.start, hd_scale(to.columns[2], middle.z));
-    for (int i = 0; i < 3; i++)
-        to.columns[i] = hd_scale(to.columns[i], hd_mesh_half_side(mesh));
-    return to;
 }
 
 /* Returns half the sides of the box about a placed mesh. */
@@ -81,6 +51,7 @@ static HdStatus add_mesh(HdBuilder *builder, const HdMesh *mesh, HdMeshPlace *pl
     sizes->triangles += triangles;
     sizes->corner_normals += mesh->normals != NULL ? 3 * triangles : 0;
     sizes->corner_uvs += mesh->uvs != NULL ? 3 * triangles : 0;
+    sizes->corner_colours += mesh->colours != NULL ? 3 * triangles : 0;
     sizes->normals += (size_t)mesh->normal_count;
     sizes->uvs += (size_t)mesh->uv_count;
     if (!hd_has_hierarchy(builder->scene, mesh))

@@ -38,6 +38,7 @@ const char *hd_scene_table_content(int table) {
         [HD_TABLE_corner_normals] = "normals of corners",
         [HD_TABLE_mesh_uvs] = "texture coordinates",
         [HD_TABLE_corner_uvs] = "texture coordinates of corners",
+        [HD_TABLE_corner_colours] = "colours of corners",
         [HD_TABLE_pictures] = "textures",
     };
     return contents[table];
@@ -56,6 +57,7 @@ void hd_scene_tables_raise(HdSceneTables *tables, const HdSceneTables *like) {
     tables->lit_from_behind = tables->lit_from_behind || like->lit_from_behind;
     tables->many_lights = tables->many_lights || like->many_lights;
     tables->bounded = tables->bounded || like->bounded;
+    tables->cut_outs = tables->cut_outs || like->cut_outs;
     tables->small_tables = tables->small_tables && like->small_tables;
 }
 

@@ -34,6 +34,7 @@ typedef struct HdSceneTables {
     bool many_lights;     /* enough for packets of one lane to cull runs */
     bool small_tables;    /* whether they fit HD_SMALL_SCENE_TABLES and HD_SMALL_FRAME_TABLES */
     bool bounded;         /* whether pixels have an error bound */
+    bool cut_outs;        /* whether some material of a mesh has holes */
 } HdSceneTables;
 
 /* In the order of HD_FRAME_TABLES. */
@@ -47,18 +48,13 @@ typedef struct HdFrameTables {
     HdWatched watched; /* nobody, unless the caller sets it after compilation */
 } HdFrameTables;
 
-/* The pixels of a listed frame, in any order, in the whole picture, and the samples of each. */
-typedef struct HdSampleList {
-    const int
-        *entries; /* two numbers for each entry: x | y << 16, and the first sample in `places` */
+/* The pixels of a listed frame, in any order, in the whole picture. */
+typedef struct HdPixelList {
+    const int *entries; /* x | y << 16 */
     int entry_count;
-    const int *places; /* samples in their pixel: column | row << 16 */
-    int place_count;
-    int grid_side;       /* bound of columns and rows */
-    int samples;         /* samples of each entry, consecutive in `places` */
     double bound_cutoff; /* rays and lights that add less than this to a sample are left out */
     double max_left_out; /* bound for a sample: hd_max_left_out */
-} HdSampleList;
+} HdPixelList;
 
 enum { HD_LISTED_WIDTH = 8 }; /* width in pixels of the frame that entries form, row by row */
 
@@ -109,7 +105,7 @@ HdStatus hd_compile_scene(HdSceneTables *tables, const HdScene *scene, HdPrecisi
 /* Compiles one frame of the same scene: all of its samples (`list` is NULL) or, in a scene
    with an error bound, the listed ones, at least 1. */
 HdStatus hd_compile_frame(HdFrameTables *tables, const HdScene *scene, const HdCamera *camera,
-                          HdPrecision precision, const HdSampleList *list, HdError *error);
+                          HdPrecision precision, const HdPixelList *list, HdError *error);
 
 /* Returns the bound of all that is left out of a sample, after exposure, in a scene with an error
    bound. Visits all lights and materials, so call it once for a scene. */

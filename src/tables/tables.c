@@ -7,6 +7,7 @@
 #include "image/frame.h"
 #include "kernels/host/shared.h"
 #include "scene/light_bound.h"
+#include "scene/sample_pattern.h"
 #include "tables/builder.h"
 
 _Static_assert((int)HD_BOUNDED_FLOATS == HD_BOUNDED_SUMS &&
@@ -43,14 +44,13 @@ HdStatus hd_compile_scene(HdSceneTables *tables, const HdScene *scene, HdPrecisi
 }
 
 HdStatus hd_compile_frame(HdFrameTables *tables, const HdScene *scene, const HdCamera *camera,
-                          HdPrecision precision, const HdSampleList *list, HdError *error) {
+                          HdPrecision precision, const HdPixelList *list, HdError *error) {
     memset(tables, 0, sizeof *tables);
     tables->precision = precision;
     tables->width = list != NULL ? HD_LISTED_WIDTH : scene->width;
     tables->height =
         list != NULL ? (list->entry_count + HD_LISTED_WIDTH - 1) / HD_LISTED_WIDTH : scene->height;
-    tables->samples =
-        list != NULL ? list->samples : scene->samples_per_side * scene->samples_per_side;
+    tables->samples = hd_sample_count(scene);
     tables->floats = hd_scene_has_error_bound(scene) ? HD_BOUNDED_FLOATS : HD_RADIANCE_FLOATS;
     HdStatus status = precision == HD_PRECISION_FLOAT
                           ? hd_compile_frame_float(tables, scene, camera, list, error)

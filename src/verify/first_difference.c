@@ -60,6 +60,7 @@ static void split_samples(HdScene *scene) {
     crop->left *= side;
     crop->top *= side;
     scene->samples_per_side = 1;
+    scene->sample_rows = 0;
     scene->sampling = HD_SAMPLING_GRID;
 }
 

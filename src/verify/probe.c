@@ -107,7 +107,7 @@ static void compare_number(Probe *probe, int primitive, size_t i) {
     double found = number_at(probe, probe->found.numbers, place);
     double expected = number_at(probe, probe->expected.numbers, place);
     double hashed = isnan(found) ? (double)NAN : found; /* one kind of NaN, so that hashes agree */
-    probe->report->hash = hd_hash_words(probe->report->hash, &hashed, sizeof hashed);
+    probe->report->hash = hd_hash_words(probe->report->hash, &hashed, sizeof hashed, sizeof hashed);
     if (is_same(found, expected))
         return;
     double a = number_at(probe, probe->batch.operands[0], i);
@@ -127,7 +127,7 @@ static void compare_number(Probe *probe, int primitive, size_t i) {
 static void compare_integer(Probe *probe, int primitive, size_t i) {
     size_t place = (size_t)primitive * (size_t)probe->batch.count + i;
     int64_t found = probe->found.integers[place], expected = probe->expected.integers[place];
-    probe->report->hash = hd_hash_words(probe->report->hash, &found, sizeof found);
+    probe->report->hash = hd_hash_words(probe->report->hash, &found, sizeof found, sizeof found);
     if (found == expected)
         return;
     double a = number_at(probe, probe->batch.operands[0], i);

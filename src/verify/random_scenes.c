@@ -53,11 +53,11 @@ static const Kind kinds[] = {
     {.name = "all, deep", .needs = {DEEP, SMALL, ALL}},
     {.name = "meshes", .needs = {SHALLOW, SMALL, HAS_MESHES}, .has_meshes = true},
     {.name = "all features with meshes",
-     .needs = {SHALLOW, SMALL, HAS_MESHES, ALL},
+     .needs = {SHALLOW, SMALL, HAS_MESHES, ALL, .cut_outs = true},
      .has_meshes = true},
     {.name = "error bound", .needs = {SHALLOW, SMALL, ALL, .bounded = true}, .is_bounded = true},
     {.name = "meshes in global memory, error bound",
-     .needs = {SHALLOW, HAS_MESHES, ALL, .bounded = true},
+     .needs = {SHALLOW, HAS_MESHES, ALL, .cut_outs = true, .bounded = true},
      .has_meshes = true,
      .is_bounded = true},
 };
@@ -222,7 +222,9 @@ static bool draw_mesh(Random *rng, HdScene *scene, int number) {
         return false;
     if (is_mapped)
         mesh->materials[0].picture = number;
-    return true;
+    if (is_mapped && rng->kind->needs.cut_outs)
+        mesh->materials[0].mask_picture = number;
+    return is_smooth || build_colours(mesh);
 }
 
 static bool draw_meshes(Random *rng, HdScene *scene) {
@@ -252,13 +254,12 @@ static void draw_picture(Random *rng, HdScene *scene) {
     if (!rng->kind->is_bounded) {
         scene->sampling = chance(rng, 0.5) ? HD_SAMPLING_MULTIJITTER : HD_SAMPLING_GRID;
         scene->samples_per_side += scene->sampling == HD_SAMPLING_MULTIJITTER && chance(rng, 0.5);
+        scene->sample_rows = chance(rng, 0.3) ? 1 + below(rng, 3) : 0;
         return;
     }
-    scene->sampling = chance(rng, 0.7) ? HD_SAMPLING_ADAPTIVE : HD_SAMPLING_MULTIJITTER;
-    if (scene->sampling != HD_SAMPLING_ADAPTIVE || chance(rng, 0.5)) {
-        scene->max_error = from_to(rng, 1.0, 16.0);
-        scene->cutoff = 0.0;
-    }
+    scene->sampling = chance(rng, 0.5) ? HD_SAMPLING_MULTIJITTER : HD_SAMPLING_GRID;
+    scene->max_error = from_to(rng, 1.0, 16.0);
+    scene->cutoff = 0.0;
 }
 
 static bool draw_scene(Random *rng, HdScene *scene, HdCamera *camera) {
@@ -329,7 +330,8 @@ static const HdSceneTables *needs_of(const HdRandomTest *test, int kind) {
                                           .depth = 32,
                                           .node_stack = 32,
                                           .refracts = true,
-                                          .lit_from_behind = true};
+                                          .lit_from_behind = true,
+                                          .cut_outs = true};
     return test->general ? &general : &kinds[kind].needs;
 }
 

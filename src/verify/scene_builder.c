@@ -151,7 +151,7 @@ static bool build_mesh(HdMesh *mesh, int vertices, int triangles, int materials)
 
 static void set_material(HdMesh *mesh, int index, const HdMaterial *material) {
     mesh->materials[index] =
-        (HdMeshMaterial){.material = *material, .picture = -1, .passes_as = -1};
+        (HdMeshMaterial){.material = *material, .picture = -1, .mask_picture = -1, .passes_as = -1};
 }
 
 /* A globe is a grid of (rows + 1) x (2 rows + 1) points. Its first and last column coincide, and
@@ -251,6 +251,13 @@ bool build_cube_mesh(HdMesh *mesh, const HdMaterial *first, const HdMaterial *se
     set_material(mesh, 0, first);
     set_material(mesh, 1, second);
     return true;
+}
+
+bool build_colours(HdMesh *mesh) {
+    mesh->colours = allocate(mesh->vertex_count, sizeof *mesh->colours);
+    for (int i = 0; mesh->colours != NULL && i < mesh->vertex_count; i++)
+        mesh->colours[i] = hd_vec3(i % 2, 0.25 * (i % 5), 1.0 - 0.5 * (i % 3));
+    return mesh->colours != NULL;
 }
 
 void build_instance(HdScene *scene, int index, int mesh, HdVec3 position, HdVec3 rotation,

@@ -44,6 +44,9 @@ bool build_sphere_mesh(HdMesh *mesh, int rows, double bump, bool smooth, bool ma
 /* Makes a cube from -1 to 1, of 12 triangles; faces 0 and 1 have the second material. */
 bool build_cube_mesh(HdMesh *mesh, const HdMaterial *first, const HdMaterial *second);
 
+/* Colours the vertices of a mesh. */
+bool build_colours(HdMesh *mesh);
+
 /* Places a mesh, with the same scale for every axis. */
 void build_instance(HdScene *scene, int index, int mesh, HdVec3 position, HdVec3 rotation,
                     double scale);

@@ -7,6 +7,7 @@
 
 #include "base/hash.h"
 #include "device/kernel_cache.h"
+#include "scene/sample_pattern.h"
 #include "system/machine.h"
 #include "verify/first_difference.h"
 #include "verify/golden.h"
@@ -88,16 +89,15 @@ typedef struct GoldenTest {
 
 /* Returns whether the frame is small enough, and with or without an error bound as requested. */
 static bool is_selected(const GoldenTest *golden, const HdScene *scene, bool is_bounded) {
-    const int64_t side = scene->samples_per_side;
     return hd_scene_has_error_bound(scene) == is_bounded &&
            (golden->part->effort != HD_TEST_QUICK ||
-            scene->width * scene->height * side * side <= MAX_QUICK_SAMPLES);
+            (int64_t)scene->width * scene->height * hd_sample_count(scene) <= MAX_QUICK_SAMPLES);
 }
 
 static void check_golden(GoldenTest *golden, const HdGoldenFrame *frame, uint64_t hash) {
     HdGoldenHashes expected;
     golden->test->frames++;
-    golden->test->hash = hd_hash_bytes(golden->test->hash, &hash, sizeof hash);
+    golden->test->hash = hd_hash_numbers(golden->test->hash, &hash, sizeof hash, sizeof hash);
     hd_golden_find_hashes(frame->name, golden->part->options.precision, &expected);
     if (hash == expected.frame || golden->wrong++ > 0)
         return;

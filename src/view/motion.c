@@ -82,7 +82,7 @@ void hd_pose_print(FILE *out, const HdPose *pose, double field_of_view_degrees) 
 enum { MIN_WIDTH = 128, DEEPER_WIDTH = 256, MIN_DEPTH = 2 };
 
 static double sample_count(const HdDetail *detail) {
-    return (double)detail->width * detail->height * detail->samples * detail->samples;
+    return (double)detail->width * detail->height * detail->samples * detail->sample_rows;
 }
 
 /* A picture that took too long counts at once, a quick one gradually. */
@@ -114,9 +114,10 @@ HdDetail hd_pace_choose(HdPace *pace, const HdDetail *full) {
         const double kept = fmax(side, fmin(1.0, (double)MIN_WIDTH / full->width));
         detail.width = hd_max((int)(full->width * kept), 1);
         detail.height = hd_max((int)(full->height * kept), 1);
-        detail.samples = 1;
+        detail.samples = detail.sample_rows = 1;
     } else if (side < full->samples) {
         detail.samples = (int)side;
+        detail.sample_rows = hd_min(detail.samples, full->sample_rows);
     }
     return detail;
 }

@@ -42,7 +42,8 @@ typedef struct HdPace {
 
 typedef struct HdDetail {
     int width, height;
-    int samples; /* samples per side */
+    int samples; /* columns of samples */
+    int sample_rows;
     int depth;
 } HdDetail;
 

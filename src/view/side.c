@@ -11,6 +11,7 @@
 #include "render/backends.h"
 #include "render/frame.h"
 #include "run/load_scene.h"
+#include "scene/sample_pattern.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "system/path.h"
@@ -127,6 +128,7 @@ static HdScene quick_scene(const HdViewSide *side, const HdDetail *detail) {
     scene.width = detail->width;
     scene.height = detail->height;
     scene.samples_per_side = detail->samples;
+    scene.sample_rows = detail->sample_rows;
     scene.depth = detail->depth < scene.depth ? detail->depth : scene.depth;
     return scene;
 }
@@ -179,7 +181,7 @@ static HdStatus render_rows(HdViewSide *side, const HdScene *whole, const HdView
     return HD_OK;
 }
 
-/* Adaptive samples depend on their neighbours: such a picture is made in one piece, or dropped. */
+/* Such a picture is made in one piece, or dropped. */
 static HdStatus render_bounded(HdViewSide *side, const HdViewRequest *request, HdViewImage *facts,
                                HdError *error) {
     const HdScene *scene = &side->file.scene;
@@ -212,13 +214,14 @@ static HdStatus finish(HdViewSide *side, HdViewImage *facts, HdError *error) {
 static HdStatus settle(HdViewSide *side, const HdViewRequest *request, HdError *error) {
     const HdScene *scene = &side->file.scene;
     const bool is_bounded = hd_scene_has_error_bound(scene);
-    const HdDetail full = {scene->width, scene->height, scene->samples_per_side, scene->depth};
-    const HdDetail once = {scene->width, scene->height, 1, scene->depth};
+    const HdDetail full = {scene->width, scene->height, scene->samples_per_side,
+                           hd_sample_rows(scene), scene->depth};
+    const HdDetail once = {scene->width, scene->height, 1, 1, scene->depth};
     HdViewImage facts = {.width = scene->width, .height = scene->height, .detail = once};
     const HdScene quick = quick_scene(side, &once);
     HD_TRY(make_ready(side, &quick, error));
     HD_TRY(fit_frame(&side->frame, scene->width, scene->height, error));
-    if (is_bounded || full.samples > 1)
+    if (is_bounded || hd_sample_count(scene) > 1)
         HD_TRY(render_rows(side, &quick, request, &facts, error));
     facts = (HdViewImage){.width = scene->width, .height = scene->height, .detail = full};
     if (is_stale(side))
@@ -348,7 +351,7 @@ static uint64_t add_file(uint64_t hash, const char *path) {
         return hd_hash_bytes(hash, "", 1);
     const int64_t description[] = {(int64_t)facts.st_ino, (int64_t)facts.st_size,
                                    (int64_t)facts.st_mtim.tv_sec, (int64_t)facts.st_mtim.tv_nsec};
-    return hd_hash_bytes(hash, description, sizeof description);
+    return hd_hash_numbers(hash, description, sizeof description, sizeof *description);
 }
 
 /* Returns a hash that changes when one of the files is written or replaced: the scene (NULL: none),

@@ -11,6 +11,7 @@
 
 #include "base/minmax.h"
 #include "base/trigonometry.h"
+#include "scene/sample_pattern.h"
 #include "view/side.h"
 
 /* Seconds without input after which the whole picture is rendered. */
@@ -89,7 +90,7 @@ static void show_frame(HdViewer *viewer, int frame) {
 
 static void advance_path(HdViewer *viewer) {
     const double passed =
-        (viewer->now - viewer->played_from) * file_of(viewer)->output.style.frames_per_second;
+        (viewer->now - viewer->played_from) * hd_frame_rate(&file_of(viewer)->output.style);
     const int frame = (int)fmod(passed, file_of(viewer)->scene.frame_count);
     if (viewer->is_playing && frame != viewer->frame)
         show_frame(viewer, frame);
@@ -113,7 +114,8 @@ static bool all_idle(HdViewer *viewer) {
 
 static HdDetail max_detail(const HdViewer *viewer) {
     const HdScene *scene = &file_of(viewer)->scene;
-    HdDetail full = {scene->width, scene->height, scene->samples_per_side, scene->depth};
+    HdDetail full = {scene->width, scene->height, scene->samples_per_side, hd_sample_rows(scene),
+                     scene->depth};
     if (viewer->max_width > 0 && viewer->max_width < full.width) {
         const double scale = (double)viewer->max_width / full.width;
         full.width = viewer->max_width;
@@ -241,7 +243,7 @@ static void play(HdViewer *viewer, int by) {
     if (viewer->is_playing)
         viewer->is_free = false;
     viewer->played_from =
-        viewer->now - (double)viewer->frame / file_of(viewer)->output.style.frames_per_second;
+        viewer->now - (double)viewer->frame / hd_frame_rate(&file_of(viewer)->output.style);
     change_view(viewer);
 }
 
@@ -343,7 +345,7 @@ static const char *const key_lines[] = {
     "f        float or double",
     "[ ]      less or more depth",
     "n m      fewer or more samples",
-    "x        grid, multi-jittered or adaptive samples",
+    "x        grid or multi-jittered samples",
     "2        split: two settings and their difference",
     "tab      the other side of the split, for the keys above",
     "g G      less or more of the difference",
@@ -428,7 +430,7 @@ static void add_settings(Lines *lines, HdViewer *viewer, int number) {
     add(lines, "%s%s", prefix, device);
     add(lines, "%s%s, depth %d, %s, %d x %d samples", prefix,
         side->devices.render.precision == HD_PRECISION_DOUBLE ? "double" : "float", scene->depth,
-        hd_sampling_names[scene->sampling], scene->samples_per_side, scene->samples_per_side);
+        hd_sampling_names[scene->sampling], scene->samples_per_side, hd_sample_rows(scene));
     if (problem[0] != '\0')
         add(lines, "! %s", problem);
     if (side->file_error[0] != '\0' && number == 0)
@@ -450,10 +452,10 @@ static void add_speed(Lines *lines, const HdViewer *viewer, const HdViewImage *i
         add_whole(lines, image);
     else if (viewer->settling != 0)
         add(lines, "refining: %d x %d samples, %.0f %%", image->detail.samples,
-            image->detail.samples, 100.0 * image->share);
+            image->detail.sample_rows, 100.0 * image->share);
     else
         add(lines, "moving: %d x %d, %d x %d, depth %d, %.1f ms, %.1f frames/s, %.1f Mrays/s",
-            image->width, image->height, image->detail.samples, image->detail.samples,
+            image->width, image->height, image->detail.samples, image->detail.sample_rows,
             image->detail.depth, 1e3 * image->seconds,
             viewer->picture_seconds > 0.0 ? 1.0 / viewer->picture_seconds : 0.0,
             1e-6 * (double)image->rays / image->seconds);

@@ -53,7 +53,7 @@ finish() {
 # lanes_there PRECISION: the lane counts that plain C supports on this processor.
 lanes_there() {
     local lanes
-    for lanes in 1 4 8 16; do
+    for lanes in 1 2 4 8 16; do
         if "$hedron" render --quiet --backend c --lanes "$lanes" --precision "$1" --frames 0 --size 16x16 --samples 1 \
             -o "$work/lanes.data" >"$work/lanes.txt" 2>&1; then
             echo "$lanes"
@@ -231,6 +231,17 @@ fake() {
     mkdir -p "$work/tools"
     printf '#!%s\n%s\n' "$(command -v bash)" "$2" >"$work/tools/$1"
     chmod +x "$work/tools/$1"
+}
+
+# stop_at_third SIGNAL: from now on, with_tools, the FFmpeg of the third segment first sends it to hedron, after the second one is whole. If
+# hedron is killed it does not begin: it might make its file at any time.
+stop_at_third() {
+    fake ffmpeg "if [[ \$* == *.part-0002* ]]; then
+            until compgen -G '*.part-0001-????????????????' >/dev/null; do sleep 0.01; done
+            kill -$1 \$PPID
+            [[ $1 != KILL ]] || exit 1
+        fi
+        exec '$(command -v ffmpeg)' \"\$@\""
 }
 
 is_sanitized() {

@@ -44,20 +44,9 @@ expect_all shallow.jsonl '.missing.largest > 1 and .depth == 2'
 render plain
 expect_all plain.jsonl '.missing == null'
 
-# ---- adaptive: seven tenths of the samples, and 99.9 % of the pixels within 2 steps of the grid's
-render grid --samples 4 --size 640x480 --aa grid
-render adaptive --samples 4 --size 640x480 --aa adaptive
-compare adaptive grid
-expect_all compared.json '.display.rmse > 0 and .display.p999 <= 2'
-(($(jq .rays.primary adaptive.jsonl) * 10 <= $(jq .rays.primary grid.jsonl) * 7)) ||
-    fail "adaptive sampling takes $(jq .rays.primary adaptive.jsonl) samples"
-# One sample a pixel leaves no choice.
-render a --samples 1
-render b --samples 1 --aa adaptive
-expect_same a.pfm b.pfm
-# A scene can request it, too.
-render a --samples 3 --aa adaptive --max-error 2
-render b --samples 3 --set image.aa=adaptive --set image.max_error=2 --threads 1 --lanes 1
+# ---- a scene can request an error bound, too
+render a --samples 3 --max-error 2
+render b --samples 3 --set image.max_error=2 --threads 1 --lanes 1
 expect_same a.pfm b.pfm
 
 # ---- a crop is that part of the picture, byte for byte; PFM has its rows from the bottom
@@ -89,7 +78,7 @@ wrong() { # WORDS OPTION...
     expect_refusal 2 "$hedron" render --backend c -o wrong.pfm "${@:2}"
     expect_stderr_contains "$1"
 }
-wrong '--reference has samples of its own: leave out --aa' --reference --aa adaptive
+wrong '--reference has samples of its own: leave out --aa' --reference --aa grid
 wrong "max_error is 1e-300, expected 0, or a number from 0.001 to 255" --set image.max_error=1e-300
 wrong "--crop is '8x8+1+1x', expected WIDTHxHEIGHT+X+Y such as 64x64+320+200" --crop 8x8+1+1x
 wrong 'the area ends outside the picture of 64 x 48 pixels' --size 64x48 --crop 8x8+57+0 --frames 0

@@ -40,7 +40,7 @@ expect_completions 'auto c opencl cuda' render --backend ''
 expect_completions 'c cuda' render --backend = c
 expect_completions '1 16' render --lanes 1
 expect_completions 'camera.field_of_view= camera.frames= camera.eye= camera.target=' render --set camera.
-expect_completions 'adaptive' render --set image.aa = a
+expect_completions 'multijitter' render --set image.aa = m
 expect_completions 'depth,normal' render --layers depth,n
 expect_completions 'all' render --device a
 expect_completions '0' render --device c : ''

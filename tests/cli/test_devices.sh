@@ -49,6 +49,14 @@ once() { # WORDS: the sentence has them, but not repeatedly
 expect_refusal 3 "${nothing[@]}" "${render[@]}" --backend opencl
 once 'no OpenCL platform'
 once 'opencl: '
+mkdir "$work/loader" # OpenCL's library is loaded at run time: first it is no library, then one without OpenCL's functions
+: >"$work/loader/libOpenCL.so.1"
+without=(env LD_LIBRARY_PATH="$work/loader${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}")
+expect_refusal 3 "${without[@]}" "${render[@]}" --backend opencl
+once "OpenCL's loader (libOpenCL.so.1) is not installed"
+ln -sf "$(ldd "$hedron" | sed -n 's/.*libm.* => \([^ ]*\).*/\1/p')" "$work/loader/libOpenCL.so.1"
+expect_refusal 3 "${without[@]}" "${render[@]}" --backend opencl
+once 'libOpenCL.so.1 is older than OpenCL 1.2: it has no function clBuildProgram'
 expect_refusal 3 "${nothing[@]}" "${classic[@]}" --backend cuda <"$work/official.in"
 once 'cuda: '
 expect_refusal 3 "${nothing[@]}" "${classic[@]}" --backend cuda --cpu <"$work/official.in" # --cpu is binding

@@ -76,7 +76,7 @@ expect_launches '.longest_launch_ms > 20 and .longest_launch_ms < 50' "${threads
 rm -r whole launches stats.jsonl
 
 # ---- passes of many sizes use the same memory
-passes=("${large[@]}" --size 200x150 --aa adaptive -o passes/%d.data)
+passes=("${large[@]}" --size 200x150 --max-error 1 -o passes/%d.data)
 expect_exit 0 env FAKE_CUDA_FAILS=cuMemHostAlloc FAKE_CUDA_FAILS_AT=9 "${passes[@]}"
 expect_exit 0 env FAKE_CUDA_FAILS=cuMemAlloc FAKE_CUDA_FAILS_AT=50 "${passes[@]}"
 rm -r passes
@@ -131,7 +131,7 @@ expect_as_c() { # OPTION...
     rm -r c cuda
 }
 expect_as_c --size 32x24 --samples 2
-expect_as_c --size 32x24 --aa adaptive --set output.curve=linear
+expect_as_c --size 32x24 --max-error 2 --set output.curve=linear
 # More objects than fit into the device's constant memory.
 jq '.solids = [range(17) | {kind: "tetrahedron", centre: [. % 6 - 2.5, . / 6 - 1, 0], circumradius: 0.6, material: "glass"}]' \
     "$project/bench/scenes/few.json" >"$work/many.json"

@@ -89,7 +89,7 @@ expect_refused '--stats' "${options[@]}" -o "$pattern" --frames 0-3 --stats x
 expect_refused 'standard input' - -o "$pattern" --frames 0-3
 expect_refused "did you mean '--size'" "${options[@]}" --siz 1x1 -o "$pattern" --frames 0-3
 expect_refused 'outside the sequence' "${options[@]}" -o "$pattern" --frames 0-9999999
-expect_refused '.mp4, .mkv or .gif' "${options[@]}" -o "$pattern" --frames 0-3 --film a.avi
+expect_refused '.webm, .mkv or .gif' "${options[@]}" -o "$pattern" --frames 0-3 --film a.avi
 echo 'MaxArraySize            = 3' >"$calls.config"
 expect_refused 'expected a larger chunk' "${options[@]}" -o "$pattern" --frames 0-3 --chunk 1
 echo 'MaxArraySize            = 1001' >"$calls.config"

@@ -35,7 +35,7 @@ expect_help '--help --json' devices --help
 expect_help '--help --schema --json --set --strict-files' check --help
 expect_help '--help --output --variant' convert --help
 expect_help '--help --json --diff --fail-above --curve' compare --help
-expect_help '--help' new --help
+expect_help '--help --mesh --up' new --help
 
 # ---- first what to do, the classic mode last
 expect_exit 0 "$hedron" help

@@ -83,15 +83,15 @@ fi
 
 # ---- channels: colour and coverage in the requested bits, all others in float
 expect_exr plain.exr '{n: t for n, (t, _) in c.items()} == {"A": "h", "B": "h", "G": "h", "R": "h"}'
-all=depth,normal,object,samples
+all=depth,normal,object
 expect_exit 0 "${render[@]}" --backend c --layers "$all" -o all.exr
 expect_exr all.exr '{n for n, (t, _) in c.items() if t == "h"} == set("RGBA")'
-expect_exr all.exr '{n for n, (t, _) in c.items() if t == "f"} == {"Z", "normal.X", "normal.Y", "normal.Z", "object", "samples"}'
+expect_exr all.exr '{n for n, (t, _) in c.items() if t == "f"} == {"Z", "normal.X", "normal.Y", "normal.Z", "object"}'
 expect_exit 0 "${render[@]}" --backend c --layers object --set output.bits=32 -o some.exr
 expect_exr some.exr '{n: t for n, (t, _) in c.items()} == dict.fromkeys(("A", "B", "G", "R", "object"), "f")'
 
 # ---- values
-expect_exr all.exr 'set(what("object")) == {0, 1, 2, 3} and set(what("samples")) == {9}'
+expect_exr all.exr 'set(what("object")) == {0, 1, 2, 3}'
 # The floor lies 3.5 below the eye and faces up; its farthest corner is 2 * sqrt(18) + sqrt(2) away along the ground.
 expect_exr all.exr 'all((z == math.inf) == (o == 0) and z > 2 and abs(math.hypot(*n) - (o > 0)) < 1e-6
     and (o != 3 or 3.5 < z < math.hypot(3.5, math.hypot(6, 6)) and abs(n[2] - 1) < 1e-6)
@@ -108,13 +108,13 @@ expect_output_json '0 < {c["name"]: c["largest"] for c in j["channels"]}["Z"] < 
 expect_exit 0 "${render[@]}" --backend c --layers "$all" --crop 20x11+26+17 -o part.exr
 expect_exr part.exr 'all(c[name][1] == [row[26:46] for row in read("all.exr")[name][1][17:28]] for name in c)'
 
-# ---- adaptive sampling: samples and truncation of pixels agree with the statistics
-adaptive=("${render[@]}" --aa adaptive --max-error 1.5 --samples 4 --layers "$all,bound")
-expect_exit 0 "${adaptive[@]}" --backend c -o adaptive.exr --stats lines.jsonl
-expect_exr adaptive.exr '(lambda line, bound: sum(what("samples")) == line["rays"]["primary"] and set(what("samples")) == {1, 16}
-    and 0 < bound <= 1.5 and abs(bound - line["missing"]["largest"]) < 1e-6)(json.load(open("lines.jsonl")), max(what("bound")))'
-expect_exit 0 "${render[@]}" --aa grid --samples 4 --layers depth,normal,object -o grid.exr
-expect_exit 0 "$hedron" compare --json adaptive.exr grid.exr
+# ---- an error bound: the truncation of pixels agrees with the statistics
+bounded=("${render[@]}" --max-error 1.5 --samples 4 --layers "$all,bound")
+expect_exit 0 "${bounded[@]}" --backend c -o bounded.exr --stats lines.jsonl
+expect_exr bounded.exr '(lambda line, bound: 0 < bound <= 1.5 and abs(bound - line["missing"]["largest"]) < 1e-6)(
+    json.load(open("lines.jsonl")), max(what("bound")))'
+expect_exit 0 "${render[@]}" --samples 4 --layers depth,normal,object -o plain.exr
+expect_exit 0 "$hedron" compare --json bounded.exr plain.exr
 expect_output_json 'len(j["channels"]) == 6 and all(c["largest"] == 0 for c in j["channels"])'
 # ---- the same bytes from every backend
 expect_exit 0 "${render[@]}" --backend c --lanes 1 --threads 1 --pipeline wavefront --layers "$all" -o other.exr
@@ -122,8 +122,8 @@ expect_same all.exr other.exr
 if has_opencl; then
     expect_exit 0 "${render[@]}" --backend opencl --layers "$all" -o other.exr
     expect_same all.exr other.exr
-    expect_exit 0 "${adaptive[@]}" --backend opencl -o other.exr
-    expect_same adaptive.exr other.exr
+    expect_exit 0 "${bounded[@]}" --backend opencl -o other.exr
+    expect_same bounded.exr other.exr
 fi
 if [[ -e $build/tests/fake_cuda/libnvrtc.so.12 ]]; then
     fake=(env "LD_LIBRARY_PATH=$build/tests/fake_cuda" "HEDRON_NVRTC=$build/tests/fake_cuda/libnvrtc.so.12")
@@ -132,8 +132,8 @@ if [[ -e $build/tests/fake_cuda/libnvrtc.so.12 ]]; then
         expect_silent_stderr
         expect_same all.exr other.exr
     done
-    expect_exit 0 "${fake[@]}" "${adaptive[@]}" --backend cuda -o other.exr
-    expect_same adaptive.exr other.exr
+    expect_exit 0 "${fake[@]}" "${bounded[@]}" --backend cuda -o other.exr
+    expect_same bounded.exr other.exr
     # Frames in flight keep their own layers.
     still=("${render[@]}" --set camera.frames=3 --set 'camera.eye={"r0": 5, "z0": 2, "phi_frequency": 1}' --layers "$all")
     expect_exit 0 "${still[@]}" --backend c -o c/%d.exr
@@ -146,7 +146,7 @@ fi
 expect_exit 0 "${render[@]}" --backend c --layers "$all" --set 'solids[1].centre=[1.5, 1.5, 0.65]' -o moved.exr
 expect_exit 0 "$hedron" compare --json all.exr moved.exr
 expect_output_json 'j["most_different"] == "Z" and not j["identical"]'
-expect_output_json '[c["largest"] for c in j["channels"] if c["name"] in ("Z", "samples")] == [None, 0]'
+expect_output_json '[c["largest"] for c in j["channels"] if c["name"] == "Z"] == [None]'
 expect_exit 0 "$hedron" compare all.exr some.exr
 expect_stdout_contains 'normal.X             only in the first'
 python3 -c 'import sys; sys.stdout.buffer.write(open("all.exr", "rb").read().replace(b"object\0", b"obje\x1bt\0"))' >odd.exr
@@ -157,11 +157,11 @@ expect_stdout_contains 'obje\u001bt'
 expect_refusal 2 "${render[@]}" --layers depth -o a.png
 expect_stderr_contains '--layers is for OpenEXR: expected an output that ends in .exr'
 expect_refusal 2 "${render[@]}" --layers depth,colour -o a.exr
-expect_stderr_contains "--layers has 'colour', expected some of depth, normal, object, samples or bound, separated by commas"
+expect_stderr_contains "--layers has 'colour', expected some of depth, normal, object or bound, separated by commas"
 expect_refusal 2 "${render[@]}" --layers depth,object,depth -o a.exr
 expect_stderr_contains '--layers has depth twice'
 expect_refusal 2 "${render[@]}" --layers depth,bound -o a.exr
-expect_stderr_contains 'bound, expected --max-error, --aa adaptive or --reference with it'
+expect_stderr_contains 'bound, expected --max-error or --reference with it'
 expect_refusal 2 "${render[@]}" --layers= -o a.exr
 
 rm -f ./*.exr plain.pfm lines.jsonl

@@ -42,9 +42,21 @@ render() { # FILE SCENE OPTION...
 # ---- the report on a mesh
 expect_exit 0 "$hedron" check cubes.json
 expect_silent_stderr
-expect_stdout_lines 1 'cubes\.json: fine, 0 solids, 2 meshes of 24 triangles in 3 places, 1 light, 1 frame'
+expect_stdout_lines 4
+expect_stdout_contains 'cubes.json: fine, 0 solids, 2 meshes of 24 triangles in 3 places, 1 light, 1 frame'
+expect_stdout_contains 'cubes.json: meshes[0], models/cube.obj: 12 triangles from [-1.281713, -1.281713, -1] to'\
+' [1.281713, 1.281713, 1], 2 materials (picture, red), 1 texture; wholly in view in frame 0'
+expect_stdout_contains 'meshes[2], models/cube.obj: 12 triangles from [1.9, -0.6, -0.6] to [3.1, 0.6, 0.6], 2 materials'\
+' (picture, red), replaced by one of the scene, 1 texture; wholly in view in frame 0'
+if command -v jq >"$logs/which"; then
+    expect_exit 0 "$hedron" check --json cubes.json --set 'camera.target=[4,-9,4]'
+    jq -e '.scenes[0].places | length == 3 and (.[2] == {"file": "models/cube.obj", "triangles": 12,
+        "lower": [1.9, -0.6, -0.6], "upper": [3.1, 0.6, 0.6], "materials": ["picture", "red"], "replaced": true,
+        "textures": 1, "view": "none"})' "$logs/stdout" >"$logs/jq" || fail "check --json tells other places"
+fi
 expect_exit 0 "$hedron" render --verbose --backend c cubes.json -o all.data
 expect_stderr_contains 'meshes    2 with 24 triangles, and 2 without an area left out; in 3 places, 1 texture'
+expect_stderr_contains 'mesh      meshes[0], models/cube.obj: 12 triangles from'
 
 # ---- entries that share a mesh equal those with copies; files count from the scene's folder, not the current one
 cp models/cube.obj models/copy.obj
@@ -57,19 +69,69 @@ expect_same other.data all.data
 render other.data cubes.json --set meshes[2].crease=10
 expect_different other.data all.data
 
+# ---- a scene for a mesh wherever it is: up is guessed, the camera on all of it, the name relative to the scene
+mkdir scenes
+expect_new() { # UP X Y Z: the scene of the cube, moved, with that axis up
+    awk -v x="$2" -v y="$3" -v z="$4" '$1 == "v" { $2 += x; $3 += y; $4 += z } { print }' models/cube.obj >models/moved.obj
+    expect_exit 0 "$hedron" new --mesh models/moved.obj scenes/moved
+    expect_stdout_lines 1 'scenes/moved\.json'
+    grep -q -F '"up": "'"$1"'"' scenes/moved.json || fail "up is not $1"
+    expect_exit 0 "$hedron" check scenes/moved.json
+    expect_stdout_contains "$PWD/models/moved.obj: 12 triangles from [-1, -1, 0] to [1, 1, 2], 2 materials (picture, red)"
+    expect_stdout_contains 'wholly in view in frame 0'
+    rm scenes/moved.json models/moved.obj
+}
+expect_new y 0 0 0
+expect_new y -300 1 1
+expect_new z 5 0 1
+expect_new z 620000 5400000 300
+expect_exit 0 "$hedron" new --mesh models/cube.obj --up z models/new
+grep -q -F '"file": "cube.obj"' models/new.json || fail "the file is not that beside the scene"
+grep -q -F '"up": "z"' models/new.json || fail "--up has no effect"
+expect_refusal 2 "$hedron" new --mesh no.obj new
+expect_stderr_contains 'hedron: cannot read the mesh no.obj'
+expect_refusal 2 "$hedron" new --up z new
+[[ ! -e new.json ]] || fail "'hedron new' left a file"
+rm -r scenes models/new.json
+# ---- holes everywhere: as if the mesh were not there, also for shadows; nowhere: as without them. Colours of vertices.
+variant() { # NAME STATEMENT OPTION...: the second mesh with a material of this statement, changed by sed
+    printf 'newmtl picture\n%s\n' "$2" >"models/$1.mtl"
+    sed -e "s/cube.mtl/$1.mtl/" -e '/^usemtl red/d' -e '/^f . . . .$/d' "${@:3}" models/cube.obj >"models/$1.obj"
+    render "$1.data" cubes.json --set "meshes[1].file=models/$1.obj"
+}
+render none.data cubes.json --set 'meshes[1].scale=1e-6'
+variant opaque ''
+for grey in 000 177 200 377; do
+    printf '%b' "\\1\\0\\0\\0\\1\\0\\0\\0\\0$grey\\0$grey\\0$grey\\0377" >"models/mask$grey.data"
+    variant "$grey" "map_d mask$grey.data"
+    expect_same "$grey.data" "$([[ $grey == [01]* ]] && echo none.data || echo opaque.data)"
+done
+variant red 'Kd 1 0 0'
+variant coloured '' -e 's/^v .*/& 1 0 0/'
+expect_same coloured.data red.data
+expect_different none.data opaque.data
+
 # ---- without the texture the colour stays, with a message
 rm models/picture.png
 expect_exit 0 "$hedron" render --backend c cubes.json -o plain.data
 expect_stderr_contains 'hedron: cannot read the texture models/picture.png'
 expect_different plain.data all.data
 expect_exit 0 "$hedron" check cubes.json
-expect_stdout_lines 2
+expect_stdout_lines 5
 expect_stdout_contains 'cubes.json: note: cannot read the texture models/picture.png'
 
 # ---- the same as an error
 for command in check render; do
     expect_refusal 2 "$hedron" $command --strict-files cubes.json
     expect_stderr_contains 'cubes.json: meshes: cannot read the texture models/picture.png'
+done
+
+# ---- notes of what coincides or lies within glass
+echo '{"hedron": 1, "camera": {"eye": [0, -9, 0]}, "materials": {"m": {"transmission": 1, "index_of_refraction": 1.5}},
+    "solids": [{"kind": "cube", "circumradius": 4, "material": "m"}, {"kind": "cube", "material": "m"}], "meshes": [{"file": "models/copy.obj", "material": "m"}, {"file": "models/copy.obj"}]}' >glass.json
+expect_exit 0 "$hedron" check glass.json
+for words in 'meshes: 1 of them is in the place' 'solids[1] lies within a solid' 'meshes[0] refracts and may be within solids[0]'; do
+    expect_stdout_contains "glass.json: note: $words"
 done
 
 # ---- errors

@@ -78,7 +78,7 @@ for value in '' picture.jpg 'out/%5d.png'; do
     wrong "$value" --frames 3 -o "$value"
 done
 wrong picture.png --frames 0-2 -o picture.png # one name for several frames
-wrong '###.mkv' --frames 0-2 -o '###.mkv'     # a film has no number
+wrong '%d.mkv' --frames 0-2 -o '%d.mkv'     # a film has no number
 
 # ---- each command refuses others' options
 for command in render devices tune; do

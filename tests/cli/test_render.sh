@@ -43,9 +43,9 @@ expect_different out/0000.png out/0001.png
 render --size 32x24 --frames 1 -o alone_%d.png
 expect_same out/0001.png alone_1.png
 rm -rf ./*
-render --size 32x24 --frames 0,10 -o 'take ##/a.data'
-expect_files . 'take 00' 'take 00/a.data' 'take 10' 'take 10/a.data'
-expect_data 'take 10/a.data' 32 24
+render --size 32x24 --frames 0,10 -o '#1/take %02d/a.data'
+expect_files '#1' 'take 00' 'take 00/a.data' 'take 10' 'take 10/a.data'
+expect_data '#1/take 10/a.data' 32 24
 rm -rf ./*
 
 # ---- backends, pipelines, lanes and threads, selected by options, give the same bytes; fast arithmetic nearly
@@ -98,8 +98,8 @@ mkdir 'a b'
 expected="Software: $("$hedron" --version)
 Scene: lämp.json
 Frame: 3
-Options: --set output.bits=16 --size 32x24 --samples 1 --aa adaptive --max-error 0.5"
-options=(--frames 2-3 --size 32x24 --samples 1 --quiet --aa adaptive --max-error 0.5 --set output.bits=16)
+Options: --set output.bits=16 --size 32x24 --samples 1 --aa grid --max-error 0.5"
+options=(--frames 2-3 --size 32x24 --samples 1 --quiet --aa grid --max-error 0.5 --set output.bits=16)
 expect_exit 0 "$hedron" render --backend c --lanes 1 --threads 1 "a b/lämp.json" -o 'one/%d.png' "${options[@]}"
 cp "a b/lämp.json" .
 expect_exit 0 "$hedron" render lämp.json --backend c --lanes 4 --threads 2 -o 'two/###.png' "${options[@]}" --frames 3

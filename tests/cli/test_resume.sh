@@ -61,8 +61,8 @@ expect_exit 0 diff -r out first
 # ---- everything that decides a pixel is in the fingerprint, and names are not
 cp floor.data other.data
 sed 's/floor\.data/other.data/' scene.json >other.json
-render 0 other.json -o 'out/%d.png' --set output.frames_per_second=25
-for variant in '--set materials.plain.diffuse=0.25' '--set output.bits=16' '--crop 8x8+3+2' '--set camera.frames=41'; do
+render 0 other.json -o 'out/%d.png' --set output.frames_per_second=24000/1001
+for variant in '--set materials.plain.diffuse=0.25' '--set output.bits=16' '--set output.alpha=true' '--crop 8x8+3+2' '--set camera.frames=41'; do
     # shellcheck disable=SC2086 # an option and its value
     render 6 scene.json -o 'out/%d.png' $variant
 done
@@ -122,19 +122,7 @@ expect_segments() {
     ! compgen -G './*.tmp-*' || fail 'temporary files are left'
 }
 
-# stop_at_third SIGNAL: from now on the FFmpeg of the third segment first sends it to hedron, after the second one is whole. If
-# hedron is killed it does not begin: it might make its file at any time.
-stop_at_third() {
-    fake ffmpeg "if [[ \$* == *.part-0002* ]]; then
-            until compgen -G '*.part-0001-????????????????' >/dev/null; do sleep 0.01; done
-            kill -$1 \$PPID
-            [[ $1 != KILL ]] || exit 1
-        fi
-        exec '$ffmpeg' \"\$@\""
-}
-
 if has_ffmpeg; then
-    ffmpeg=$(command -v ffmpeg)
     rm -r out fast
     render 6 scene.json -o 'out/%d.png' -o fresh.mkv
     rm out/0.png out/4.png out/5.png

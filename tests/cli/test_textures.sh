@@ -47,6 +47,9 @@ expect_same from_png.data from_data.data
 tail -c +2 "$cli_folder/../fuzz/corpus/texture/jpeg_420" >photo.png
 accept photo.png photo.data
 expect_different photo.data home.data
+head -c -40 photo.png >early.png
+accept early.png early.data
+expect_stderr_contains 'early.png ends early, so a part of the picture is grey or coarse'
 # Alpha carries no meaning.
 for alpha in 000 377; do
     printf '%b' '\1\0\0\0\1\0\0\0\0200\0100\040' "\\0$alpha" >alpha.texture
@@ -67,5 +70,5 @@ refuse '~/nothing.data' 'No such file'
 printf 'this is a text and no picture\n' >bad.texture
 refuse bad.texture 'neither PNG, JPEG nor the data format'
 head -c 200 photo.png >bad.texture
-refuse bad.texture 'cannot read bad.texture as JPEG: Premature end of JPEG file'
+refuse bad.texture 'cannot read bad.texture as JPEG: Invalid JPEG file structure: missing SOS marker'
 finish

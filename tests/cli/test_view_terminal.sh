@@ -54,16 +54,16 @@ fi
 # ---- settings by keys
 see blocks wait:finished 'keys:fpc' wait:saved 'keys:]m' 'keys:pc' wait:saved keys:xpc wait:saved keys:q \
     -- --backend c "${small[@]}"
-grep -q 'double, depth 15, adaptive, 3 x 3 samples' screen || fail "the settings are not on the screen"
+grep -q 'double, depth 15, grid, 3 x 3 samples' screen || fail "the settings are not on the screen"
 deeper=(--backend c --size 48x36 --samples 3 --depth 15 --precision double)
 expect_view hedron-001.png --backend c "${small[@]}" --precision double
 expect_view hedron-002.png "${deeper[@]}"
-expect_view hedron-003.png "${deeper[@]}" --aa adaptive
+expect_view hedron-003.png "${deeper[@]}" --aa grid
 
 # ---- a picture of dependent passes that takes minutes is abandoned for a key
 waits='wait:refining: 1 x 1 samples, 100 %'
 see blocks "$waits" "keys:$right" wait:moving: "$waits" "keys:$right" wait:moving: "$waits" keys:q \
-    -- --backend c --size 960x540 --samples 64 --aa adaptive --max-error 0.05
+    -- --backend c --size 960x540 --samples 64 --max-error 0.05
 
 # ---- the camera path: a frame that it stopped at is that of the film
 see blocks wait:finished keys:.... 'wait:frame 4 of 240' 'keys: ' wait:playing 'keys: ' keys:p wait:saved keys:q \

@@ -66,7 +66,7 @@ import -window root still.png
 
 # ---- settings, the split view and the help are drawn
 xdotool key f bracketright m x p
-expect_saved 002 --size 96x54 --samples 3 --depth 15 --precision double --aa adaptive
+expect_saved 002 --size 96x54 --samples 3 --depth 15 --precision double --aa grid
 xdotool key 2 x h
 sleep 1
 import -window root split.png

@@ -43,7 +43,7 @@ enum { OWN_BUILDS = 8 };
 
 static const char usage[] =
     "usage: hedron_conformance [--write-golden FILE] [--math strict|fast]\n"
-    "                          [--backend cuda|opencl|c] [--lanes 1|4|8|16]\n"
+    "                          [--backend cuda|opencl|c] [--lanes 1|2|4|8|16]\n"
     "                          [--precision float|double] [--threads 1|2]\n"
     "                          [--one-build] [--few] [--brief] [--pictures FOLDER]\n"
     "                          [--ptx ARCHITECTURE] (of CUDA; 61: compute_61, a Pascal card's)\n";
@@ -114,7 +114,7 @@ static bool write_golden(const Golden *golden, const char *path) {
 
 static void save_picture(const Options *options, const char *name, const HdFrame *frame) {
     HdError error;
-    const HdPictureStyle style = {HD_CURVE_LINEAR, 8};
+    const HdPictureStyle style = {HD_CURVE_LINEAR, 8, false};
     char path[4096];
     if (options->pictures == NULL)
         return;
@@ -134,7 +134,8 @@ static HdGoldenHashes render_hashes(const Target *target, int number, const Opti
     const size_t firsts = (size_t)frame.width * (size_t)frame.height * (size_t)frame.first_floats;
     HdGoldenHashes hashes = {.frame = hd_frame_hash(&frame)};
     if (target->first_hits)
-        hashes.first_hits = hd_hash_bytes(HD_HASH_START, frame.first, firsts * sizeof *frame.first);
+        hashes.first_hits = hd_hash_numbers(HD_HASH_START, frame.first,
+                                            firsts * sizeof *frame.first, sizeof *frame.first);
     save_picture(options, name, &frame);
     hd_frame_free(&frame);
     hd_scene_free(&scene);

@@ -62,9 +62,9 @@ bool variant_suits(const Variant *variant, const HdDevice *device) {
 
 bool is_variant_frame(const char *name) {
     static const char *const names[] = {
-        "three-overlapping",    "one-pixel",           "clamped",
-        "everything",           "triangulated-solids", "mesh-edges-and-corners",
-        "adaptive-and-bounded", "crop-of-multijitter"};
+        "three-overlapping", "one-pixel",           "clamped",
+        "everything",        "triangulated-solids", "mesh-edges-and-corners",
+        "bounded-grid",      "crop-of-multijitter"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(names[i], name) == 0)
             return true;

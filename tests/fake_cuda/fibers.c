@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <ucontext.h>
 
 #include "fake.h"
 
@@ -71,8 +72,26 @@ static void *prepare(unsigned char *stack, void (*begin)(void)) {
     return words;
 }
 
-#else
-#error "how stacks are switched is written for x86-64 only"
+#else /* slower, since each switch asks the kernel for the signals' mask */
+
+static ucontext_t outside; /* of the scheduler; that of a fiber lies at the top of its stack */
+
+static void fake_switch(void **from, void *to) {
+    if (*from == NULL)
+        *from = &outside;
+    swapcontext(*from, to);
+}
+
+static void *prepare(unsigned char *stack, void (*begin)(void)) {
+    uintptr_t top = ((uintptr_t)stack + STACK - sizeof(ucontext_t)) & ~(uintptr_t)63;
+    ucontext_t *context = (ucontext_t *)top; /* NOLINT(performance-no-int-to-ptr) */
+    getcontext(context);
+    context->uc_stack.ss_sp = stack;
+    context->uc_stack.ss_size = top - (uintptr_t)stack;
+    makecontext(context, begin, 0);
+    return context;
+}
+
 #endif
 
 static void leave(void) {

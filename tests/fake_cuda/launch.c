@@ -36,7 +36,7 @@ struct CUfunc_st {
 static size_t image_size(const void *image) {
     Elf64_Ehdr header;
     memcpy(&header, image, sizeof header);
-    return header.e_shoff + (size_t)header.e_shentsize * header.e_shnum;
+    return (size_t)header.e_shoff + (size_t)header.e_shentsize * header.e_shnum;
 }
 
 static bool write_image(int file, const void *image) {

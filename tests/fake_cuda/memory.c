@@ -48,7 +48,7 @@ int fake_memory_count(void) {
     return count;
 }
 
-static bool is_within(uintptr_t begin, size_t bytes, uintptr_t from, size_t size) {
+static bool is_within(HdCuPointer begin, size_t bytes, HdCuPointer from, size_t size) {
     return begin >= from && begin - from <= size && bytes <= size - (begin - from);
 }
 
@@ -79,14 +79,14 @@ static void *global(HdCuPointer pointer, size_t bytes) {
     for (int i = 0; i < MAX_GLOBALS; i++)
         if (globals[i].module != NULL &&
             is_within(pointer, bytes, (uintptr_t)globals[i].data, globals[i].bytes))
-            return globals[i].data + (pointer - (uintptr_t)globals[i].data);
+            return globals[i].data + (size_t)(pointer - (uintptr_t)globals[i].data);
     return NULL;
 }
 
 void *fake_memory(HdCuPointer pointer, size_t bytes) {
     for (const Memory *memory = all; memory != NULL; memory = memory->next)
         if (memory->address != 0 && is_within(pointer, bytes, memory->address, memory->bytes))
-            return memory->data + (pointer - memory->address);
+            return memory->data + (size_t)(pointer - memory->address);
     return global(pointer, bytes);
 }
 

@@ -60,7 +60,7 @@ static void run_launch(const FakeLaunch *launch) {
 }
 
 static uint64_t hash_of(const void *data, size_t bytes) {
-    return hd_hash_words(HD_HASH_START, data, bytes);
+    return hd_hash_words(HD_HASH_START, data, bytes, 1);
 }
 
 static void copy_to_device(const Operation *copy) {

@@ -24,7 +24,8 @@ static void make_room(HdMesh *mesh, int vertices, int triangles, const HdMateria
     mesh->corners = hunt_allocate((size_t)triangles, sizeof *mesh->corners);
     mesh->material_count = 1;
     mesh->materials = hunt_allocate(1, sizeof *mesh->materials);
-    mesh->materials[0] = (HdMeshMaterial){.material = *material, .picture = -1, .passes_as = -1};
+    mesh->materials[0] =
+        (HdMeshMaterial){.material = *material, .picture = -1, .mask_picture = -1, .passes_as = -1};
 }
 
 static void add_triangle(HdMesh *mesh, int a, int b, int c) {

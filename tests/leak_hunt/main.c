@@ -29,7 +29,7 @@ static const double few_rays = 1e5, many_rays = 2e7;
 
 static const char usage[] =
     "usage: hedron_leak_hunt RAYS [--backend cuda|opencl|c]\n"
-    "                        [--precision float|double] [--lanes 1|4|8|16] [--seed N]\n"
+    "                        [--precision float|double] [--lanes 1|2|4|8|16] [--seed N]\n"
     "RAYS may be written as 1e9\n";
 static const HdPipeline pipelines[PIPELINES] = {HD_PIPELINE_MEGA, HD_PIPELINE_WAVEFRONT};
 

@@ -99,6 +99,17 @@ class Maker:
         return [self.solid(place, self.number(0.7, 1.1), self.chance(0.5), i == 0 and self.chance(0.7))
                 for i, place in enumerate(places)]
 
+    def nested(self, outer):
+        """Returns one to three solids, each within the last: opaque, a bubble, or of another index."""
+        found, clear = [outer], {f"{side}{share}": 0.4 for side in ("", "inner_") for share in ("reflection", "transmission")}
+        self.materials[outer["material"]] |= clear | {"index_of_refraction": 1.5}
+        for _ in range(self.dice.choice([1, 1, 2, 3])):
+            room = found[-1]["circumradius"] * (0.33 if found[-1]["kind"] == "tetrahedron" else 0.57)  # inscribed sphere
+            centre = [c + self.number(-0.05, 0.05) * room for c in found[-1]["centre"]]
+            found.append(self.solid(centre, self.number(0.7, 0.9) * room, self.chance(0.7), False))
+            self.materials[found[-1]["material"]] |= clear if self.chance(0.7) else dict.fromkeys(clear, 0)
+        return found[1:]
+
     def texture(self, name):
         """Makes a picture in the data format and returns its size."""
         width, height = self.dice.randint(1, 5), self.dice.randint(1, 5)
@@ -165,7 +176,7 @@ class Maker:
     def mesh(self, centre):
         """Returns the shape in a place."""
         keys = {"file": f"{self.name}.obj", "position": centre, "rotation": self.point(180),
-                "scale": self.dice.choice([0.8, [0.7, 1, 0.5]]), "crease": self.dice.choice([20, 60, 180]),
+                "scale": self.dice.choice([0.8, [0.7, 1, 0.5], [0.7, -1, 0.5]]), "up": self.dice.choice("yz"), "crease": self.dice.choice([20, 60, 180]),
                 "normals": self.dice.choice(["file", "flat", "smooth"]), "ambient": self.dice.choice([0, 0.5])}
         if self.chance(0.5):
             keys["material"] = self.material(self.dice.choice([1, 1.4]))
@@ -203,6 +214,9 @@ class Maker:
             self.model()
             keys["meshes"] = [self.mesh(self.point(0.3)), self.mesh([0, 0, 1.9])][self.chance(0.3):]
         things = keys["solids"] + keys.get("meshes", [])
+        if not overlapping and keys["solids"] and self.chance(0.4):
+            keys["solids"] += self.nested(keys["solids"][0])
+            keys["image"] |= {"depth": 6, "cutoff": 0.03}
         inside = self.dice.choice(things) if self.chance(0.25) else {}
         keys["camera"] = self.camera(inside.get("centre") or inside.get("position"))
         return keys, self.dice.randrange(keys["camera"].get("frames", 1))

@@ -35,13 +35,14 @@ class Material:
 
 class Surface:
     """A ray's view of a point: `normal` points to the ray's origin."""
-    __slots__ = ("point", "normal", "thing", "side", "material", "colour", "emission", "face", "ends")
+    __slots__ = ("point", "normal", "thing", "side", "material", "colour", "emission", "face", "ends", "lift")
 
     def __init__(self, point, normal, thing, side, material):
         self.point, self.normal, self.thing, self.side, self.material = point, normal, thing, side, material
         self.colour = material.colour
         self.emission = BLACK
         self.face = None
+        self.lift = BLACK  # the way to the smooth surface
         self.ends = False  # a disc: only the emission counts
 
 
@@ -97,7 +98,7 @@ class Solid:
         self.height = inradius * self.radius
         self.normals = [turn(unit(v)) for v in directions]
         self.corners = [along(self.centre, self.radius, turn(unit(v))) for v in corners]
-        self.material = materials[keys["material"]]
+        self.material, self.index_around = materials[keys["material"]], 1
         pairs = list(itertools.combinations(range(len(corners)), 2))
         least = min(math.dist(corners[a], corners[b]) for a, b in pairs)
         self.edges = [pair for pair in pairs if math.dist(corners[pair[0]], corners[pair[1]]) < least * 1.001]
@@ -301,7 +302,7 @@ class Triangle:
         self.mesh, (self.a, b, c) = mesh, places
         self.ab, self.ac = minus(b, self.a), minus(c, self.a)
         self.normal = unit(cross(self.ab, self.ac))
-        self.normals = normals
+        self.normals, self.file_places = normals, [corner[0] for corner in corners]
         own = [corner[1] for corner in corners]
         self.coordinates = [place or (0.0, 1.0) for place in own] if any(own) else None
         self.material, self.texture, self.emission = look
@@ -322,20 +323,31 @@ class Triangle:
             return None
         return dot(self.ac, upright) / volume, OUTER if volume > 0 else INNER, (1 - b - c, b, c)
 
+    def way_to_smooth(self, side, shares):
+        """Returns the way from a point to the surface that the normals describe."""
+        point, way = blend(shares, self.file_places), BLACK
+        for share, corner, normal in zip(shares, self.file_places, self.normals):
+            normal = normal if side == OUTER else times(-1, normal)
+            way = along(way, share * max(0, dot(minus(corner, point), normal)), normal)
+        return self.mesh.turn(product(self.mesh.scale, way))
+
     def shading_normal(self, direction, side, shares):
-        """Returns the blended normal if it is usable, else the triangle's own."""
+        """Returns the blended normal if it is usable, else the triangle's own; and the way to the smooth surface."""
         own = self.normal if side == OUTER else times(-1, self.normal)
         if self.normals is None:
-            return own
+            return own, BLACK
         smooth = self.mesh.normal_in_world(blend(shares, self.normals))
         smooth = smooth if side == OUTER else times(-1, smooth)
         speed = dot(smooth, direction)
-        return smooth if speed < 0 and dot(along(direction, -2 * speed, smooth), own) > 0 else own
+        if speed < 0 and dot(along(direction, -2 * speed, smooth), own) > 0:
+            return smooth, self.way_to_smooth(side, shares)
+        return own, BLACK
 
     def surface(self, point, direction, side, shares):
         """Returns the same as a solid's."""
-        found = Surface(point, self.shading_normal(direction, side, shares), self, side, self.material)
-        found.emission = self.emission
+        normal, lift = self.shading_normal(direction, side, shares)
+        found = Surface(point, normal, self, side, self.material)
+        found.emission, found.lift = self.emission, lift
         if self.texture and self.coordinates:
             s, t = blend(shares, self.coordinates)
             found.colour = product(found.colour, self.texture.at(s, 1 - t))
@@ -349,12 +361,16 @@ class Mesh:
         model = Model(folder / keys["file"])
         scale = keys.get("scale", 1)
         self.scale = tuple(scale) if isinstance(scale, list) else (scale,) * 3
-        self.turn = turning(keys.get("rotation", (0, 0, 0)))
+        turn, is_y_up = turning(keys.get("rotation", (0, 0, 0))), keys.get("up") == "y"
+        self.turn = (lambda p: turn((p[0], -p[2], p[1]))) if is_y_up else turn
+        is_mirrored = math.prod(self.scale) < 0  # outer sides stay outer ones
         position = keys.get("position", (0, 0, 0))
         looks = self.looks(model, materials.get(keys.get("material")), keys.get("ambient", 0))
         normals = self.corner_normals(model, keys.get("normals", "file"), keys.get("crease", 40))
         self.triangles = []
         for (name, corners), own in zip(model.faces, normals):
+            if is_mirrored:
+                corners, own = corners[::-1], own and own[::-1]
             places = [along(position, 1, self.turn(product(self.scale, corner[0]))) for corner in corners]
             self.triangles.append(Triangle(self, corners, places, own, looks[name]))
         points = [p for t in self.triangles for p in (t.a, along(t.a, 1, t.ab), along(t.a, 1, t.ac))]
@@ -457,6 +473,9 @@ class Scene:
         self.camera = Camera(keys["camera"], frame)
         materials = {name: Material(own) for name, own in keys.get("materials", {}).items()}
         self.things = [Solid(own, materials) for own in keys.get("solids", [])]
+        for inner, outer in itertools.permutations(sorted(self.things, key=lambda solid: -solid.radius), 2):
+            if all(outer.room(face, corner) > 0 for face in range(len(outer.normals)) for corner in inner.corners):
+                inner.index_around = outer.material.index  # the smallest one that holds it comes last
         if "floor" in keys:
             self.things.append(Floor(keys["floor"], materials, path.parent))
         self.meshes = [Mesh(own, materials, path.parent) for own in keys.get("meshes", [])]
@@ -488,7 +507,9 @@ class Scene:
             if factor == BLACK:
                 return factor
         for mesh in self.meshes:
-            factor = product(factor, mesh.passed(surface.point, way, light, surface.thing))
+            is_own = mesh is getattr(surface.thing, "mesh", None) and dot(surface.normal, way) > 0
+            point = along(surface.point, 1, surface.lift) if is_own else surface.point
+            factor = product(factor, mesh.passed(point, way, light, surface.thing))
         return factor
 
     def shaded(self, surface, direction):
@@ -524,8 +545,9 @@ class Scene:
         reflection, transmission = material.shares[surface.side]
         cosine = -dot(normal, direction)
         passing = direction
-        if material.index != 1:
-            q = 1 / material.index if surface.side == OUTER else material.index
+        index = material.index / getattr(surface.thing, "index_around", 1)
+        if index != 1:
+            q = 1 / index if surface.side == OUTER else index
             square = 1 - q * q * (1 - cosine * cosine)
             if square < 0:
                 reflection, transmission = reflection + transmission, 0

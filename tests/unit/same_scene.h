@@ -66,8 +66,9 @@ static inline void expect_same_path(const HdPath *a, const HdPath *b) {
 static inline void expect_same_mesh(const HdMeshEntry *a, const HdMeshEntry *b) {
 #define M(member) MEMBER(HdMeshEntry, member)
     static const Member members[] = {
-        M(normals),        M(crease_degrees),        M(instance.position),
-        M(instance.scale), M(instance.has_material), M(instance.rotation_degrees), M(ambient)};
+        M(normals),        M(crease_degrees),        M(instance.position),         M(size),
+        M(instance.scale), M(instance.has_material), M(instance.rotation_degrees), M(instance.up),
+        M(ambient)};
 #undef M
     assert_string_equal(a->file, b->file);
     EXPECT_SAME(members, a, b);
@@ -100,7 +101,12 @@ static inline void expect_same_scene(const HdScene *a, const HdScene *b) {
 static inline void expect_same_file(const HdSceneFile *a, const HdSceneFile *b) {
     expect_same_scene(&a->scene, &b->scene);
     assert_string_equal(a->output.path, b->output.path);
-    assert_memory_equal(&a->output.style, &b->output.style, sizeof a->output.style);
+    const HdOutputStyle *style = &a->output.style, *other = &b->output.style;
+    assert_true(style->picture.curve == other->picture.curve &&
+                style->picture.bits == other->picture.bits &&
+                style->picture.has_alpha == other->picture.has_alpha &&
+                style->frames_per_second == other->frames_per_second &&
+                style->is_ntsc == other->is_ntsc);
     assert_string_equal(a->texture_path, b->texture_path);
     if (a->texture_path[0] != '\0')
         assert_int_equal(a->texture_curve, b->texture_curve);

@@ -8,7 +8,7 @@
 #include <stddef.h>
 
 #include "device/backend.h"
-#include "device/opencl/devices.h"
+#include "device/opencl/api.h"
 #include "render/backends.h"
 
 /* X(type, name, parameters, arguments), from which CMakeLists.txt takes the names. */
@@ -24,18 +24,7 @@
     X(double, hd_monotonic_seconds, (void), ())                                                    \
     X(const HdBackend *, hd_backend_find, (const char *name), (name))                              \
     X(const HdBackend *, hd_backend_always_there, (void), ())                                      \
-    X(cl_int, clGetPlatformIDs, (cl_uint capacity, cl_platform_id * platforms, cl_uint * count),   \
-      (capacity, platforms, count))                                                                \
-    X(cl_int, clGetPlatformInfo,                                                                   \
-      (cl_platform_id platform, cl_platform_info what, size_t size, void *value, size_t *needed),  \
-      (platform, what, size, value, needed))                                                       \
-    X(cl_int, clGetDeviceIDs,                                                                      \
-      (cl_platform_id platform, cl_device_type types, cl_uint capacity, cl_device_id * devices,    \
-       cl_uint * count),                                                                           \
-      (platform, types, capacity, devices, count))                                                 \
-    X(cl_int, clGetDeviceInfo,                                                                     \
-      (cl_device_id device, cl_device_info what, size_t size, void *value, size_t *needed),        \
-      (device, what, size, value, needed))
+    X(HdStatus, hd_opencl_load_library, (HdOpenclLibrary * cl, HdError * error), (cl, error))
 
 #define HD_DECLARE_WRAPPED(type, name, parameters, arguments)                                      \
     extern type(*replaced_##name) parameters;                                                      \

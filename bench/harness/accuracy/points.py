@@ -143,8 +143,8 @@ def recommended(points):
 
 
 def equal_error(points, label, families=settings.BOUNDED_FAMILIES, baseline=settings.BASELINE):
-    """Returns [(error, ratio)] of some families' time by another's; by default of adaptive sampling and bounded depth
-    by the grid in full depth."""
+    """Returns [(error, ratio)] of some families' time by another's; by default of multi-jittered samples and bounded
+    depth by the grid in full depth."""
     own = [each for each in points if each["device"] == label]
     return front.ratios([each for each in own if each["family"] in families],
                         [each for each in own if each["family"] == baseline])

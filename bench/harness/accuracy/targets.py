@@ -7,15 +7,12 @@ from harness.run import pfm
 ARITHMETIC = Target(99.9, 99.99)
 TRUNCATION = Target(1, 1, False)
 BOUND = Target(4, 4, False)
-SAMPLES = RAYS = Target(1 / 2, 1 / 4, False)
-WITHIN = Target(99.9, 99.99)
 LIMIT, NEARER = "1", "0.03"
 # Each of its rays continues twice at every hit, so that a tighter bound takes hours. A small cut-off promises nothing,
 # but a tenth of it changes this picture by a tenth as much.
 BRANCHING, FEW_PIXELS, LESS_NEAR = "knot", ("--size", "8x6", "--samples", "1"), ("--depth", "400", "--cutoff", "1e-8")
 VIEWS = {True: (("--size", "64x48", "--samples", "1"), ("--size", "32x24", "--samples", "1")),
          False: (("--size", "160x90", "--samples", "2"), ("--size", "64x48", "--samples", "1"))}
-ADAPTIVE = {True: (("--size", "160x90"), ("4",)), False: ((), ("4", "8"))}
 
 
 def there(found):
@@ -30,8 +27,7 @@ class SceneTargets:
     def __init__(self, plan, device, scenes):
         self.plan, self.device, self.scenes = plan, device, scenes
         self.arithmetic_view, self.truncation_view = VIEWS[plan.quick]
-        self.adaptive_view, self.adaptive_samples = ADAPTIVE[plan.quick]
-        self.arithmetic, self.truncation, self.adaptive = {}, {}, {}
+        self.arithmetic, self.truncation = {}, {}
         self.not_finite = self.frames = 0
 
     def render(self, scene, name, *options):
@@ -93,37 +89,6 @@ class SceneTargets:
                    "of the largest of each frame; asked for by the aim only; scenes from which nothing was left out "
                    "have none")
         self.each("bound", "times", bounds)
-
-    # ---- adaptive sampling
-
-    def both_samplings(self, scene, per_axis):
-        """Adds the targets of adaptive sampling. The error is that of a picture after the curve: a display does not
-        show the brightest lights."""
-        view = (*self.adaptive_view, "--samples", per_axis)
-        (grid, plain), (frame, adaptive) = [self.render(scene, way, *view, "--aa", way) for way in ("grid", "adaptive")]
-        return {"samples": frame["rays"]["primary"] / grid["rays"]["primary"],
-                "rays": sum(frame["rays"].values()) / sum(grid["rays"].values()),
-                "time": frame["seconds"]["trace"] / grid["seconds"]["trace"],
-                "within_2": 100 * pfm.share_within(adaptive, plain, 2),
-                **pfm.errors(self.plan.program, adaptive, plain)}
-
-    def measure_adaptive(self):
-        for per_axis in self.adaptive_samples:
-            self.measure_scenes(f"adaptive against grid {per_axis} x {per_axis}", self.adaptive.setdefault(per_axis, {}),
-                                lambda scene, per_axis=per_axis: self.both_samplings(scene, per_axis))
-
-    def add_adaptive(self):
-        size = " ".join(self.adaptive_view) or "each scene's own size"
-        for per_axis, scenes in self.adaptive.items():
-            against = f"adaptive against grid {per_axis} x {per_axis}, worst scene"
-            for key, what, unit, target, choose in (("adaptive_samples", "samples", "times", SAMPLES, max),
-                                                    ("adaptive_rays", "rays", "times", RAYS, max),
-                                                    ("adaptive_time", "time, one frame", "times", None, max),
-                                                    ("adaptive", "pixels within 2 of 255", "%", WITHIN, min)):
-                field = "within_2" if key == "adaptive" else key.removeprefix("adaptive_")
-                values = {name: found if isinstance(found, str) else found[field] for name, found in scenes.items()}
-                self.worst(key, f"{against}: {what}", unit, values, target, choose, size)
-                self.each(key, unit, values)
 
     # ---- rows
 

@@ -20,9 +20,9 @@ from harness.run.program import ROOT
 EQUAL_ERROR = Target(1 / 3, 1 / 10, False)
 # GPUs have all of the scene's pixels; smaller frames are too short to be timed there.
 SIZE, SIZE_OF_GPUS = {False: (128, 96), True: (64, 48)}, (640, 360)
-ON_ALL_SCENES = ("arithmetic", "truncation", "adaptive")
+ON_ALL_SCENES = ("arithmetic", "truncation")
 # Scenes besides the built-in one; of several frames each, because the neighbours of the first give the time.
-FRONT_SCENES, FRONT_FAMILIES = ("five", "official", "starter"), ("grid", "multijitter", "adaptive", "fine", "deep", "promise")
+FRONT_SCENES, FRONT_FAMILIES = ("five", "official", "starter"), ("grid", "multijitter", "fine", "deep", "promise")
 HEAD = ["setting", "device", "ms [q1..q3]", "RMSE", "largest", "M rays", "front", "recommended"]
 
 
@@ -51,7 +51,7 @@ def point_words(result):
             yield (f"Recommended on {point['device']}, {word}: {' '.join(point['options'])}: {number(point['ms'], 3)} ms, "
                    f"RMSE {number(point['rmse'], 3)}, largest {number(point['largest'], 3)}.")
     for each in result["equal_error"] or []:
-        yield (f"Equal RMSE on {each['device']}: at {number(each['rmse'], 3)} adaptive sampling and bounded depth "
+        yield (f"Equal RMSE on {each['device']}: at {number(each['rmse'], 3)} multi-jittered samples and bounded depth "
                f"take {number(each['ratio'], 3)} of the time of the grid in full depth.")
     absent = {}
     for each in result["not_tried"] or []:
@@ -143,11 +143,9 @@ class Accuracy(Bench):
             self.points.save()
             for label in self.runnable:
                 self.add_equal_error(
-                    label, "equal_error", "time at equal RMSE, adaptive and bounded depth against grid and full depth",
+                    label, "equal_error", "time at equal RMSE, multi-jittered samples and bounded depth against grid and full depth",
                     target=EQUAL_ERROR, note="full depth is 40 without a cut-off; more depth takes more time; the median "
                                              "over the errors that both have")
-                self.add_equal_error(label, "equal_error_sampling",
-                                     "  of adaptive sampling alone, against the grid of the same depth", ("adaptive",), "grid")
                 self.add_equal_error(label, "equal_error_pattern",
                                      "  of multi-jittered samples alone, against the grid", ("multijitter",), "grid")
             self.result.update({key: self.memory[key] for key in ("truth", "points", "equal_error", "not_tried")})

@@ -13,7 +13,7 @@ def add(plan):
 def sets_words(entries):
     found = {}
     for entry in entries:
-        for name in ("avx512", "avx2", "generic"):
+        for name in ("avx512", "avx2", "neon", "generic"):
             if entry["renderer"] and f" {name}" in entry["renderer"]:
                 found.setdefault(name, set()).add(int(entry["x"]))
     sentences = [f"{', '.join(map(str, sorted(each)))} by {name}" for name, each in found.items()]

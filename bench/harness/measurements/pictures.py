@@ -10,7 +10,7 @@ from harness.run.program import Problem, run_tool
 
 SIZES, REFERENCE_SIDES = {True: (192, 108), False: (320, 180)}, {True: 4, False: 8}
 MISSING = "4"  # truncation error of the reference, in steps of 255
-DRAFT, FINE = ("--samples", "2"), ("--samples", "8", "--aa", "adaptive")
+DRAFT, FINE = ("--samples", "2"), ("--samples", "8")
 SETTINGS = {"A draft": DRAFT, "Fine": FINE}
 REFERENCE = "Reference"
 BLACK = 1  # steps of 255, hardly visible

@@ -52,7 +52,7 @@ def fill(section):
             longest = max(found, key=lambda name: found[name]["median"])
             sentences.append(f"on {device.name} the longest stage is {longest}: {ms(found[longest]['median'])}")
     if drawn:
-        section.draw(rows, "one frame of the built-in scene to PNG, 640 x 360, 3 x 3 samples",
+        section.draw(rows, "one frame of the built-in scene to PNG, 640 x 360",
                      "Start-up and stages of a run of one frame", few(sentences), "milliseconds", drawn)
         section.tabulate(lambda entry: entry["series"])
 

@@ -60,12 +60,6 @@ def near_pixels(one, *others, steps=STEP):
                for i in range(0, len(a), 3))
 
 
-def share_within(first, second, steps):
-    """Returns the share of pixels of two files with no channel off by more than so many steps of 255."""
-    one, other = read(first), read(second)
-    return near_pixels(one, other, steps=steps) / (one[0] * one[1])
-
-
 def compare(program, first, second):
     """Returns the output of `hedron compare --json`. The first picture is compared with the second."""
     done = subprocess.run([program.path, "compare", "--json", first, second], capture_output=True, text=True)

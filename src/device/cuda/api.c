@@ -35,6 +35,8 @@ HdStatus hd_cuda_load_driver(HdCudaDriver *driver, HdError *error) {
 #undef SYMBOL
     };
     memset(driver, 0, sizeof *driver);
+    if (sizeof(void *) < sizeof(HdCuPointer)) /* a handle is passed to kernels as a pointer */
+        return hd_fail(error, HD_UNAVAILABLE, "CUDA needs a program of 64 bits");
     void *library = hd_library_open("libcuda.so.1");
     if (!library)
         return hd_fail(error, HD_UNAVAILABLE, "the NVIDIA driver (libcuda.so.1) is not installed");

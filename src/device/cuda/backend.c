@@ -184,8 +184,6 @@ static HdStatus open_device(void *state, const HdDevice *is, HdGpuFacts *facts, 
 
 /* ---- memory ---- */
 
-_Static_assert(sizeof(HdCuPointer) == sizeof(void *), "a kernel takes a handle as a pointer");
-
 static HdCuPointer pointer_to(const HdGpuMemory *memory) {
     return (HdCuPointer)(uintptr_t)memory->handle;
 }

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/minmax.h"
 #include "device/gpu/gpu.h"
 #include "kernels/host/shared.h"
 #include "system/interrupt.h"
@@ -46,6 +45,15 @@ static void choose_shape(HdGpuRenderer *renderer) {
     renderer->program.group_size = has_groups ? group_size : 1;
 }
 
+static size_t queue_bytes(const HdGpuRenderer *renderer) {
+    const uint64_t share = renderer->gpu.facts.memory / 8;
+    if (renderer->options.test.queue_bytes > 0)
+        return renderer->options.test.queue_bytes;
+    if (!renderer->has_groups)
+        return CPU_QUEUE_BYTES;
+    return share < GROUPS_QUEUE_BYTES ? (size_t)share : GROUPS_QUEUE_BYTES;
+}
+
 static HdStatus gpu_open(const HdDevice *device, const HdRenderOptions *options, void **state,
                          HdError *error) {
     const HdGpuDriver *driver = device->backend->driver;
@@ -65,10 +73,7 @@ static HdStatus gpu_open(const HdDevice *device, const HdRenderOptions *options,
                           device->driver);
     renderer->has_groups = !device->is_cpu || options->test.groups;
     choose_shape(renderer);
-    renderer->queue.bytes = options->test.queue_bytes > 0 ? options->test.queue_bytes
-                            : renderer->has_groups
-                                ? hd_min_size(gpu->facts.memory / 8, GROUPS_QUEUE_BYTES)
-                                : CPU_QUEUE_BYTES;
+    renderer->queue.bytes = queue_bytes(renderer);
     *state = renderer;
     return HD_OK;
 }

@@ -6,11 +6,13 @@
 
 #include "base/text.h"
 #include "device/gpu/driver.h"
+#include "device/opencl/api.h"
 #include "device/opencl/devices.h"
 
 enum { GPU_GROUP_SIZE = 64, OPTIONS_LENGTH = 1024 };
 
 typedef struct Device {
+    HdOpenclLibrary cl;
     cl_device_id id;
     HdDevice is;
     cl_ulong at_once; /* bytes of a buffer, at most */
@@ -30,31 +32,33 @@ static HdStatus check(cl_int code, const char *function, HdError *error) {
 static void close_device(void *state) {
     Device *device = state;
     if (device->copies)
-        clReleaseCommandQueue(device->copies);
+        device->cl.clReleaseCommandQueue(device->copies);
     if (device->queue)
-        clReleaseCommandQueue(device->queue);
+        device->cl.clReleaseCommandQueue(device->queue);
     if (device->context)
-        clReleaseContext(device->context);
+        device->cl.clReleaseContext(device->context);
 }
 
 static HdStatus create_queues(Device *device, HdError *error) {
     cl_int code;
-    device->context = clCreateContext(NULL, 1, &device->id, NULL, NULL, &code);
+    device->context = device->cl.clCreateContext(NULL, 1, &device->id, NULL, NULL, &code);
     if (!device->context)
         return hd_opencl_fail(error, "clCreateContext", code);
     cl_context context = device->context;
-    device->queue = clCreateCommandQueue(context, device->id, CL_QUEUE_PROFILING_ENABLE, &code);
+    device->queue =
+        device->cl.clCreateCommandQueue(context, device->id, CL_QUEUE_PROFILING_ENABLE, &code);
     if (!device->queue)
-        device->queue = clCreateCommandQueue(context, device->id, 0, &code);
+        device->queue = device->cl.clCreateCommandQueue(context, device->id, 0, &code);
     if (device->queue)
-        device->copies = clCreateCommandQueue(context, device->id, 0, &code);
+        device->copies = device->cl.clCreateCommandQueue(context, device->id, 0, &code);
     return device->copies ? HD_OK : hd_opencl_fail(error, "clCreateCommandQueue", code);
 }
 
 static HdStatus open_device(void *state, const HdDevice *is, HdGpuFacts *facts, HdError *error) {
     Device *device = state;
     device->is = *is;
-    HdStatus status = hd_opencl_find(&device->id, is->index, facts, error);
+    HD_TRY(hd_opencl_load_library(&device->cl, error));
+    HdStatus status = hd_opencl_find(&device->cl, &device->id, is->index, facts, error);
     device->at_once = facts->at_once;
     if (status == HD_OK)
         status = create_queues(device, error);
@@ -77,17 +81,18 @@ static HdStatus check_memory(cl_int code, const char *function, HdGpuRefusal *re
 
 static void release(void *state, HdGpuMemory *memory) {
     Device *device = state;
-    if (memory->data && clEnqueueUnmapMemObject(device->copies, memory->handle, memory->data, 0,
-                                                NULL, NULL) == CL_SUCCESS)
-        clFinish(device->copies);
-    clReleaseMemObject(memory->handle);
+    if (memory->data &&
+        device->cl.clEnqueueUnmapMemObject(device->copies, memory->handle, memory->data, 0, NULL,
+                                           NULL) == CL_SUCCESS)
+        device->cl.clFinish(device->copies);
+    device->cl.clReleaseMemObject(memory->handle);
 }
 
 static HdStatus map(Device *device, HdGpuMemory *memory, HdError *error) {
     cl_int code;
-    memory->data =
-        clEnqueueMapBuffer(device->copies, memory->handle, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0,
-                           memory->bytes, 0, NULL, NULL, &code);
+    memory->data = device->cl.clEnqueueMapBuffer(device->copies, memory->handle, CL_TRUE,
+                                                 CL_MAP_READ | CL_MAP_WRITE, 0, memory->bytes, 0,
+                                                 NULL, NULL, &code);
     if (memory->data)
         return HD_OK;
     release(device, memory);
@@ -101,13 +106,14 @@ static HdStatus allocate(void *state, HdGpuMemory *memory, HdGpuPlace place, siz
     cl_int code = CL_MEM_OBJECT_ALLOCATION_FAILURE;
     cl_mem_flags flags = CL_MEM_READ_WRITE | (place == HD_GPU_HOST ? CL_MEM_ALLOC_HOST_PTR : 0);
     if (place == HD_GPU_DEVICE_AT_ONCE)
-        HD_TRY(check(clFinish(device->queue), "clFinish", error));
+        HD_TRY(check(device->cl.clFinish(device->queue), "clFinish", error));
     if (device->at_once == 0 || bytes <= device->at_once)
-        memory->handle = clCreateBuffer(device->context, flags, bytes, NULL, &code);
+        memory->handle = device->cl.clCreateBuffer(device->context, flags, bytes, NULL, &code);
     memory->bytes = bytes;
     if (code == CL_SUCCESS && place == HD_GPU_DEVICE_AT_ONCE)
-        code = clEnqueueWriteBuffer(device->queue, memory->handle, CL_TRUE, 0, 1, "", 0, NULL,
-                                    NULL); /* drivers may allocate it only on first use */
+        code = device->cl.clEnqueueWriteBuffer(
+            device->queue, memory->handle, CL_TRUE, 0, 1, "", 0, NULL,
+            NULL); /* drivers may allocate it only on first use */
     if (code == CL_SUCCESS && place == HD_GPU_HOST)
         return map(device, memory, error);
     return check_memory(code, "clCreateBuffer", refusal, error);
@@ -116,17 +122,17 @@ static HdStatus allocate(void *state, HdGpuMemory *memory, HdGpuPlace place, siz
 static HdStatus write_memory(void *state, const HdGpuMemory *memory, const void *data, size_t bytes,
                              HdGpuRefusal *refusal, HdError *error) {
     Device *device = state;
-    cl_int code = clEnqueueWriteBuffer(device->queue, memory->handle, CL_FALSE, 0, bytes, data, 0,
-                                       NULL, NULL);
+    cl_int code = device->cl.clEnqueueWriteBuffer(device->queue, memory->handle, CL_FALSE, 0, bytes,
+                                                  data, 0, NULL, NULL);
     return check_memory(code, "clEnqueueWriteBuffer", refusal, error);
 }
 
 static HdStatus read_memory(void *state, const HdGpuMemory *memory, void *to, size_t bytes,
                             HdError *error) {
     Device *device = state;
-    return check(
-        clEnqueueReadBuffer(device->queue, memory->handle, CL_TRUE, 0, bytes, to, 0, NULL, NULL),
-        "clEnqueueReadBuffer", error);
+    return check(device->cl.clEnqueueReadBuffer(device->queue, memory->handle, CL_TRUE, 0, bytes,
+                                                to, 0, NULL, NULL),
+                 "clEnqueueReadBuffer", error);
 }
 
 /* ---- kernels ---- */
@@ -151,20 +157,20 @@ static void write_version(void *state, char *text, size_t capacity) {
     const Device *device = state;
     cl_platform_id platform;
     text[0] = '\0';
-    if (clGetDeviceInfo(device->id, CL_DEVICE_PLATFORM, sizeof(cl_platform_id), &platform, NULL) ==
-        CL_SUCCESS)
-        clGetPlatformInfo(platform, CL_PLATFORM_VERSION, capacity, text, NULL);
+    if (device->cl.clGetDeviceInfo(device->id, CL_DEVICE_PLATFORM, sizeof(cl_platform_id),
+                                   &platform, NULL) == CL_SUCCESS)
+        device->cl.clGetPlatformInfo(platform, CL_PLATFORM_VERSION, capacity, text, NULL);
 }
 
 static void unload(void *state) {
     Device *device = state;
     for (int i = 0; i < HD_KERNEL_COUNT; i++) {
         if (device->kernels[i])
-            clReleaseKernel(device->kernels[i]);
+            device->cl.clReleaseKernel(device->kernels[i]);
         device->kernels[i] = NULL;
     }
     if (device->program)
-        clReleaseProgram(device->program);
+        device->cl.clReleaseProgram(device->program);
     device->program = NULL;
 }
 
@@ -173,22 +179,27 @@ static HdStatus create_kernels(Device *device, const HdKernelShape *shape, HdErr
     for (int i = 0; code == CL_SUCCESS && i < HD_KERNEL_COUNT; i++) {
         const char *name = hd_kernel_name(shape, (HdKernel)i);
         if (name != NULL)
-            device->kernels[i] = clCreateKernel(device->program, name, &code);
+            device->kernels[i] = device->cl.clCreateKernel(device->program, name, &code);
     }
     return check(code, "clCreateKernel", error);
 }
 
 static HdStatus fail_with_log(const Device *device, cl_int code, HdError *error) {
     size_t size = 0;
-    char *log = NULL;
-    if (clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &size) ==
-            CL_SUCCESS &&
+    char *log = NULL, fault[HD_POCL_FAULT_SIZE];
+    if (device->cl.clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, 0, NULL,
+                                         &size) == CL_SUCCESS &&
         size <= HD_OPENCL_MAX_BYTES)
         log = calloc(size + 1, 1);
     if (log)
-        clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);
-    hd_fail(error, HD_FAILED, "the compiler of %s refused the kernels (clBuildProgram: %s):\n%s",
-            device->is.name, hd_opencl_error_name(code), log && log[0] ? log : "(no log)");
+        device->cl.clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, size,
+                                         log, NULL);
+    if (hd_pocl_lacks_cache(device->is.driver, fault))
+        hd_fail(error, HD_FAILED, "%s", fault);
+    else
+        hd_fail(error, HD_FAILED,
+                "the compiler of %s refused the kernels (clBuildProgram: %s):\n%s", device->is.name,
+                hd_opencl_error_name(code), log && log[0] ? log : "(no log)");
     free(log);
     return HD_FAILED;
 }
@@ -197,12 +208,12 @@ static HdStatus fail_with_log(const Device *device, cl_int code, HdError *error)
 static cl_int build(const Device *device, const char *options) {
     char other[OPTIONS_LENGTH];
     const char *refused = strstr(options, rounding);
-    cl_int code = clBuildProgram(device->program, 1, &device->id, options, NULL, NULL);
+    cl_int code = device->cl.clBuildProgram(device->program, 1, &device->id, options, NULL, NULL);
     if (code != CL_INVALID_BUILD_OPTIONS || refused == NULL)
         return code;
     snprintf(other, sizeof other, "%.*s%s", (int)(refused - options), options,
              refused + strlen(rounding));
-    return clBuildProgram(device->program, 1, &device->id, other, NULL, NULL);
+    return device->cl.clBuildProgram(device->program, 1, &device->id, other, NULL, NULL);
 }
 
 static HdStatus compile(void *state, const HdKernelShape *shape, const char *options, char *maker,
@@ -210,8 +221,8 @@ static HdStatus compile(void *state, const HdKernelShape *shape, const char *opt
     Device *device = state;
     const char *text = (const char *)hd_opencl_source;
     cl_int code;
-    device->program =
-        clCreateProgramWithSource(device->context, 1, &text, &hd_opencl_source_size, &code);
+    device->program = device->cl.clCreateProgramWithSource(device->context, 1, &text,
+                                                           &hd_opencl_source_size, &code);
     if (!device->program)
         return hd_opencl_fail(error, "clCreateProgramWithSource", code);
     code = build(device, options);
@@ -227,8 +238,8 @@ static HdStatus load(void *state, const HdKernelShape *shape, const char *option
     Device *device = state;
     cl_int loaded = CL_SUCCESS, code;
     (void)maker;
-    device->program =
-        clCreateProgramWithBinary(device->context, 1, &device->id, &size, &binary, &loaded, &code);
+    device->program = device->cl.clCreateProgramWithBinary(device->context, 1, &device->id, &size,
+                                                           &binary, &loaded, &code);
     if (code == CL_SUCCESS)
         code = loaded;
     if (!device->program || code != CL_SUCCESS)
@@ -242,13 +253,13 @@ static HdStatus load(void *state, const HdKernelShape *shape, const char *option
 static unsigned char *read_binary(const void *state, size_t *size) {
     const Device *device = state;
     *size = 0;
-    if (clGetProgramInfo(device->program, CL_PROGRAM_BINARY_SIZES, sizeof *size, size, NULL) !=
-            CL_SUCCESS ||
+    if (device->cl.clGetProgramInfo(device->program, CL_PROGRAM_BINARY_SIZES, sizeof *size, size,
+                                    NULL) != CL_SUCCESS ||
         *size == 0 || *size > HD_OPENCL_MAX_BYTES)
         return NULL;
     unsigned char *binaries[1] = {malloc(*size)};
-    if (binaries[0] && clGetProgramInfo(device->program, CL_PROGRAM_BINARIES, sizeof binaries,
-                                        binaries, NULL) == CL_SUCCESS)
+    if (binaries[0] && device->cl.clGetProgramInfo(device->program, CL_PROGRAM_BINARIES,
+                                                   sizeof binaries, binaries, NULL) == CL_SUCCESS)
         return binaries[0];
     free(binaries[0]);
     return NULL;
@@ -256,18 +267,18 @@ static unsigned char *read_binary(const void *state, size_t *size) {
 
 static HdStatus query_max_threads(void *state, size_t *threads, HdError *error) {
     const Device *device = state;
-    return check(clGetKernelWorkGroupInfo(device->kernels[HD_KERNEL_TRACE], device->id,
-                                          CL_KERNEL_WORK_GROUP_SIZE, sizeof *threads, threads,
-                                          NULL),
+    return check(device->cl.clGetKernelWorkGroupInfo(device->kernels[HD_KERNEL_TRACE], device->id,
+                                                     CL_KERNEL_WORK_GROUP_SIZE, sizeof *threads,
+                                                     threads, NULL),
                  "clGetKernelWorkGroupInfo", error);
 }
 
 /* ---- launches; their event is that of the last command ---- */
 
 static void forget(void *state, HdGpuEvent *event) {
-    (void)state;
+    const Device *device = state;
     if (event->end)
-        clReleaseEvent(event->end);
+        device->cl.clReleaseEvent(event->end);
     *event = (HdGpuEvent){0};
 }
 
@@ -278,12 +289,12 @@ static HdStatus launch(void *state, const HdGpuLaunch *launch, HdGpuEvent *event
     cl_event command = NULL;
     cl_int code = CL_SUCCESS;
     for (int i = 0; code == CL_SUCCESS && i < launch->argument_count; i++)
-        code = clSetKernelArg(kernel, (cl_uint)i, launch->arguments[i].bytes,
-                              launch->arguments[i].value);
+        code = device->cl.clSetKernelArg(kernel, (cl_uint)i, launch->arguments[i].bytes,
+                                         launch->arguments[i].value);
     if (code != CL_SUCCESS)
         return hd_opencl_fail(error, "clSetKernelArg", code);
-    code = clEnqueueNDRangeKernel(device->queue, kernel, 1, NULL, &global, &local, 0, NULL,
-                                  event != NULL ? &command : NULL);
+    code = device->cl.clEnqueueNDRangeKernel(device->queue, kernel, 1, NULL, &global, &local, 0,
+                                             NULL, event != NULL ? &command : NULL);
     if (event != NULL) {
         forget(state, event);
         event->end = command;
@@ -296,20 +307,20 @@ static HdStatus copy_back(void *state, const HdGpuEvent *after, const HdGpuCopy 
                           HdGpuEvent *done, HdError *error) {
     Device *device = state;
     cl_event ready = after->end, event = NULL;
-    HdStatus status = check(clFlush(device->queue), "clFlush", error);
+    HdStatus status = check(device->cl.clFlush(device->queue), "clFlush", error);
     for (int i = 0; status == HD_OK && i < count; i++)
-        status = check(clEnqueueReadBuffer(device->copies, copies[i].from->handle, CL_FALSE, 0,
-                                           copies[i].bytes, copies[i].to, 1, &ready,
-                                           i == count - 1 ? &event : NULL),
+        status = check(device->cl.clEnqueueReadBuffer(device->copies, copies[i].from->handle,
+                                                      CL_FALSE, 0, copies[i].bytes, copies[i].to, 1,
+                                                      &ready, i == count - 1 ? &event : NULL),
                        "clEnqueueReadBuffer", error);
     forget(state, done);
     done->end = event;
-    return status == HD_OK ? check(clFlush(device->copies), "clFlush", error) : status;
+    return status == HD_OK ? check(device->cl.clFlush(device->copies), "clFlush", error) : status;
 }
 
 static HdStatus finish(void *state, HdError *error) {
     Device *device = state;
-    return check(clFinish(device->queue), "clFinish", error);
+    return check(device->cl.clFinish(device->queue), "clFinish", error);
 }
 
 static HdStatus wait_for_launch(void *state, const HdGpuEvent *launched, HdError *error) {
@@ -318,26 +329,27 @@ static HdStatus wait_for_launch(void *state, const HdGpuEvent *launched, HdError
 }
 
 static HdStatus wait_for_copies(void *state, const HdGpuEvent *done, HdError *error) {
+    const Device *device = state;
     cl_event event = done->end;
-    (void)state;
-    return check(clWaitForEvents(1, &event), "clWaitForEvents", error);
+    return check(device->cl.clWaitForEvents(1, &event), "clWaitForEvents", error);
 }
 
 static void drain(void *state) {
     Device *device = state;
-    clFinish(device->queue);
-    clFinish(device->copies);
+    device->cl.clFinish(device->queue);
+    device->cl.clFinish(device->copies);
 }
 
 /* Without profiling the times are unknown. */
 static HdStatus measure_seconds(void *state, const HdGpuEvent *from, const HdGpuEvent *to,
                                 double *seconds, HdError *error) {
+    const Device *device = state;
     cl_ulong start = 0, end = 0;
-    (void)state, (void)error;
-    bool has_start = clGetEventProfilingInfo(from->end, CL_PROFILING_COMMAND_START, sizeof start,
-                                             &start, NULL) == CL_SUCCESS;
-    bool has_end = clGetEventProfilingInfo(to->end, CL_PROFILING_COMMAND_END, sizeof end, &end,
-                                           NULL) == CL_SUCCESS;
+    (void)error;
+    bool has_start = device->cl.clGetEventProfilingInfo(from->end, CL_PROFILING_COMMAND_START,
+                                                        sizeof start, &start, NULL) == CL_SUCCESS;
+    bool has_end = device->cl.clGetEventProfilingInfo(to->end, CL_PROFILING_COMMAND_END, sizeof end,
+                                                      &end, NULL) == CL_SUCCESS;
     *seconds = has_start && has_end && end > start ? 1e-9 * (double)(end - start) : -1.0;
     return HD_OK;
 }

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
 #include "device/opencl/devices.h"
 
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/minmax.h"
 #include "base/text.h"
@@ -118,30 +121,31 @@ HdStatus hd_opencl_fail(HdError *error, const char *function, cl_int code) {
 enum { MAX_PLATFORMS = 32 };
 
 typedef struct Entry {
+    const HdOpenclLibrary *cl;
     cl_platform_id platform;
     cl_device_id device;
 } Entry;
 
 /* A failing query counts as "no": an OpenCL 1.0 device does not know every query. */
-static cl_ulong query(cl_device_id device, cl_device_info what) {
+static cl_ulong query(Entry of, cl_device_info what) {
     union {
         cl_ulong wide;
         cl_uint narrow;
     } value;
     size_t size = 0;
-    if (clGetDeviceInfo(device, what, sizeof value, &value, &size) != CL_SUCCESS)
+    if (of.cl->clGetDeviceInfo(of.device, what, sizeof value, &value, &size) != CL_SUCCESS)
         return 0;
     return size == sizeof value.wide ? value.wide : value.narrow;
 }
 
-static int query_int(cl_device_id device, cl_device_info what) {
-    return (int)query(device, what);
+static int query_int(Entry of, cl_device_info what) {
+    return (int)query(of, what);
 }
 
 /* Queries a device or, if the entry has none, a platform. */
 static cl_int query_bytes(Entry of, cl_uint what, size_t size, void *value, size_t *needed) {
-    return of.device ? clGetDeviceInfo(of.device, what, size, value, needed)
-                     : clGetPlatformInfo(of.platform, what, size, value, needed);
+    return of.device ? of.cl->clGetDeviceInfo(of.device, what, size, value, needed)
+                     : of.cl->clGetPlatformInfo(of.platform, what, size, value, needed);
 }
 
 /* Trims spaces at both ends. OpenCL fails if the buffer is too small. */
@@ -165,38 +169,38 @@ static void query_text(Entry of, cl_uint what, char *text, size_t capacity) {
 }
 
 /* Writes the reason why no kernel can run; empty: usable. */
-static void find_unsupported(cl_device_id device, char *reasons, size_t capacity) {
+static void find_unsupported(Entry entry, char *reasons, size_t capacity) {
     char version[64];
     int major = 0, minor = 0;
-    query_text((Entry){.device = device}, CL_DEVICE_VERSION, version, sizeof version);
+    query_text(entry, CL_DEVICE_VERSION, version, sizeof version);
     bool is_known = sscanf(version, "OpenCL %d.%d", &major, &minor) == 2;
     bool is_12 = is_known && (major > 1 || (major == 1 && minor >= 2));
     const struct {
         bool is_met;
         const char *reason;
-    } list[] = {{query(device, CL_DEVICE_AVAILABLE), "it is not available"},
-                {query(device, CL_DEVICE_COMPILER_AVAILABLE), "its driver has no compiler"},
+    } list[] = {{query(entry, CL_DEVICE_AVAILABLE), "it is not available"},
+                {query(entry, CL_DEVICE_COMPILER_AVAILABLE), "its driver has no compiler"},
                 {is_12, "it is older than OpenCL 1.2"},
-                {query(device, CL_DEVICE_ENDIAN_LITTLE), "it is not little-endian"}};
+                {query(entry, CL_DEVICE_ENDIAN_LITTLE), "it is not little-endian"}};
     reasons[0] = '\0';
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
         if (!list[i].is_met)
             hd_add_text(reasons, capacity, ", ", "%s", list[i].reason);
 }
 
-static bool has_extension(cl_device_id device, const char *name) {
+static bool has_extension(Entry entry, const char *name) {
     char extensions[8192];
-    query_text((Entry){.device = device}, CL_DEVICE_EXTENSIONS, extensions, sizeof extensions);
+    query_text(entry, CL_DEVICE_EXTENSIONS, extensions, sizeof extensions);
     return strstr(extensions, name) != NULL;
 }
 
 /* Only NVIDIA's driver reports this. */
-static bool has_timeout(cl_device_id id) {
+static bool has_timeout(Entry entry) {
     enum { KERNEL_EXEC_TIMEOUT_NV = 0x4005 };
     cl_bool reported = CL_FALSE;
-    if (clGetDeviceInfo(id, KERNEL_EXEC_TIMEOUT_NV, sizeof reported, &reported, NULL) == CL_SUCCESS)
+    if (query_bytes(entry, KERNEL_EXEC_TIMEOUT_NV, sizeof reported, &reported, NULL) == CL_SUCCESS)
         return reported != CL_FALSE || hd_display_may_be_there(HD_DISPLAY_FOLDER);
-    return (query(id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) == 0;
+    return (query(entry, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) == 0;
 }
 
 static void describe_device(HdDevice *device, Entry entry, int index) {
@@ -204,27 +208,30 @@ static void describe_device(HdDevice *device, Entry entry, int index) {
     memset(device, 0, sizeof *device);
     device->index = index;
     char platform[80], version[80], driver[48];
-    query_text((Entry){.platform = entry.platform}, CL_PLATFORM_NAME, platform, sizeof platform);
+    query_text((Entry){.cl = entry.cl, .platform = entry.platform}, CL_PLATFORM_NAME, platform,
+               sizeof platform);
     query_text(entry, CL_DEVICE_VERSION, version, sizeof version);
     query_text(entry, CL_DRIVER_VERSION, driver, sizeof driver);
     query_text(entry, CL_DEVICE_NAME, device->name, sizeof device->name);
     snprintf(device->driver, sizeof device->driver, "%s, %s, driver %s", platform, version, driver);
-    device->is_cpu = query(entry.device, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU;
-    device->compute_units = query_int(entry.device, CL_DEVICE_MAX_COMPUTE_UNITS);
-    device->clock_mhz = query_int(entry.device, CL_DEVICE_MAX_CLOCK_FREQUENCY);
+    device->is_cpu = query(entry, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU;
+    for (int p = HD_PRECISION_FLOAT; p <= HD_PRECISION_DOUBLE; p++)
+        device->lanes[p] = 1 | 4 | 8 | 16;
+    device->compute_units = query_int(entry, CL_DEVICE_MAX_COMPUTE_UNITS);
+    device->clock_mhz = query_int(entry, CL_DEVICE_MAX_CLOCK_FREQUENCY);
     /* NVIDIA's extensions: the build option -cl-nv-maxrregcount, and the query of the version. */
-    if (has_extension(entry.device, "cl_nv_compiler_options"))
-        device->nvidia_arch = 10 * query_int(entry.device, CAPABILITY_MAJOR) +
-                              query_int(entry.device, CAPABILITY_MINOR);
-    device->has_double = query(entry.device, CL_DEVICE_DOUBLE_FP_CONFIG) != 0;
-    device->has_wide_atomics = has_extension(entry.device, "cl_khr_int64_base_atomics");
-    device->has_timeout = has_timeout(entry.device);
-    find_unsupported(entry.device, device->unusable, sizeof device->unusable);
+    if (has_extension(entry, "cl_nv_compiler_options"))
+        device->nvidia_arch =
+            10 * query_int(entry, CAPABILITY_MAJOR) + query_int(entry, CAPABILITY_MINOR);
+    device->has_double = query(entry, CL_DEVICE_DOUBLE_FP_CONFIG) != 0;
+    device->has_wide_atomics = has_extension(entry, "cl_khr_int64_base_atomics");
+    device->has_timeout = has_timeout(entry);
+    find_unsupported(entry, device->unusable, sizeof device->unusable);
 }
 
-static HdStatus list_platforms(cl_platform_id platforms[MAX_PLATFORMS], cl_uint *count,
-                               HdError *error) {
-    cl_int code = clGetPlatformIDs(MAX_PLATFORMS, platforms, count);
+static HdStatus list_platforms(const HdOpenclLibrary *cl, cl_platform_id platforms[MAX_PLATFORMS],
+                               cl_uint *count, HdError *error) {
+    cl_int code = cl->clGetPlatformIDs(MAX_PLATFORMS, platforms, count);
     if (code != CL_SUCCESS || *count == 0)
         return hd_fail(error, HD_UNAVAILABLE,
                        "no OpenCL platform is installed (the ICD loader reports %s); a "
@@ -235,18 +242,65 @@ static HdStatus list_platforms(cl_platform_id platforms[MAX_PLATFORMS], cl_uint 
     return HD_OK;
 }
 
-static HdStatus list_devices(Entry *entries, int capacity, int *count, HdError *error) {
+/* Writes the name of PoCL's cache folder, by PoCL's rules. */
+static void find_pocl_cache(char folder[HD_MAX_PATH]) {
+    const char *named = getenv("POCL_CACHE_DIR"), *caches = getenv("XDG_CACHE_HOME"),
+               *home = getenv("HOME");
+    if (named != NULL)
+        snprintf(folder, HD_MAX_PATH, "%s", named);
+    else if (caches != NULL && caches[0] != '\0')
+        snprintf(folder, HD_MAX_PATH, "%s/pocl/kcache", caches);
+    else
+        snprintf(folder, HD_MAX_PATH, "%s/.cache/pocl/kcache", home != NULL ? home : "/tmp");
+}
+
+bool hd_pocl_lacks_cache(const char *driver, char fault[HD_POCL_FAULT_SIZE]) {
+    static const char pocl[] = "Portable Computing Language";
+    char folder[HD_MAX_PATH], entry[HD_MAX_PATH + 2];
+    HdError ignored;
+    if (strncmp(driver, pocl, strlen(pocl)) != 0)
+        return false;
+    find_pocl_cache(folder);
+    snprintf(entry, sizeof entry, "%s/x", folder);
+    if (hd_path_make_parents(entry, S_IRWXU, &ignored) == HD_OK && access(folder, W_OK) == 0)
+        return false;
+    snprintf(fault, HD_POCL_FAULT_SIZE,
+             "PoCL cannot write to its cache folder %s, expected POCL_CACHE_DIR to name a folder "
+             "for it",
+             folder);
+    return true;
+}
+
+static HdStatus fail_without_devices(const HdOpenclLibrary *cl, const cl_platform_id *platforms,
+                                     cl_uint count, cl_int code, HdError *error) {
+    char first[80] = "", name[80], fault[HD_POCL_FAULT_SIZE];
+    snprintf(fault, sizeof fault, "%s", hd_opencl_error_name(code));
+    for (cl_uint p = 0; p < count; p++) {
+        query_text((Entry){.cl = cl, .platform = platforms[p]}, CL_PLATFORM_NAME, name,
+                   sizeof name);
+        if (p == 0)
+            memcpy(first, name, sizeof first);
+        if (hd_pocl_lacks_cache(name, fault))
+            break;
+    }
+    return hd_fail(error, HD_UNAVAILABLE,
+                   "none of the %u installed OpenCL platforms (%s%s) has a device: %s",
+                   (unsigned)count, first, count > 1 ? ", ..." : "", fault);
+}
+
+static HdStatus list_devices(const HdOpenclLibrary *cl, Entry *entries, int capacity, int *count,
+                             HdError *error) {
     cl_platform_id platforms[MAX_PLATFORMS];
     cl_uint platform_count = 0;
     *count = 0;
-    HD_TRY(list_platforms(platforms, &platform_count, error));
+    HD_TRY(list_platforms(cl, platforms, &platform_count, error));
     const cl_device_type types =
         CL_DEVICE_TYPE_CPU | CL_DEVICE_TYPE_GPU | CL_DEVICE_TYPE_ACCELERATOR;
     cl_int last_code = CL_DEVICE_NOT_FOUND;
     for (cl_uint p = 0; p < platform_count && *count < capacity; p++) {
         cl_device_id devices[HD_MAX_DEVICES] = {NULL};
         cl_uint found = 0;
-        cl_int code = clGetDeviceIDs(platforms[p], types, HD_MAX_DEVICES, devices, &found);
+        cl_int code = cl->clGetDeviceIDs(platforms[p], types, HD_MAX_DEVICES, devices, &found);
         if (code != CL_SUCCESS) {
             last_code = code;
             continue;
@@ -254,39 +308,39 @@ static HdStatus list_devices(Entry *entries, int capacity, int *count, HdError *
         /* A driver may claim more devices than it lists. */
         for (cl_uint d = 0; d < found && d < HD_MAX_DEVICES && *count < capacity; d++)
             if (devices[d] != NULL)
-                entries[(*count)++] = (Entry){platforms[p], devices[d]};
+                entries[(*count)++] = (Entry){cl, platforms[p], devices[d]};
     }
     if (*count > 0)
         return HD_OK;
-    char name[80];
-    query_text((Entry){.platform = platforms[0]}, CL_PLATFORM_NAME, name, sizeof name);
-    return hd_fail(error, HD_UNAVAILABLE,
-                   "none of the %u installed OpenCL platforms (%s%s) has a device: %s",
-                   (unsigned)platform_count, name, platform_count > 1 ? ", ..." : "",
-                   hd_opencl_error_name(last_code));
+    return fail_without_devices(cl, platforms, platform_count, last_code, error);
 }
 
 HdStatus hd_opencl_enumerate(HdDevice *devices, int capacity, int *count, HdError *error) {
+    HdOpenclLibrary cl;
     Entry entries[HD_MAX_DEVICES];
-    HdStatus status = list_devices(entries, hd_min(capacity, HD_MAX_DEVICES), count, error);
+    *count = 0;
+    HD_TRY(hd_opencl_load_library(&cl, error));
+    HdStatus status = list_devices(&cl, entries, hd_min(capacity, HD_MAX_DEVICES), count, error);
     for (int i = 0; i < *count; i++)
         describe_device(&devices[i], entries[i], i);
     return status;
 }
 
-HdStatus hd_opencl_find(cl_device_id *device, int index, HdGpuFacts *facts, HdError *error) {
+HdStatus hd_opencl_find(const HdOpenclLibrary *cl, cl_device_id *device, int index,
+                        HdGpuFacts *facts, HdError *error) {
     Entry entries[HD_MAX_DEVICES];
     int count;
-    HD_TRY(list_devices(entries, HD_MAX_DEVICES, &count, error));
+    HD_TRY(list_devices(cl, entries, HD_MAX_DEVICES, &count, error));
     if (index < 0 || index >= count)
         return hd_fail(error, HD_UNAVAILABLE, "there is no device %d, only 0 to %d", index,
                        count - 1);
-    cl_device_id id = *device = entries[index].device;
+    const Entry entry = entries[index];
+    *device = entry.device;
     *facts = (HdGpuFacts){
-        .memory = query(id, CL_DEVICE_GLOBAL_MEM_SIZE),
-        .at_once = query(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE),
-        .native_lanes = {query_int(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT),
-                         query_int(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE)},
+        .memory = query(entry, CL_DEVICE_GLOBAL_MEM_SIZE),
+        .at_once = query(entry, CL_DEVICE_MAX_MEM_ALLOC_SIZE),
+        .native_lanes = {query_int(entry, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT),
+                         query_int(entry, CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE)},
     };
     return HD_OK;
 }

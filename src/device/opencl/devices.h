@@ -3,10 +3,9 @@
 #ifndef HD_DEVICE_OPENCL_DEVICES_H
 #define HD_DEVICE_OPENCL_DEVICES_H
 
-#define CL_TARGET_OPENCL_VERSION 120
-#include <CL/cl.h>
-
 #include "device/gpu/driver.h"
+#include "device/opencl/api.h"
+#include "system/path.h"
 
 /* Size limit of a driver's answers; a larger claim is an error of the driver. */
 enum { HD_OPENCL_MAX_BYTES = 1 << 26 };
@@ -15,7 +14,14 @@ enum { HD_OPENCL_MAX_BYTES = 1 << 26 };
 HdStatus hd_opencl_enumerate(HdDevice *devices, int capacity, int *count, HdError *error);
 
 /* Finds the device with that number. HD_UNAVAILABLE if no kernel can run on it. */
-HdStatus hd_opencl_find(cl_device_id *device, int index, HdGpuFacts *facts, HdError *error);
+HdStatus hd_opencl_find(const HdOpenclLibrary *cl, cl_device_id *device, int index,
+                        HdGpuFacts *facts, HdError *error);
+
+/* Returns whether the driver, whose description begins with its platform's name, is PoCL without a
+   cache folder that it can write to; then writes a sentence about that. Makes the folder if it can.
+   */
+enum { HD_POCL_FAULT_SIZE = HD_MAX_PATH + 120 };
+bool hd_pocl_lacks_cache(const char *driver, char fault[HD_POCL_FAULT_SIZE]);
 
 /* Returns the name of an OpenCL 1.2 error, such as "CL_OUT_OF_RESOURCES", or
    CL_PLATFORM_NOT_FOUND_KHR; otherwise "an unknown error". The text is static. */

@@ -52,7 +52,7 @@ static const struct {
     {"--cutoff", "0|0.5|1e-3|.5|1.e-1|0E+1",
      "|1|1.5|-0.1|nan|inf|abc|0.1x|0x.8p0| 0.5|+0.5|.|1e|0.5e-"},
     {"--max-error", "0.5|9", "|0|-1|1e9|abc"},
-    {"--lanes", "1|4|8|16", "|0|2|3|32|-4|abc|4x| 4"},
+    {"--lanes", "1|2|4|8|16", "|0|3|32|-4|abc|4x| 4"},
     {"--threads", "1|2|64", "|0|-1|1.5|abc|100000|99999999999999999999"},
     {"--pipeline", "auto|mega|wavefront|wavefront-uncompacted", "|Mega|wave|1"},
     {"--geometry", "solids|triangles", "|solid|Triangles|1"},
@@ -63,7 +63,7 @@ static const struct {
     {"--max-launch", "1|12.5|10000", "|0|0.5|-1|10001|abc"},
     {"--precision", "float|double", "|single|Float|64"},
     {"--math", "strict|fast", "|loose|Strict"},
-    {"--aa", "grid|multijitter|adaptive", "|Grid|1"},
+    {"--aa", "grid|multijitter", "|Grid|1"},
     {"--backend", "auto|c|opencl|cuda", "|vulkan|C| c"},
     {"--set", "a=1|a.b=", "|abc|=1"},
     {"--stats", "-|a.jsonl", ""},
@@ -299,7 +299,7 @@ TEST(help_has_topics) {
 
 /* Each value reaches its own member. */
 TEST(values_reach_their_members) {
-    expect_parsed("hedron render --samples 3 --depth 5 --cutoff .25 --aa adaptive "
+    expect_parsed("hedron render --samples 3 --depth 5 --cutoff .25 --aa multijitter "
                   "--max-error 2 --crop 1x2+3+4 --size 6X7 --geometry triangles "
                   "--divisions 8 --accel bvh --frames 0-9 --device c:0 --stats - "
                   "--again --frame-lines --verbose");
@@ -307,7 +307,7 @@ TEST(values_reach_their_members) {
     assert_true(options.scene.samples == 3 && options.scene.depth == 5 &&
                 options.scene.divisions == 8);
     assert_true(options.scene.cutoff == 0.25 && options.scene.max_error == 2.0);
-    assert_int_equal(options.scene.sampling, HD_SAMPLING_ADAPTIVE);
+    assert_int_equal(options.scene.sampling, HD_SAMPLING_MULTIJITTER);
     assert_true(crop->width == 1 && crop->height == 2 && crop->left == 3 && crop->top == 4);
     assert_true(options.scene.size.width == 6 && options.scene.size.height == 7);
     assert_int_equal(options.scene.geometry, HD_GEOMETRY_TRIANGLES);

@@ -15,7 +15,7 @@ static const HdDevice devices[] = {
     [GPU_WITHOUT_ATOMICS] = {.name = "a GPU"},
     [SHOWING_GPU] = {.has_timeout = true, .has_wide_atomics = true},
     [SHOWING_GPU_WITHOUT_ATOMICS] = {.has_timeout = true},
-    [CPU] = {.is_cpu = true, .has_double = true, .max_lanes = {16, 8}},
+    [CPU] = {.is_cpu = true, .has_double = true, .lanes = {1 | 4 | 8 | 16, 1 | 4 | 8}},
 };
 
 /* A display must not freeze for as long as a tree of hundreds of levels takes. */
@@ -74,12 +74,13 @@ TEST(a_wavefront_of_groups_needs_wide_atomics) {
     expect_unsupported(&devices[CPU], waves, NULL);
 }
 
-TEST(more_lanes_than_registers_are_refused) {
+TEST(lanes_that_the_device_lacks_are_refused) {
     static const struct {
-        int most;
+        int offered;
         const char *unsupported_reason; /* to 16 lanes */
-    } cases[] = {{8, "the processor has registers for 1, 4 or 8 lanes in this precision"},
-                 {4, "the processor has registers for 1 or 4 lanes in this precision"},
+    } cases[] = {{1 | 4 | 8, "the processor has registers for 1, 4 or 8 lanes in this precision"},
+                 {1 | 2 | 4, "the processor has registers for 1, 2 or 4 lanes in this precision"},
+                 {1 | 4, "the processor has registers for 1 or 4 lanes in this precision"},
                  {1, "the processor has registers for 1 lane in this precision"},
                  {0, NULL}}; /* none is known */
     HdDevice cpu = devices[CPU];
@@ -87,10 +88,13 @@ TEST(more_lanes_than_registers_are_refused) {
     expect_unsupported(&cpu, options, NULL);
     options.precision = HD_PRECISION_DOUBLE;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        cpu.max_lanes[HD_PRECISION_DOUBLE] = cases[i].most;
+        cpu.lanes[HD_PRECISION_DOUBLE] = cases[i].offered;
         expect_unsupported(&cpu, options, cases[i].unsupported_reason);
     }
-    cpu.max_lanes[HD_PRECISION_DOUBLE] = options.lanes = 8;
+    options = (HdRenderOptions){.lanes = 2};
+    expect_unsupported(&cpu, options,
+                       "the processor has registers for 1, 4, 8 or 16 lanes in this precision");
+    options.lanes = 8;
     expect_unsupported(&cpu, options, NULL);
 }
 
@@ -115,7 +119,7 @@ TEST(supported_requests_are_possible) {
     };
     static const HdRenderOptions impossible[] = {
         {.lanes = -1},
-        {.lanes = 2},
+        {.lanes = 3},
         {.threads = -1},
         {.threads = 1025},
         {.block = -32},

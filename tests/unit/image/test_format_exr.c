@@ -6,8 +6,9 @@
 /* Two chunks of 16 lines and a part of one. */
 enum { WIDTH = 13, HEIGHT = 35, VALUES = WIDTH * HEIGHT * 3 };
 
-static const HdPictureStyle HALF = {HD_CURVE_SRGB, 8}, FLOAT = {HD_CURVE_SRGB, 32};
-static const HdPictureLabel LABEL = {.scene = "a.json", .options = "--depth 3", .frame = 7};
+static const HdPictureStyle HALF = {HD_CURVE_SRGB, 8, false}, FLOAT = {HD_CURVE_SRGB, 32, false};
+static const HdPictureLabel LABEL = {
+    .scene = "a.json", .options = "--depth 3", .frame = 7, .crop = {640, 480, 100, 417}};
 
 static HdError error;
 
@@ -85,22 +86,21 @@ static float number_at(int pixel, int which) {
 
 /* Channels of the first hit are in the order of the names. */
 TEST(layers_become_channels) {
-    enum { COUNT = 8, BOUND = 2 };
-    static const char *const names[COUNT] = {"A",        "Z",        "bound",  "normal.X",
-                                             "normal.Y", "normal.Z", "object", "samples"};
+    enum { COUNT = 7, BOUND = 2 };
+    static const char *const names[COUNT] = {"A",        "Z",        "bound", "normal.X",
+                                             "normal.Y", "normal.Z", "object"};
     HdFrame frame;
     HdPictureReader *reader;
     HdPictureValue row[WIDTH * 3];
     assert_int_equal(hd_frame_create(&frame, WIDTH, HEIGHT, &error), HD_OK);
     assert_int_equal(hd_frame_add_layers(&frame, 2 * HD_LAYER_BIT(HD_LAYER_ALPHA) - 1, &error),
                      HD_OK);
-    assert_int_equal(frame.first_floats, COUNT - HD_EFFORT_FLOATS);
+    assert_int_equal(frame.first_floats, COUNT - 1);
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         for (int k = 0; k < frame.first_floats; k++)
             frame.first[i * frame.first_floats + k] = number_at(i, k < BOUND ? k : k + 1);
         frame.first[i * frame.first_floats + HD_FIRST_ALPHA] = (float)(i % 5) / 4.0F;
-        frame.effort[i * HD_EFFORT_FLOATS] = number_at(i, COUNT - 1);
-        frame.effort[i * HD_EFFORT_FLOATS + 1] = number_at(i, BOUND);
+        frame.bounds[i] = number_at(i, BOUND);
     }
     /* the first pixel hits nothing */
     frame.first[HD_FIRST_DEPTH] = frame.first[HD_FIRST_OBJECT] = 0.0F;
@@ -167,6 +167,14 @@ static unsigned char *find(const char *text) {
             return bytes + i;
     fail_msg("there is no %s in the file", text);
     return NULL;
+}
+
+TEST(a_crop_keeps_its_place) {
+    static const int data[] = {100, 417, 100 + WIDTH - 1, 417 + HEIGHT - 1},
+                     display[] = {0, 0, 639, 479};
+    get_bytes();
+    assert_memory_equal(find("dataWindow") + 11 + 6 + 4, data, sizeof data);
+    assert_memory_equal(find("displayWindow") + 14 + 6 + 4, display, sizeof display);
 }
 
 TEST(other_kinds_are_refused) {

@@ -29,12 +29,13 @@ TEST(styles_that_a_format_lacks_are_refused) {
         const char *path;
         HdPictureStyle style;
         const char *refusal;
-    } cases[] = {{"a.gif", {HD_CURVE_SRGB, 8}, NULL},
-                 {"a.gif", {HD_CURVE_LINEAR, 8}, "a.gif cannot be linear, because GIF files"},
-                 {"a.png", {HD_CURVE_SRGB, 32}, "a.png cannot have 32 bits a channel"},
-                 {"a.exr", {HD_CURVE_LINEAR, 32}, NULL},
-                 {"a.mkv", {HD_CURVE_SRGB, 32}, NULL},
-                 {"a.other", {HD_CURVE_LINEAR, 32}, NULL}};
+    } cases[] = {
+        {"a.gif", {HD_CURVE_SRGB, 8, false}, NULL},
+        {"a.gif", {HD_CURVE_LINEAR, 8, false}, "a.gif cannot be linear, because GIF files"},
+        {"a.png", {HD_CURVE_SRGB, 32, false}, "a.png cannot have 32 bits a channel"},
+        {"a.exr", {HD_CURVE_LINEAR, 32, false}, NULL},
+        {"a.mkv", {HD_CURVE_SRGB, 32, false}, NULL},
+        {"a.other", {HD_CURVE_LINEAR, 32, false}, NULL}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         HdError error = {0};
         assert_int_equal(hd_format_check_style(cases[i].path, &cases[i].style, &error),

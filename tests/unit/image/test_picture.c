@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-#define _XOPEN_SOURCE 700
+#define _GNU_SOURCE
 
 #include <signal.h>
 #include <sys/resource.h>
 
+#include <zlib.h>
+
 #include "base/hash.h"
 #include "picture_files.h"
 
-static const HdPictureStyle LINEAR_8 = {HD_CURVE_LINEAR, 8};
+static const HdPictureStyle LINEAR_8 = {HD_CURVE_LINEAR, 8, false};
 static HdError error;
 static unsigned char bytes[65536];
 
@@ -47,10 +49,10 @@ TEST(textures_come_off_the_curve) {
         const char *path;
         HdPictureStyle style;
         double tolerance;
-    } files[] = {{"off.PNG", {HD_CURVE_SRGB, 16}, 5e-5},
-                 {"off.png", {HD_CURVE_SRGB, 8}, 5e-3},
-                 {"off/a/b.data", {HD_CURVE_SRGB, 8}, 5e-3},
-                 {"png", {HD_CURVE_LINEAR, 8}, 1e-7}};
+    } files[] = {{"off.PNG", {HD_CURVE_SRGB, 16, false}, 5e-5},
+                 {"off.png", {HD_CURVE_SRGB, 8, false}, 5e-3},
+                 {"off/a/b.data", {HD_CURVE_SRGB, 8, false}, 5e-3},
+                 {"png", {HD_CURVE_LINEAR, 8, false}, 1e-7}};
     for (size_t f = 0; f < sizeof files / sizeof *files; f++) {
         HdTexture texture;
         HdFrame frame = make_frame(259, 7);
@@ -69,6 +71,40 @@ TEST(textures_come_off_the_curve) {
     assert_int_equal(read_bytes("png", bytes, sizeof bytes), 8 + 259 * 7 * 4);
     assert_memory_equal(bytes, "\3\1\0\0\7\0\0\0", 8);
     assert_int_equal(bytes[11], 255);
+}
+
+/* The colours are those of the objects alone, with the background taken away. */
+TEST(png_has_alpha_if_the_style_asks_for_it) {
+    static const float seen[] = {0.5f, 0.25f, 1.0f, 0.0f, 0.125f, 0.5f, 0.25f, 0.25f, 0.25f},
+                       alphas[] = {1.0f, 0.0f, 0.25f};
+    static const unsigned char png8[] = {128, 64, 255, 255, 0, 0, 0, 0, 255, 159, 0, 64},
+                               png16[] = {0xff, 0xff, 0x9f, 0xff, 0, 0, 0x40, 0};
+    const HdPictureLabel label = {
+        .scene = "", .options = "", .background = hd_vec3(0.0, 0.125, 0.5)};
+    for (int k = 0; k < 3; k++) {
+        HdPictureStyle style = {HD_CURVE_LINEAR, k == 1 ? 16 : 8, k < 2};
+        unsigned char raw[64];
+        unsigned long size = sizeof raw;
+        HdFrame frame;
+        assert_int_equal(hd_frame_create(&frame, 3, 1, &error), HD_OK);
+        assert_int_equal(hd_frame_add_layers(&frame, HD_LAYER_BIT(HD_LAYER_ALPHA), &error), HD_OK);
+        memcpy(frame.rgb, seen, sizeof seen);
+        memcpy(frame.first, alphas, sizeof alphas);
+        write_frame(&frame, &hd_format_png, &style, &label, "alpha.png");
+        const size_t count = read_bytes("alpha.png", bytes, sizeof bytes);
+        unsigned char *data = memmem(bytes, count, "IDAT", 4);
+        assert_int_equal(bytes[25], k < 2 ? 6 : 2);
+        assert_int_equal(uncompress(raw, &size, data + 4, (unsigned long)(bytes + count - data)),
+                         Z_OK);
+        assert_int_equal(size, k == 0 ? 13 : k == 1 ? 25 : 10);
+        const int step = k == 1 ? 8 : 4;
+        for (int i = 1 + step; i < (int)size && k < 2; i++) /* each byte less that to the left */
+            raw[i] = (unsigned char)(raw[i] + raw[i - step]);
+        if (k == 0)
+            assert_memory_equal(raw + 1, png8, sizeof png8);
+        if (k == 1)
+            assert_memory_equal(raw + 1 + 16, png16, sizeof png16);
+    }
 }
 
 /* A limit on the size of files simulates a full disk: large pictures fail while they are written,
@@ -130,7 +166,7 @@ TEST(targets_that_are_no_files_are_refused) {
 }
 
 static void check_refused(const void *file, size_t size, const char *part) {
-    HdTexture texture = {1, 1, NULL};
+    HdTexture texture = {.width = 1, .height = 1};
     assert_int_equal(hd_texture_decode(&texture, file, size, "a name", HD_CURVE_LINEAR, &error),
                      HD_BAD_INPUT);
     assert_int_equal(texture.width, 0);
@@ -155,13 +191,20 @@ TEST(wrong_data_is_refused) {
         {"\1\0\0\0\1\0\0\0\0\0\0\0", 11, "has 11 bytes, expected 12"},
         {"\1\0\0\0\1\0\0\0\0\0\0\0\0", 13, "has 13 bytes, expected 12"},
         {"\1\0\0\0\1\0\0", 7, "has 7 bytes"},
-        {"", 0, "has 0 bytes"},
+        {"", 0, " is an empty file, expected PNG, JPEG or the data format"},
         {"# A picture as text", 19, "neither PNG, JPEG nor the data format"},
         {"GIF89a\1\0\1\0", 10, " is a GIF picture, expected PNG, JPEG or the data format"},
         {"RIFF\x24\0\0\0WEBPVP8 ", 16, "is a WebP picture"},
         {"BM\x46\0\0\0\0\0\0\0", 10, "is a BMP picture"},
-        {"II*\0\x08\0\0\0\0\0", 10, "is a TIFF picture"},
         {"MM\0*\0\0\0\x08", 8, "is a TIFF picture"},
+        {"\0\0\0 ftypavif\0\0\0\0", 16, "is an AVIF picture"},
+        {" \n<!DOCTYPE html><html>", 23, "is a web page (HTML)"},
+        {"\xef\xbb\xbf<?xml?><svg/>", 16, "is an SVG or XML file"},
+        {"version https://git-lfs.github.com/spec/v1\n", 43, "is a pointer of Git LFS"},
+        {"\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x20\x28\1\2\3\4", 22, "is a TGA picture"},
+        {"\0\1\x09\0\0\0\1\x18\0\0\0\0\4\0\4\0\x08\0", 18, "is a TGA picture"},
+        {"\0\0\7\0\0\0\0\0\0\0\0\0\1\0\1\0\x20\x28", 18, "neither PNG, JPEG"},
+        {"\xff\0\0\xff\xff TRUEVISION-XFILE.", 24, "is a TGA picture"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         check_refused(cases[i].bytes, cases[i].size, cases[i].part);
@@ -174,7 +217,7 @@ TEST(the_largest_side_is_read) {
         hd_texture_decode(&texture, largest, sizeof largest, "x", HD_CURVE_LINEAR, &error), HD_OK);
     assert_int_equal(texture.height, 65535);
     hd_texture_clear(&texture);
-    HdTexture kept = {1, 1, NULL};
+    HdTexture kept = {.width = 1, .height = 1};
     write_bytes("sparse", "", 0);
     assert_int_equal(truncate("sparse", (off_t)5 << 30), 0);
     assert_int_equal(hd_texture_read(&kept, "sparse", HD_CURVE_LINEAR, &error), HD_BAD_INPUT);
@@ -182,9 +225,17 @@ TEST(the_largest_side_is_read) {
     expect_contains(error.message, "sparse: it has 5368709120 bytes, expected at most 4294967296");
 }
 
+static void expect_hash(HdTexture *texture, const char *name, uint64_t expected) {
+    const size_t texels = (size_t)texture->width * (size_t)texture->height;
+    const uint64_t hash = hd_hash_numbers(HD_HASH_START, texture->texels, texels * 6, 2);
+    if (hash != expected)
+        fail_msg("%s has the hash 0x%016llx", name, (unsigned long long)hash);
+    hd_texture_clear(texture);
+}
+
 /* The hashes are of other programs' output, each channel as 16 bits, the lower ones first. For PNG
    (named by colour type, bits and whether it is interlaced) that is a reader in another language,
-   for JPEG `djpeg -nosmooth -dct int`, with whichever libjpeg is here. */
+   for JPEG Pillow, with the libjpeg-turbo that it brings. */
 TEST(every_kind_is_read) {
     static const struct {
         const char *name;
@@ -208,20 +259,33 @@ TEST(every_kind_is_read) {
                  {"png6_8_0", UINT64_C(0x161225391189926b)},
                  {"jpeg_grey", UINT64_C(0x5dbe58cec83d2d6f)},
                  {"jpeg_444", UINT64_C(0x7a826930a8f8e845)},
-                 {"jpeg_422", UINT64_C(0xe9664413da8bca87)},
-                 {"jpeg_420", UINT64_C(0x0de0eebb0d6c817d)},
-                 {"jpeg_440", UINT64_C(0x25272527f8536a6d)},
-                 {"jpeg_progressive", UINT64_C(0xbc100507f1d086a7)}};
+                 {"jpeg_422", UINT64_C(0x95f48d9ed2fac121)},
+                 {"jpeg_420", UINT64_C(0x39b7b84c61525e9d)},
+                 {"jpeg_440", UINT64_C(0xcd326e9636f98b4b)},
+                 {"jpeg_progressive", UINT64_C(0xb0b1b8aa8d615227)}};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         HdTexture texture;
         const size_t size = load_texture_file(files[i].name, bytes, sizeof bytes);
         if (hd_texture_decode(&texture, bytes, size, "x", HD_CURVE_LINEAR, &error) != HD_OK)
             fail_msg("%s: %s", files[i].name, error.message);
-        const size_t texels = (size_t)texture.width * (size_t)texture.height;
-        const uint64_t hash = hd_hash_bytes(HD_HASH_START, texture.texels, texels * 6);
-        if (hash != files[i].hash)
-            fail_msg("%s has the hash 0x%016llx", files[i].name, (unsigned long long)hash);
-        hd_texture_clear(&texture);
+        expect_hash(&texture, files[i].name, files[i].hash);
+    }
+}
+
+/* The hashes are of Pillow's alpha, and of the mean of its channels. */
+TEST(masks_are_alpha_or_grey) {
+    static const struct {
+        const char *name;
+        uint64_t hash;
+    } files[] = {{"png6_8_0", UINT64_C(0xf8a437ac0d5e91bf)},
+                 {"png3_4_1_trns", UINT64_C(0x3a47d5cdb43d84ed)},
+                 {"png2_8_0", UINT64_C(0xde8d8b0e5087cb3e)}};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        HdTexture mask;
+        const size_t size = load_texture_file(files[i].name, bytes, sizeof bytes);
+        write_bytes("mask", bytes, size);
+        assert_int_equal(hd_mask_read(&mask, "mask", &error), HD_OK);
+        expect_hash(&mask, files[i].name, files[i].hash);
     }
 }
 

@@ -24,7 +24,7 @@ static bool is_whole(void) {
 
 /* Reads the file into `bytes`. */
 static void write_picture(const HdPictureLabel *label) {
-    const HdPictureStyle style = {HD_CURVE_SRGB, 8};
+    const HdPictureStyle style = {HD_CURVE_SRGB, 8, false};
     HdFrame frame;
     assert_int_equal(hd_frame_create(&frame, WIDTH, HEIGHT, &error), HD_OK);
     for (int i = 0; i < WIDTH * HEIGHT * 3; i++)

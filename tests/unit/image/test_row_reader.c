@@ -28,7 +28,7 @@ TEST(png_has_the_codes_of_the_file) {
     unsigned char head[45];
     for (int bits = 8; bits <= 16; bits += 8)
         for (int curve = HD_CURVE_LINEAR; curve <= HD_CURVE_SRGB; curve++) {
-            const HdPictureStyle style = {(HdCurve)curve, bits};
+            const HdPictureStyle style = {(HdCurve)curve, bits, false};
             uint16_t codes[VALUES];
             uint8_t bytes[VALUES];
             assert_int_equal(hd_picture_write(&frame, &style, "a.png", &error), HD_OK);
@@ -54,7 +54,7 @@ TEST(png_has_the_codes_of_the_file) {
 
 /* Any style, and values that no other format can hold. */
 TEST(pfm_has_the_values_of_the_frame) {
-    const HdPictureStyle style = {HD_CURVE_SRGB, 8};
+    const HdPictureStyle style = {HD_CURVE_SRGB, 8, false};
     HdFrame frame = make_frame();
     HdPictureValue values[VALUES];
     unsigned char bytes[13 + 4 * VALUES];
@@ -125,7 +125,7 @@ TEST(other_files_are_refused) {
 
 /* A truncated PNG is refused at the row where it ends, or after the last one. */
 TEST(cut_files_are_refused) {
-    const HdPictureStyle style = {HD_CURVE_SRGB, 8};
+    const HdPictureStyle style = {HD_CURVE_SRGB, 8, false};
     HdFrame frame = make_frame();
     HdPictureFacts facts;
     HdPictureValue values[VALUES];

@@ -153,7 +153,7 @@ TEST(test_official_example) {
                             .corners = {{-5, -5, -1}, {-5, 5, -1}, {5, 5, -1}, {5, -5, -1}},
                             .material = {SURFACE, .colour = {0.0, 1.0, 0.0}, .specular = 0.5,
                                          .reflection = 0.5}}},
-        .output = {"out/img_%d.data", {{HD_CURVE_LINEAR, 8}, 30}},
+        .output = {"out/img_%d.data", {{HD_CURVE_LINEAR, 8, false}, 30, false}},
         .texture_path = "~/floor.data",
         .texture_curve = HD_CURVE_LINEAR};
     expect_parsed(official, 4);

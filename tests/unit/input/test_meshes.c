@@ -2,7 +2,10 @@
 /* Meshes of scene files: sharing between entries, their normals and textures, and errors. */
 #define _XOPEN_SOURCE 700
 
+#include <math.h>
+
 #include "input/files.h"
+#include "scene/placement.h"
 #include "scene_text.h"
 #include "test_folder.h"
 
@@ -59,13 +62,16 @@ static const char corner_text[] = "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nvn 0 0 1\
 TEST(test_entries_share_meshes) {
     write_text("a.obj", corner_text);
     write_text("b.obj", corner_text);
-    expect_loaded(SCENE("{\"file\": \"b.obj\"}, {\"file\": \"a.obj\", \"position\": [1, 2, 3]},\n"
-                        "{\"file\": \"b.obj\", \"scale\": 3, \"material\": \"m\"},\n"
-                        "{\"file\": \"a.obj\", \"normals\": \"smooth\"},\n"
-                        "{\"file\": \"a.obj\", \"normals\": \"smooth\", \"crease\": 91},\n"
-                        "{\"file\": \"a.obj\", \"normals\": \"smooth\", \"crease\": 40},\n"
-                        "{\"file\": \"a.obj\", \"normals\": \"flat\"},\n"
-                        "{\"file\": \"a.obj\", \"normals\": \"flat\", \"crease\": 3}"));
+    expect_loaded(
+        SCENE("{\"file\": \"b.obj\"}, {\"file\": \"a.obj\", \"position\": [1, 2, 3]},\n"
+              "{\"file\": \"b.obj\", \"scale\": 3, \"material\": \"m\"},\n"
+              "{\"file\": \"a.obj\", \"normals\": \"smooth\"},\n"
+              "{\"file\": \"a.obj\", \"normals\": \"smooth\", \"crease\": 91},\n"
+              "{\"file\": \"a.obj\", \"normals\": \"smooth\", \"crease\": 40, \"scale\": 2},\n"
+              "{\"file\": \"a.obj\", \"normals\": \"flat\"},\n"
+              "{\"file\": \"a.obj\", \"normals\": \"flat\", \"crease\": 3, \"scale\": 2},\n"
+              "{\"file\": \"b.obj\", \"material\": \"m\"}"));
+    expect_contains(notes.text, "meshes: 1 of them is in the place of an earlier one");
     static const int meshes[] = {0, 1, 0, 2, 3, 2, 4, 4};
     const HdScene *scene = &file.scene;
     assert_int_equal(scene->mesh_count, 5);
@@ -120,7 +126,7 @@ TEST(test_ambient_and_strictness) {
     write_text("k.mtl", "newmtl k\nKa 1 1 1\nKd nan\nPr 1\n");
     write_text("k.obj", "mtllib k.mtl\nusemtl k\nf 1\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf\n");
     expect_loaded(SCENE("{\"file\": \"k.obj\"}, {\"file\": \"k.obj\", \"ambient\": 0.5},"
-                        "{\"file\": \"k.obj\", \"ambient\": 0}"));
+                        "{\"file\": \"k.obj\", \"ambient\": 0, \"position\": [1, 0, 0]}"));
     for (int i = 0; i < 2; i++)
         expect_near(file.scene.meshes[i].materials[0].material.ambient, 0.5 * i, 0.0);
 #define SHORT  "k.obj: line 3: a face has 1 corner, expected at least 3; it is left out (2 times)\n"
@@ -133,6 +139,50 @@ TEST(test_ambient_and_strictness) {
                     "meshes[0].file: " SHORT "meshes[0].file: " WRONG);
     assert_string_equal(notes.text, UNUSED);
     is_strict = false;
+}
+
+/* The box of the corner is (0, 0, 0) to (2, 2, 2); that of its corners, turned, is smaller. */
+TEST(meshes_are_fitted_and_seen) {
+    static const struct {
+        const char *keys;
+        double lower[3], upper[3];
+        HdSight sight;
+    } cases[] = {
+        {"\"position\": [1, 2, 3]", {1, 2, 3}, {3, 4, 5}, HD_SIGHT_WHOLE},
+        {"\"up\": \"y\"", {0, -2, 0}, {2, 0, 2}, HD_SIGHT_WHOLE},
+        {"\"scale\": [-1, 1, 3]", {-2, 0, 0}, {0, 2, 6}, HD_SIGHT_WHOLE},
+        {"\"size\": 1, \"position\": [5, 6, 7]", {4.5, 5.5, 7}, {5.5, 6.5, 8}, HD_SIGHT_WHOLE},
+        {"\"size\": 6, \"up\": \"y\", \"scale\": [2, -1, 1], \"position\": [0, 0, -9]",
+         {-3, -1.5, -9},
+         {3, 1.5, -6},
+         HD_SIGHT_WHOLE},
+        {"\"size\": 2, \"rotation\": [0, 180, 0]", {-1, -1, 0}, {1, 1, 2}, HD_SIGHT_WHOLE},
+        {"\"size\": 2, \"rotation\": [45, 0, 0]",
+         {-1, -M_SQRT2, 0},
+         {1, M_SQRT2, M_SQRT2},
+         HD_SIGHT_WHOLE},
+        {"\"position\": [31, 0, 0]", {31, 0, 0}, {33, 2, 2}, HD_SIGHT_NONE},
+        {"\"position\": [29, -1, -1]", {29, -1, -1}, {31, 1, 1}, HD_SIGHT_PART},
+        {"\"position\": [0, 0, 12]", {0, 0, 12}, {2, 2, 14}, HD_SIGHT_PART},
+        {"\"position\": [0, 0, 14]", {0, 0, 14}, {2, 2, 16}, HD_SIGHT_NONE},
+        {"\"position\": [0, -20, 0]", {0, -20, 0}, {2, -18, 2}, HD_SIGHT_NONE},
+    };
+    write_text("a.obj", corner_text);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[512];
+        HdVec3 lower, upper;
+        HdCamera camera;
+        snprintf(text, sizeof text, SCENE("{\"file\": \"a.obj\", %s}"), cases[i].keys);
+        expect_loaded(text);
+        hd_instance_box(&file.scene, 0, &lower, &upper);
+        const double *low = cases[i].lower, *high = cases[i].upper;
+        expect_near(hd_largest(hd_sub(lower, hd_vec3(low[0], low[1], low[2]))), 0.0, 1e-12);
+        expect_near(hd_largest(hd_sub(upper, hd_vec3(high[0], high[1], high[2]))), 0.0, 1e-12);
+        assert_int_equal(hd_camera_at(&camera, &file.scene, 0, &error), HD_OK);
+        if (hd_instance_sight(&file.scene, 0, &camera) != cases[i].sight)
+            fail_msg("%s: sight", cases[i].keys);
+        hd_scene_file_free(&file);
+    }
 }
 
 static const char textured_text[] = "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
@@ -165,6 +215,19 @@ TEST(test_textures) {
         }
         expect_vector(mesh->materials[mesh->material_of[2]].material.colour, 0.5, 0.25, 1.0);
     }
+    hd_scene_file_free(&file);
+    /* A picture that repeats in one place and not in another; a mask. */
+    write_text("t/u.obj", "mtllib u.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0.5 0.5\nvt 1.5 0\n"
+                          "usemtl in\nf 1/1 2/1 3/1\nusemtl out\nf 1/1 2/2 4/1\n");
+    write_text("t/u.mtl", "newmtl in\nmap_Kd grey.data\nmap_d grey.data\nnewmtl out\n"
+                          "map_Kd grey.data\nmap_d none.png\n");
+    expect_loaded(SCENE("{\"file\": \"t/u.obj\"}"));
+    assert_int_equal(file.scene.picture_count, 3);
+    const HdMeshMaterial *in = file.scene.meshes[0].materials, *out = in + 1;
+    const HdPicture *pictures = file.scene.pictures;
+    assert_int_equal(pictures[in->picture].is_clamped - pictures[out->picture].is_clamped, 1);
+    assert_true(pictures[in->mask_picture].texture.texels[0] == 128 * 257 && out->mask_picture < 0);
+    expect_contains(notes.text, "materials with this mask have no holes");
     hd_scene_file_free(&file);
     write_text("t/none.png", "this is no picture");
     expect_loaded(SCENE("{\"file\": \"t/t.obj\"}"));

@@ -39,8 +39,16 @@ static const struct Range {
     {"materials.glass.inner_reflection", "0", "0.93", "-1e-9", "1.01", "a number from 0 to 1"},
     {"solids[1].edge_lights.per_edge", "0", "3332", "-1", "100001", "an integer from 0 to 100000"},
     {"solids[1].edge_lights.colours[1][2]", "0", "1", "-1e-9", "1.001", "a number from 0 to 1"},
-    {"meshes[0].scale[1]", "1e-12", "1e12", "-1", "2e12", "a number from 1e-12 to 1e12"},
+    {"meshes[0].scale[1]", "1e-12", "1e12", "0", "2e12",
+     "a number from 1e-12 to 1e12, or its negative"},
+    {"meshes[0].scale[2]", "-1e12", "-1e-12", "-2e12", "-1e-13",
+     "a number from 1e-12 to 1e12, or its negative"},
+    {"meshes[0].size", "1e-12", "1e12", "0", "2e12", "a number from 1e-12 to 1e12"},
     {"lights[0].intensity", "0", "1e12", "-1e-300", "1.1e12", "a number from 0 to 1e12"},
+    {"output.frames_per_second", "1", "240", "0", "241",
+     "an integer or \"n000/1001\", n from 1 to 240"},
+    {"output.frames_per_second", "1000/1001", "240000/1001", "23.976", "-24",
+     "an integer or \"n000/1001\", n from 1 to 240"},
     {"floor.corners[0][2]", "-20", "-20", "-1.1e12", "1.1e12", "a number from -1e12 to 1e12"},
 };
 
@@ -89,9 +97,10 @@ static const struct {
     {"camera.target", "[1, 2]",
      "is an array of 2 elements, expected three numbers, each a number from -1e12 to 1e12"},
     {"solids[0].centre", "7", "is 7, expected three numbers, each a number from -1e12 to 1e12"},
-    {"meshes[0].scale", "2e12", "is 2e12, expected a number from 1e-12 to 1e12"},
+    {"meshes[0].scale", "2e12", "is 2e12, expected a number from 1e-12 to 1e12, or its negative"},
     {"meshes[0].scale", "[1,1]",
-     "is an array of 2 elements, expected one number or three, each a number from 1e-12 to 1e12"},
+     "is an array of 2 elements, expected one number or three, each a number from 1e-12 to 1e12, "
+     "or its negative"},
     {"solids[0].kind", "7",
      "is 7, expected \"tetrahedron\", \"cube\", \"octahedron\", \"dodecahedron\" or "
      "\"icosahedron\""},
@@ -121,10 +130,16 @@ static const struct {
     {"floor.corners", "[[0,0,0],[0,0,0],[0,0,0],[0,0,null]]", "[3][2] is null, expected a number"},
     /* names of files */
     {"output.path", "film.avi",
-     "is \"film.avi\", expected the name of a film (.mp4, .mkv or .gif) or of a picture (.png, "
+     "is \"film.avi\", expected the name of a film (.mp4, .mov, .webm, .mkv or .gif) or of a "
+     "picture (.png, "
      ".exr, .pfm or .data)"},
     {"output.path", "%d_%d.png", "cannot be used: the pattern \"%d_%d.png\" has 2 frame numbers"},
-    {"output.path", "#.mp4", "is \"#.mp4\", expected a film without a number"},
+    {"output.path", "#/%5.png", "cannot be used: the pattern \"#/%5.png\" has \"%5.p\""},
+    {"output.path", "%d.mp4", "is \"%d.mp4\", expected a film without a number"},
+    {"output.frames_per_second", "24001/1001", "is a string, \"24001/1001\", expected an integer"},
+    {"output.frames_per_second", "241000/1001", "is a string, \"241000/1001\", expected an int"},
+    {"output.frames_per_second", "024000/1001", "is a string, \"024000/1001\", expected an int"},
+    {"output.frames_per_second", "24000/1001.", "is a string, \"24000/1001.\", expected an int"},
     {"output.path", "\"a\\n.png\"",
      "is a string, \"a\\u000a.png\", expected a name without control characters"},
     {"output.path", "\"a\\u009b.png\"", "is a string, \"a\\u009b.png\", expected a name without "},
@@ -186,7 +201,7 @@ TEST(test_keys_with_other_names) {
          "Color colour ior index_of_refraction transparency transmission opacity "
          "transmission emission ambient Diffuse diffuse"},
         {"lights[0].", "color colour"},
-        {"meshes[0].", "centre position size scale path file smooth normals angle crease"},
+        {"meshes[0].", "centre position path file smooth normals angle crease"},
         {"output.", "fps frames_per_second file path"},
         {"floor.texture.", "gamma curve path file"},
         {"image.", "widht width"},

@@ -55,8 +55,9 @@ TEST(test_every_key) {
          HD_NORMALS_SMOOTH,
          25.0,
          0.0,
-         {0, {11.0, 12.0, 13.0}, {40.0, 50.0, 60.0}, {1.0, 2.0, 3.0}, true, dark}},
-        {(char[]){"other.obj"}, HD_NORMALS_FLAT, 40.0, 0.25, {.scale = {0.5, 0.5, 0.5}}}};
+         6.0,
+         {0, 0, HD_UP_Y, {11.0, 12.0, 13.0}, {40.0, 50.0, 60.0}, {1.0, 2.0, -3.0}, true, dark}},
+        {(char[]){"other.obj"}, HD_NORMALS_FLAT, 40.0, 0.25, 0.0, {.scale = {0.5, 0.5, 0.5}}}};
     const HdSceneFile expected = {
         .scene = {.width = 320,
                   .height = 200,
@@ -79,7 +80,7 @@ TEST(test_every_key) {
                             .material = dark}},
         .mesh_entry_count = 2,
         .mesh_entries = meshes,
-        .output = {"out/%04d.png", {{HD_CURVE_LINEAR, 16}, 25}},
+        .output = {"out/%04d.png", {{HD_CURVE_LINEAR, 16, true}, 25, true}},
         .texture_path = "floor.png",
         .texture_curve = HD_CURVE_LINEAR};
     expect_scene(&file, rich_text, NULL);
@@ -94,7 +95,7 @@ TEST(test_changes) {
                                             "output.path=\"7.png\"", "materials.glass.colour[1]=0",
                                             "camera.eye[2]=4",       "image.height=300",
                                             "output.bits=8.0",       "hedron=1.0",
-                                            "image.aa=adaptive",     "solids[2].kind=dodecahedron"};
+                                            "image.aa=grid",         "solids[2].kind=dodecahedron"};
     assert_int_equal(parse_scene(&file, rich_text, strlen(rich_text), changes, 14, &error), HD_OK);
     assert_int_equal(file.scene.width, 100);
     assert_int_equal(file.scene.height, 300);
@@ -103,7 +104,7 @@ TEST(test_changes) {
     expect_near(file.scene.eye.point.z, 4.0, 0.0);
     assert_int_equal(file.output.style.picture.curve, HD_CURVE_LINEAR);
     assert_int_equal(file.output.style.picture.bits, 8);
-    assert_int_equal(file.scene.sampling, HD_SAMPLING_ADAPTIVE);
+    assert_int_equal(file.scene.sampling, HD_SAMPLING_GRID);
     assert_int_equal(file.scene.solids[2].kind, HD_DODECAHEDRON);
     assert_string_equal(file.texture_path, "a=b.png");
     assert_string_equal(file.output.path, "7.png");
@@ -175,7 +176,7 @@ TEST(test_files_count_from_the_folder) {
 
 static HdStatus load_texture(const char *text, const char *change) {
     expect_scene(&file, text, change);
-    return hd_scene_file_load_texture(&file, &error);
+    return hd_scene_file_load_texture(&file, NULL, &error);
 }
 
 /* Middle grey on the curve is darker in linear light. */

@@ -87,7 +87,7 @@ TEST(test_values_that_are_hard_to_print) {
         "  \"camera\": {\n    \"field_of_view\": 60,\n    \"frames\": 1,\n"
         "    \"eye\": [30, 0, 0],\n    \"target\": [0, 0, 0]\n  },\n"
         "  \"output\": {\n    \"frames_per_second\": 30,\n    \"curve\": \"srgb\",\n"
-        "    \"bits\": 8\n  },\n  \"materials\": {}\n}\n");
+        "    \"bits\": 8,\n    \"alpha\": false\n  },\n  \"materials\": {}\n}\n");
     free(text);
 }
 

@@ -95,6 +95,31 @@ TEST(the_box_holds_all_triangles) {
     hd_mesh_free(&mesh);
 }
 
+/* Far from the origin; the last vertex, which is farthest, has no triangle. */
+TEST(the_reach_is_that_of_the_farthest_corner) {
+    enum { VERTICES = 900 };
+    HdVec3 vertices[VERTICES + 1] = {[VERTICES] = {6e6, 6e6, 6e6}};
+    int32_t corners[VERTICES / 3][3];
+    HdThreadPool *pool;
+    HdError error;
+    for (int i = 0; i < VERTICES; i++) {
+        vertices[i] = hd_vec3(5.4e6 + i * 7919 % 65536, 5.4e6 + i * 104729 % 65521, i * 31 % 997);
+        corners[i / 3][i % 3] = i;
+    }
+    HdMesh mesh = make_mesh(vertices, VERTICES + 1, corners, VERTICES / 3);
+    assert_int_equal(hd_thread_pool_create(&pool, 1, &error), HD_OK);
+    assert_int_equal(hd_mesh_build(&mesh, pool, &error), HD_OK);
+    hd_thread_pool_destroy(pool);
+    for (int i = 0; i < 100; i++) {
+        const HdVec3 direction = hd_vec3(i % 5 - 2, i / 5 % 5 - 2, i / 25 - 1.5);
+        double most = -HUGE_VAL;
+        for (int k = 0; k < VERTICES; k++)
+            most = fmax(most, hd_dot(direction, hd_sub(vertices[k], hd_mesh_centre(&mesh))));
+        expect_near(hd_mesh_reach(&mesh, direction), most / hd_mesh_half_side(&mesh), 1e-12);
+    }
+    hd_mesh_free(&mesh);
+}
+
 TEST(angles_are_correct) {
     const HdVec3 x = {1.0, 0.0, 0.0};
     for (int i = 0; i <= 3600; i++) {

@@ -21,7 +21,7 @@ static int begin(void **state) {
     remove_folder("out");
     hd_known_folders_forget();
     fake_films(4, 0);
-    plan = (HdOutputPlan){.style = {{HD_CURVE_SRGB, 8}, RATE},
+    plan = (HdOutputPlan){.style = {{HD_CURVE_SRGB, 8, false}, RATE, false},
                           .has_fingerprint = true,
                           .resumes = true,
                           .fingerprint = 7};
@@ -86,6 +86,9 @@ TEST(names_depend_on_everything_that_decides_the_bytes) {
     plan.style.frames_per_second = 12; /* as long */
     expect_name(first, false);
     plan.style.frames_per_second = RATE;
+    plan.style.is_ntsc = true;
+    expect_name(first, false);
+    plan.style.is_ntsc = false;
     output.format = &hd_format_mp4;
     expect_name(first, false);
 }

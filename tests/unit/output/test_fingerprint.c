@@ -5,7 +5,7 @@
 #include "scene_text.h"
 
 static HdSceneFile file;
-static const HdPictureStyle style = {.curve = HD_CURVE_SRGB, .bits = 8};
+static HdPictureStyle style = {.curve = HD_CURVE_SRGB, .bits = 8};
 static uint64_t usual;
 
 static uint64_t fingerprint(void) {
@@ -77,6 +77,7 @@ TEST(the_last_digit_of_bright_lights_changes_it) {
 /* Contents of files */
 
 static HdVec3 vertices[3], normals[1];
+static HdVec3 colours[3];
 static double uvs[1][2];
 static int32_t corners[1][3], corner_normals[1][3], corner_uvs[1][3], material_of[1];
 static uint8_t group_of[1];
@@ -88,6 +89,7 @@ static HdMesh mesh = {.vertex_count = 3,
                       .triangle_count = 1,
                       .material_count = 1,
                       .vertices = vertices,
+                      .colours = colours,
                       .normals = normals,
                       .uvs = uvs,
                       .corners = corners,
@@ -113,6 +115,8 @@ TEST(file_contents_change_the_fingerprint) {
                          BITS(group_of),
                          BITS(materials[1].emission),
                          BITS(materials[1].picture),
+                         BITS(materials[1].mask_picture),
+                         BITS(colours),
                          BITS(materials[1].passes_as),
                          BITS(materials[1].material.diffuse),
                          BITS(instance.position),
@@ -128,6 +132,7 @@ TEST(file_contents_change_the_fingerprint) {
                          BITS(scene->crop.top),
                          BITS(scene->crop.whole_height),
                          BITS(scene->geometry),
+                         BITS(style.has_alpha),
                          BITS(scene->accel)};
     change_each(list, sizeof list / sizeof *list, true);
     mesh.normals = NULL;
@@ -141,6 +146,7 @@ TEST(names_and_unused_values_do_not) {
                          BITS(materials[1].name),
                          BITS(materials[1].texture),
                          BITS(file.output.style.frames_per_second),
+                         BITS(file.output.style.is_ntsc),
                          BITS(file.output.path),
                          BITS(file.schema),
                          BITS(file.texture_path),

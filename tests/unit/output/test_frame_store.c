@@ -40,7 +40,7 @@ static HdStatus note_stored(void *context, const HdStoredFrame *stored, HdError 
 }
 
 static HdStatus start(const char *first, const char *second, int fails_at, bool resumes) {
-    const HdOutputStyle style = {{HD_CURVE_SRGB, 8}, 30};
+    const HdOutputStyle style = {{HD_CURVE_SRGB, 8, false}, 30, false};
     const char *const names[] = {first, second};
     hd_resume_free(&resume);
     hd_known_folders_forget(); /* removes another test's file */

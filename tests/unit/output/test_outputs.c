@@ -29,7 +29,9 @@ TEST(outputs_fit_the_number_of_frames) {
                  {"a.png", NULL, 2, "2 frames"},
                  {"a.pfm", NULL, 7, "'a.pfm'"},
                  {"a_%d.mkv", NULL, 7, "numbered films"},
-                 {"a_##.gif", NULL, 7, "numbered films"},
+                 {"a #1/a_##.mkv", NULL, 7, NULL},
+                 {"a #1/b.png", NULL, 1, NULL},
+                 {"a ##/b.png", NULL, 7, "names one picture"},
                  {"a_##.png", "b.GIF", 7, "b.GIF cannot be linear, because GIF files cannot"},
                  {"%d_%d.png", NULL, 7, "%d_%d.png"},
                  {"100%.png", NULL, 1, "100%.png"},
@@ -56,7 +58,7 @@ TEST(layers_are_for_outputs_that_hold_them) {
     assert_int_equal(settle("a.png", "a.exr", 8, 1), HD_OK);
     assert_int_equal(plan.request.layers, alpha);
     assert_int_equal(hd_outputs_add_layers(&plan, bound | depth, false, &error), HD_BAD_INPUT);
-    expect_contains(error.message, "--max-error, --aa adaptive or --reference");
+    expect_contains(error.message, "--max-error or --reference");
     assert_int_equal(hd_outputs_add_layers(&plan, depth, false, &error), HD_OK);
     assert_int_equal(plan.request.layers, alpha | depth);
     assert_int_equal(hd_outputs_add_layers(&plan, bound, true, &error), HD_OK);
@@ -90,13 +92,13 @@ TEST(a_plan_says_what_frames_must_hold) {
 
 TEST(frames_have_files) {
     char file[HD_MAX_PATH];
-    assert_int_equal(settle("~/a_###.png", "100%%.mp4", 8, 2), HD_OK);
+    assert_int_equal(settle("~/a_###.png", "100%%.#3.mp4", 8, 2), HD_OK);
     assert_int_equal(setenv("HOME", "/home/a%d", 1), 0);
     assert_int_equal(hd_output_file(&plan.list[0], 7, file, &error), HD_OK);
     assert_string_equal(file, "/home/a%d/a_007.png");
     assert_int_equal(hd_output_name(&plan.list[1], 7, file, &error), HD_OK);
-    assert_string_equal(file, "100%%.mp4");
-    assert_int_equal(settle("100%%.png", NULL, 8, 1), HD_OK);
+    assert_string_equal(file, "100%%.#3.mp4");
+    assert_int_equal(settle("#/100%%%#.png", NULL, 8, 1), HD_OK);
     assert_int_equal(hd_output_name(&plan.list[0], 7, file, &error), HD_OK);
-    assert_string_equal(file, "100%.png");
+    assert_string_equal(file, "#/100%#.png");
 }

@@ -17,8 +17,9 @@ static int numbers[FRAMES] = {2, 3, 5, 7, 11};
 static const HdFrameList frames = {.frames = numbers, .count = FRAMES};
 
 static HdOutputPlan plan_of(const char *first, const char *second, int bits) {
-    const HdOutputStyle style = {.picture = {.curve = HD_CURVE_SRGB, .bits = bits},
-                                 .frames_per_second = 30};
+    const HdOutputStyle style = {
+        .picture = {HD_CURVE_SRGB, abs(bits), bits < 0}, /* negative: with alpha */
+        .frames_per_second = 30};
     const char *const names[] = {first, second};
     HdOutputPlan plan;
     assert_int_equal(hd_outputs_settle(&plan, names, second != NULL ? 2 : 1, &style,
@@ -99,12 +100,10 @@ TEST(frames_that_are_always_rendered_are_not_finished) {
     static const struct {
         const char *first, *second;
         int bits, finished;
-    } cases[] = {{"c/%d.png", "c/%d.pfm", 8, 0},
-                 {"c/%d.png", "c/film.mkv", 8, FRAMES},
-                 {"c/%d.png", "c/film.mkv", 16, 0},
+    } cases[] = {{"c/%d.png", "c/%d.pfm", 8, 0},    {"c/%d.png", "c/film.mkv", 8, FRAMES},
+                 {"c/%d.png", "c/film.mkv", 16, 0}, {"c/%d.png", "c/film.mkv", -8, 0},
                  {"c/%d.png", "d/%d.png", 8, 1}, /* all files of a frame must exist */
-                 {"c/film.mkv", NULL, 8, 0},
-                 {"c/2.png", NULL, 8, 0}};
+                 {"c/film.mkv", NULL, 8, 0},        {"c/2.png", NULL, 8, 0}};
     HdOutputPlan plan = write_frames("c/%d.png");
     const HdOutputPlan two = plan_of("c/%d.png", "d/%d.png", 8);
     write_frame(&two, 1, numbers[1]);

@@ -84,7 +84,7 @@ static void trace_all(HdFrameStore *store) {
 
 static HdStatus store_frames(HdDurability durability) {
     static const char *const name = "out/%d.data";
-    const HdOutputStyle style = {{HD_CURVE_SRGB, 8}, 30};
+    const HdOutputStyle style = {{HD_CURVE_SRGB, 8, false}, 30, false};
     bool is_finished[FRAMES] = {[FINISHED] = true};
     HdResume resume = {.all = &frames,
                        .missing = {.frames = missing, .count = FRAMES - 1},

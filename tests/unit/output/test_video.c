@@ -48,8 +48,8 @@ static HdFrame make_frame(int width, int height, const uint8_t colour[4]) {
     return frame;
 }
 
-static const HdOutputStyle STYLE = {{HD_CURVE_SRGB, 8}, 25};
-static const HdOutputStyle LINEAR = {{HD_CURVE_LINEAR, 8}, 25};
+static const HdOutputStyle STYLE = {{HD_CURVE_SRGB, 8, false}, 25, false};
+static const HdOutputStyle LINEAR = {{HD_CURVE_LINEAR, 8, false}, 25, false};
 static const uint8_t RED[4] = {255, 0, 0, 255};
 
 static HdStatus open_film(HdVideo **video, const char *path, int width, int height,
@@ -128,8 +128,8 @@ static const uint8_t colours[COLOURS][4] = {
 
 /* Makes a frame for each colour, and one with more colours than a palette has. A player that
    follows the tags shows the original. */
-static void film_colours(const char *path, int rate, double tolerance) {
-    const HdOutputStyle style = {STYLE.picture, rate};
+static void film_colours(const char *path, int rate, bool is_ntsc, double tolerance) {
+    const HdOutputStyle style = {STYLE.picture, rate, is_ntsc};
     static uint8_t rgb[FRAMES * PIXELS * 3];
     double off = 0.0;
     HdFrame frames[FRAMES];
@@ -151,14 +151,29 @@ static void film_colours(const char *path, int rate, double tolerance) {
         hd_frame_free(&frames[i]);
 }
 
-TEST(mp4_follows_bt709) {
+TEST(films_in_yuv_follow_bt709) {
+    static const struct {
+        const char *path;
+        int rate;
+        bool is_ntsc;
+        const char *expected;
+    } films[] = {
+        {"out/new/film.mp4", 25, false,
+         "h264\n64\n64\nyuv420p\ntv\nbt709\nbt709\nbt709\n25/1\n9\n"},
+        {"out/new/film.MOV", 24, true,
+         "h264\n64\n64\nyuv420p\ntv\nbt709\nbt709\nbt709\n24000/1001\n9\n"},
+        {"out/new/film.webm", 30, true,
+         "vp9\n64\n64\nyuv420p\ntv\nbt709\nbt709\nbt709\n30000/1001\n9\n"},
+    };
     need_ffmpeg();
-    film_colours("out/new/film.mp4", 25, 4.0);
-    assert_int_equal(count_entries("out/new"), 1);
-    check_film("out/new/film.mp4",
-               "stream=codec_name,width,height,pix_fmt,color_range,color_space,color_transfer,"
-               "color_primaries,r_frame_rate,nb_read_packets",
-               "h264\n64\n64\nyuv420p\ntv\nbt709\nbt709\nbt709\n25/1\n9\n");
+    for (int i = 0; i < 3; i++) {
+        film_colours(films[i].path, films[i].rate, films[i].is_ntsc, 4.0);
+        assert_int_equal(count_entries("out/new"), i + 1);
+        check_film(films[i].path,
+                   "stream=codec_name,width,height,pix_fmt,color_range,color_space,color_transfer,"
+                   "color_primaries,r_frame_rate,nb_read_packets",
+                   films[i].expected);
+    }
 }
 
 /* Counting frames takes longer than making a small film. */
@@ -214,7 +229,7 @@ TEST(mkv_loses_nothing) {
 /* The format has centiseconds: the total is as long as it should be, and no frame is lost. */
 TEST(gif_keeps_the_time) {
     need_ffmpeg();
-    film_colours("out/film.gif", 30, 2.0);
+    film_colours("out/film.gif", 30, false, 2.0);
     check_film("out/film.gif", "packet=duration:stream=codec_name,width,height",
                "3\n4\n3\n3\n4\n3\n3\n4\n4\ngif\n64\n64\n");
     trust_count(1);
@@ -353,6 +368,12 @@ TEST(closed_standard_streams_do_no_harm) {
     assert_int_equal(waitpid(child, &status, 0), child);
     assert_int_equal(status, 0);
     assert_int_equal(count_entries("out"), 1);
+}
+
+TEST(an_encoder_that_is_missing_is_named) {
+    fake("ffprobe", "exit 0");
+    fake("ffmpeg", "echo \"Unknown encoder 'libx265'\" >&2; exit 1");
+    check_failure(16, 1, HD_UNAVAILABLE, "film.mp4: Unknown encoder 'libx265'; expected an FFmpeg");
 }
 
 /* The last one, because they are still missing afterwards. */

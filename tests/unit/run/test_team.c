@@ -185,7 +185,6 @@ static void hold_all(void) {
 TEST(devices_share_the_frames) {
     for (int mean = 0; mean < 2; mean++) {
         begin_again();
-        scene.sampling = mean ? HD_SAMPLING_ADAPTIVE : HD_SAMPLING_GRID;
         scene.max_error = mean;
         hold_all();
         expect_all_made(DEVICES, 0);
@@ -286,7 +285,7 @@ static void expect_spoilt(int frame, int devices, int dropped) {
 TEST(an_impossible_frame_ends_it_for_all) {
     for (int mean = 0; mean < 2; mean++) {
         begin_again();
-        scene.sampling = mean ? HD_SAMPLING_ADAPTIVE : HD_SAMPLING_GRID;
+        scene.max_error = mean;
         hold_all();
         expect_spoilt(7, DEVICES, 0);
     }

@@ -68,28 +68,21 @@ TEST(test_contact_threshold) {
     }
 }
 
-TEST(test_occlusion_masks_the_floor) {
+TEST(test_depths_of_the_floor) {
     const double corner = 5.0 + sqrt(0.5), nearer = corner - 0.125;
-    HdFloor floor = floor_at(0.0, 5.0);
+    const HdFloor floor = floor_at(0.0, 5.0);
     const struct {
         double x, y, turn, depth;
     } rows[] = {{0.0, 0.0, 0.0, 1.0},
                 {5.75, 0.0, 0.0, 0.25},
-                {6.0, 0.0, 0.0, 0.0},
-                {6.25, 0.0, 0.0, 0.0},
                 {6.5, 3.0, 0.0, 0.0}, /* within the sphere about the floor, at the same height */
                 {corner, corner, 45.0, 0.0}, /* a face before the floor's corner */
                 {nearer, nearer, 45.0, 0.125 * sqrt(2.0)}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         HdSolid cube = cube_at(rows[i].x, rows[i].y, 0.0, 2.0);
         cube.rotation_degrees.z = rows[i].turn;
-        expect_near(hd_floor_overlap(&cube, &floor), rows[i].depth, 1e-14);
+        expect_near(hd_floor_depth(&cube, &floor, 0.0), rows[i].depth, 1e-14);
     }
-    /* Opposite corners 1e-5 of the diagonal above the others: the plane passes half way between. */
-    const HdSolid above = cube_at(0.0, 0.0, 1.00005, 2.0), into = cube_at(0.0, 0.0, 1.00004, 2.0);
-    floor.corners[0].z = floor.corners[2].z = 1e-4;
-    expect_near(hd_floor_overlap(&above, &floor), 0.0, 1e-14);
-    expect_near(hd_floor_overlap(&into, &floor), 1e-5, 1e-14);
 }
 
 static double random_between(double low, double high) {
@@ -239,4 +232,39 @@ TEST(chains_of_contacts_are_separated_by_equal_steps) {
     assert_true(step > 0.0);
     assert_true(solids[2].circumradius == before);
     expect_near(small - solids[3].circumradius, 2.0 * step, 1e-3 * step);
+}
+
+/* Solids within each other count their index against that of the next one around them. */
+TEST(nested_solids_refract_relatively) {
+    const struct {
+        double x[3], edge[3], index[3], expected[3];
+    } rows[] = {
+        {{0.0, 0.0, 0.25}, {4.0, 2.0, 1.0}, {1.5, 1.2, 1.8}, {1.5, 1.2 / 1.5, 1.8 / 1.2}},
+        {{0.0, 0.9, 9.0}, {4.0, 2.0, 1.0}, {1.5, 1.0, 1.3}, {1.5, 1.0 / 1.5, 1.3}}, /* a bubble */
+        {{0.0, 0.9999, 1.5}, {4.0, 2.0, 2.0}, {1.5, 1.4, 1.2}, {1.5, 1.4, 1.2}}};   /* not clear */
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        HdSolid solids[3];
+        HdScene scene = {.solid_count = 3, .solids = solids};
+        for (int k = 0; k < 3; k++) {
+            solids[k] = cube_at(rows[i].x[k], 0.0, 0.0, rows[i].edge[k]);
+            solids[k].face.index_of_refraction = rows[i].index[k];
+        }
+        hd_scene_nest_solids(&scene);
+        for (int k = 0; k < 3; k++)
+            assert_true(solids[k].face.index_of_refraction == rows[i].expected[k]);
+    }
+}
+
+TEST(meshes_placed_twice_count_once) {
+    HdInstance instances[] = {{.mesh = 0},
+                              {.mesh = 1},
+                              {.mesh = 0, .position.x = -0.0},
+                              {.mesh = 0, .scale.z = 2.0},
+                              {.mesh = 0, .rotation_degrees.y = 1e-300},
+                              {.mesh = 1}};
+    HdScene scene = {.instance_count = 6, .instances = instances};
+    int dropped;
+    assert_int_equal(hd_scene_drop_second_instances(&scene, &dropped, NULL), HD_OK);
+    assert_true(dropped == 2 && scene.instance_count == 4 && instances[1].mesh == 1 &&
+                instances[2].scale.z == 2.0 && instances[3].rotation_degrees.y == 1e-300);
 }

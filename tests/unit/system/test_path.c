@@ -79,8 +79,9 @@ TEST(wrong_patterns_are_refused) {
                  {"%", false},    {"%5d", false},   {"%0d", false},   {"%010d", false},
                  {"%-3d", false}, {"%0", false},    {"%s", false},    {"##########", false},
                  {"%n%d", true},  {"%d%", true},    {"%d%d", true},   {"%d-%03d", true},
-                 {"%5%d", true},  {"%d%s", true},   {"#%d#%d", true}, {"#/#", true},
-                 {"#%s", true},   {"#%", true},     {"%0#", true}};
+                 {"%5%d", true},  {"%d%s", true},   {"#%d#%d", true}, {"#/#_#", true},
+                 {"#%s", true},   {"#%", true},     {"%0#", true},    {"#/a.png", false},
+                 {"%d/%d", true}, {"%#", false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const char *pattern = cases[i].pattern;
         if (hd_pattern_has_number(pattern) != cases[i].has_number)
@@ -107,6 +108,9 @@ TEST(frames_are_named) {
         {"out/####.png", 7, "out/0007.png"},
         {"#1/##_%03d%%.png", 7, "#1/##_007%.png"},
         {"f#", 70, "f70"},
+        {"a #3/##/b#.exr", 7, "a #3/##/b7.exr"},
+        {"#3/take %02d/b.exr", 7, "#3/take 07/b.exr"},
+        {"%%#%#3.png", 7, "%7#3.png"},
         {"#########%%", 42, "000000042%"},
         {"\xc3\xa4%d.", 3, "\xc3\xa4\x33."},
     };

@@ -92,10 +92,10 @@ TEST(printed_and_applied_cameras_read_back) {
 
 /* ---- resolution ---- */
 
-static const HdDetail full = {640, 360, 4, 14};
+static const HdDetail full = {640, 360, 4, 4, 14};
 
 static double seconds_of(const HdDetail *detail, double each) {
-    return each * detail->width * detail->height * detail->samples * detail->samples;
+    return each * detail->width * detail->height * detail->samples * detail->sample_rows;
 }
 
 /* Returns the choice after pictures of a device that takes `each` seconds a sample. */
@@ -113,7 +113,8 @@ TEST(pictures_are_made_in_time) {
     for (double each = 1e-9; each < 2e-6; each *= 1.7) {
         HdPace pace = {0};
         const HdDetail detail = settled(&pace, each);
-        const HdDetail more = {full.width, full.height, detail.samples + 1, full.depth};
+        const HdDetail more = {full.width, full.height, detail.samples + 1, detail.samples + 1,
+                               full.depth};
         assert_true(seconds_of(&detail, each) <= HD_MOVING_SECONDS * 1.0001);
         if (detail.samples < full.samples && detail.width == full.width)
             assert_true(seconds_of(&more, each) > HD_MOVING_SECONDS);
@@ -136,7 +137,7 @@ TEST(depth_is_given_up_last) {
     detail = settled(&pace, 1e-10);
     assert_memory_equal(&detail, &full, sizeof detail);
     /* A small picture stays whole. */
-    const HdDetail small = {64, 48, 1, 3};
+    const HdDetail small = {64, 48, 1, 1, 3};
     hd_pace_note(&pace, &small, 1.0);
     detail = hd_pace_choose(&pace, &small);
     assert_true(detail.width == 64 && detail.height == 48);
@@ -145,7 +146,7 @@ TEST(depth_is_given_up_last) {
 /* A slow picture counts at once, a quick one gradually. */
 TEST(slow_pictures_count_more) {
     HdPace slower = {1e-6, 0}, faster = {1e-6, 0};
-    const HdDetail detail = {100, 100, 1, 14};
+    const HdDetail detail = {100, 100, 1, 1, 14};
     hd_pace_note(&slower, &detail, 2e-2);
     hd_pace_note(&faster, &detail, 5e-3);
     assert_true(slower.seconds_per_sample > 1.5e-6);

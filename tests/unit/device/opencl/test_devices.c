@@ -96,10 +96,18 @@ static cl_int describe(cl_device_id device, cl_device_info what, size_t size, vo
     return CL_INVALID_VALUE;
 }
 
-REPLACE(clGetPlatformIDs, list_platforms)
-REPLACE(clGetPlatformInfo, name_platform)
-REPLACE(clGetDeviceIDs, list_devices)
-REPLACE(clGetDeviceInfo, describe)
+static const HdOpenclLibrary library = {.clGetPlatformIDs = list_platforms,
+                                        .clGetPlatformInfo = name_platform,
+                                        .clGetDeviceIDs = list_devices,
+                                        .clGetDeviceInfo = describe};
+
+static HdStatus load_library(HdOpenclLibrary *cl, HdError *error) {
+    (void)error;
+    *cl = library;
+    return HD_OK;
+}
+
+REPLACE(hd_opencl_load_library, load_library)
 
 static void hide_displays(void) {
     unsetenv("DISPLAY");
@@ -136,16 +144,35 @@ TEST(devices_and_unsupported_reasons_are_described) {
 TEST(devices_are_found_by_number) {
     cl_device_id device;
     HdGpuFacts facts;
-    assert_int_equal(hd_opencl_find(&device, 1, &facts, &error), HD_OK);
+    assert_int_equal(hd_opencl_find(&library, &device, 1, &facts, &error), HD_OK);
     assert_ptr_equal(device, &said[1]);
     assert_int_equal(facts.memory, 5000000000);
     assert_int_equal(facts.at_once, 0); /* unknown */
-    assert_int_equal(hd_opencl_find(&device, COUNT, &facts, &error), HD_UNAVAILABLE);
+    assert_int_equal(hd_opencl_find(&library, &device, COUNT, &facts, &error), HD_UNAVAILABLE);
     assert_string_equal(error.message, "there is no device 5, only 0 to 4");
-    assert_int_equal(hd_opencl_find(&device, -1, &facts, &error), HD_UNAVAILABLE);
+    assert_int_equal(hd_opencl_find(&library, &device, -1, &facts, &error), HD_UNAVAILABLE);
 }
 
 /* ---- errors ---- */
+
+TEST(pocl_without_a_cache_folder_is_explained) {
+    static const char pocl[] = "Portable Computing Language, OpenCL 3.0";
+    static char fault[HD_POCL_FAULT_SIZE];
+    setenv("POCL_CACHE_DIR", "/proc/x", 1);
+    assert_false(hd_pocl_lacks_cache("a platform", fault));
+    assert_true(hd_pocl_lacks_cache(pocl, fault));
+    expect_contains(fault, "its cache folder /proc/x, expected POCL_CACHE_DIR");
+    setenv("POCL_CACHE_DIR", "/tmp", 1);
+    assert_false(hd_pocl_lacks_cache(pocl, fault));
+    unsetenv("POCL_CACHE_DIR");
+    setenv("XDG_CACHE_HOME", "/proc", 1);
+    assert_true(hd_pocl_lacks_cache(pocl, fault));
+    expect_contains(fault, " /proc/pocl/kcache, ");
+    unsetenv("XDG_CACHE_HOME");
+    setenv("HOME", "/dev/null", 1);
+    assert_true(hd_pocl_lacks_cache(pocl, fault));
+    expect_contains(fault, " /dev/null/.cache/pocl/kcache, ");
+}
 
 TEST(a_lost_device_is_reported) {
     static const struct {

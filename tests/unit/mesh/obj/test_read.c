@@ -54,8 +54,8 @@ static void expect_refused(const char *text, const char *message) {
 TEST(all_parts_of_a_face_are_read) {
     HdMesh mesh = read_text("v -1.5 +2 .5e1 1.0\nv 1 0 0 0.5 0.5 0.5\nv\t0\t1\t-0.25E-1\n"
                             "vt 0.25 0.5 0\nvt 0.75\nvn 0 0 2\nvn 0 0 0\n"
-                            "f 1/1/1 2/2/1 3//2\nf 3 2/1 1//1\nf -3/-1/-2 -2/ -1//\n");
-    assert_int_equal(mesh.vertex_count, 3);
+                            "v 0 0 9\nf 1/1/1 2/2/1 3//2\nf 4 2/1 1//1\nf -3/-1/-2 -2/ -1//\n");
+    assert_int_equal(mesh.vertex_count, 4);
     assert_int_equal(mesh.triangle_count, 3);
     assert_true(mesh.vertices[0].x == -1.5 && mesh.vertices[0].y == 2 && mesh.vertices[0].z == 5);
     assert_true(mesh.vertices[2].z == (double)-0.025f);
@@ -64,7 +64,7 @@ TEST(all_parts_of_a_face_are_read) {
     assert_true(mesh.uvs[1][0] == 0.75 && mesh.uvs[1][1] == 0.0);
     assert_int_equal(mesh.normal_count, 2);
     assert_true(mesh.normals[0].z == 2.0);
-    const int32_t corners[3][3] = {{0, 1, 2}, {2, 1, 0}, {0, 1, 2}};
+    const int32_t corners[3][3] = {{0, 1, 2}, {3, 1, 0}, {1, 2, 3}};
     assert_memory_equal(mesh.corners, corners, sizeof corners);
     const int32_t uvs[3][3] = {{0, 1, -1}, {-1, 0, -1}, {1, -1, -1}};
     const int32_t normals[3][3] = {{0, 0, -1}, {-1, -1, 0}, {0, -1, -1}};
@@ -278,22 +278,23 @@ TEST(wrong_faces_are_reported) {
 /* A wrong item costs only itself, with one note for each kind. */
 TEST(wrong_items_are_skipped) {
     static const char *const cases[][2] = {
-        {"f 1\nf 1 2\nf\nf # 1 2 3",
+        {"f 1\nf 1 2\nf\nf # 1 2 3\nf 1 2 3",
          "a face has 1 corner, expected at least 3; it is left out (4 times)"},
-        {"f 1/1 2/2 3/3\nf 1/1 2 3",
-         "a face names a texture coordinate, and there are none" NOT_GIVEN " (4 times)"},
+        {"f 1/1 2/2 3",
+         "a face names a texture coordinate, and there are none" NOT_GIVEN " (2 times)"},
         {"f 1//7 2 3", "a face names a normal, and there are none" NOT_GIVEN},
         {"f 1//-1 2 3", "corner '1//-1' of a face names normal -1, expected 1 and up" NOT_GIVEN},
         {"f 1/0 2/0 3/1\nvt 1 1",
          "corner '1/0' of a face names texture coordinate 0, expected 1 and "
          "up" NOT_GIVEN " (2 times)"},
-        {"usemtl\nusemtl a\x07",
+        {"usemtl\nusemtl a\x07\nf 1 2 3",
          "the name of a material, expected a name; the default one applies (2 times)"},
-        {"v nan 0 0", "number 1 of a vertex is 'nan', expected a decimal number; no face uses it"},
-        {"mtllib ", "the name of a material library, expected a name; it is left out"}};
+        {"v nan 0 0\nf 1 2 3",
+         "number 1 of a vertex is 'nan', expected a decimal number; no face uses it"},
+        {"mtllib \nf 1 2 3", "the name of a material library, expected a name; it is left out"}};
     char text[512];
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        snprintf(text, sizeof text, "%s%s\nf 1 2 3\n", TRIANGLE, cases[i][0]);
+        snprintf(text, sizeof text, "%s%s\n", TRIANGLE, cases[i][0]);
         HdMesh mesh = read_text(text);
         snprintf(text, sizeof text, "a.obj: line 4: %s\n", cases[i][1]);
         assert_string_equal(notes.text, text);
@@ -488,9 +489,10 @@ TEST(materials_are_found_by_name) {
     write_text("a.mtl", "newmtl white wood \r\nKd 0.5 0 0\r\nnewmtl b\rKd 0 0.5 0\r"
                         "newmtl b\nKd 0 0 1\nnewmtl unused\n");
     write_text("my lib.mtl", "newmtl b\nKd 0 1 1\nnewmtl c\nKd 0 0.25 0");
-    HdMesh mesh = read_text("f 1 2 3\nusemtl b\nf 1 2 3\nmtllib a.mtl\t \nmtllib my lib.mtl\n"
-                            "mtllib a.mtl\nusemtl c\nf 1 2 3\nusemtl  white wood\nf 1 2 3\n"
-                            "usemtl b\nf 1 2 3\nusemtl d\nf 1 2 3\nusemtl d\nf 1 2 3\n" TRIANGLE);
+    HdMesh mesh = read_text("f 1 2 3\nusemtl b\nf 1 2 4\nmtllib a.mtl\t \nmtllib my lib.mtl\n"
+                            "mtllib a.mtl\nusemtl c\nf 1 2 5\nusemtl  white wood\nf 1 2 6\n"
+                            "usemtl b\nf 1 2 7\nusemtl d\nf 1 2 8\nusemtl d\nf 1 2 9\n" TRIANGLE
+                            "v 0 2 0\nv 0 3 0\nv 0 4 0\nv 0 5 0\nv 0 6 0\nv 0 7 0\n");
     const char *const names[5] = {"default", "b", "c", "white wood", "d"};
     const int32_t materials[7] = {0, 1, 2, 3, 1, 4, 4};
     assert_int_equal(mesh.material_count, 5);
@@ -512,7 +514,7 @@ TEST(too_many_materials_are_refused) {
     assert_non_null(file);
     fputs(TRIANGLE, file);
     for (int i = 0; i < HD_MAX_MESH_MATERIALS; i++)
-        fprintf(file, "usemtl %d\nf 1 2 3\n", i);
+        fprintf(file, "usemtl %d\nv 0 %d 1\nf 1 2 -1\n", i, i);
     fflush(file);
     assert_int_equal(read_file(&mesh, "many.obj", much), HD_OK);
     assert_int_equal(mesh.material_count, HD_MAX_MESH_MATERIALS);
@@ -521,8 +523,29 @@ TEST(too_many_materials_are_refused) {
     fputs("usemtl x\n", file);
     fclose(file);
     assert_int_equal(read_file(&mesh, "many.obj", much), HD_BAD_INPUT);
-    assert_string_equal(error.message, "many.obj: line 131076: there are more materials than fit, "
+    assert_string_equal(error.message, "many.obj: line 196612: there are more materials than fit, "
                                        "expected at most 65536");
+}
+
+/* Faces count as one if their corners are at the same places, one after the other. */
+TEST(faces_with_the_same_corners_count_once) {
+    static const struct {
+        const char *faces;
+        int triangles, dropped;
+    } rows[] = {{"f 1 2 3\nf 3 1 2\nf 1 3 2\nf 5 2 3\n", 1, 3}, /* vertex 5 is at -0 0 0 */
+                {"f 1 2 4 3\nf 2 4 3 1\nf 3 4 2 1\nf 1 2 3\n", 3, 2},
+                {"f 1 2 3\nf 1 2 4\nf 1 2 6\n", 3, 0},
+                {"f 1 2 4 3\nf 1 4 2 3\n", 4, 0}, /* the same four in another order */
+                {"f 1 2 3\nf 1 2 3 3\nf 1 2 2\nf 1 2 2\n", 2, 1}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[256], note[64];
+        snprintf(text, sizeof text, TRIANGLE "v 1 1 0\nv -0 0 0\nv 1 1 1e-9\n%s", rows[i].faces);
+        HdMesh mesh = read_text(text);
+        snprintf(note, sizeof note, "a.obj: %d of its faces coincide", rows[i].dropped);
+        assert_int_equal(mesh.triangle_count, rows[i].triangles);
+        assert_int_equal(strstr(notes.text, note) != NULL, rows[i].dropped > 0);
+        hd_mesh_free(&mesh);
+    }
 }
 
 /* Expects `note` as the only one. */
@@ -598,14 +621,14 @@ TEST(textures_stay_in_the_folder) {
         {"", "a name"},
         {"a\x1b.png", "a name without control characters"},
         {"a\x7f.png", "a name without control characters"},
-        {"-s 1 1 1 a.png", "a name without options before it"},
+        {"-wide", "options of the format with their values"},
     };
     char text[256], shown[64];
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         hd_escape(wrong[i][0], shown, sizeof shown);
         expect_texture("a.mtl", wrong[i][0], NULL);
         snprintf(text, sizeof text,
-                 "a.mtl: line 2: map_Kd is '%s', expected %s; there will be no texture\n", shown,
+                 "a.mtl: line 2: map_Kd is '%s', expected %s; the line is left out\n", shown,
                  wrong[i][1]);
         assert_string_equal(notes.text, text);
     }
@@ -644,6 +667,49 @@ TEST(files_are_found_beside_the_mesh) {
         assert_string_equal(material->texture, "./wood.png");
         expect_contains(notes.text, cases[i][1]);
         assert_int_equal(notes.count, cases[i][1][0] != '\0' ? 2 : 1);
+        hd_mesh_free(&mesh);
+    }
+}
+
+/* Texture, mask, u and v of corners at (0.5, 0.25), whether clamped, and notes. */
+TEST(options_of_textures_move_them) {
+    static const char *const cases[][2] = {
+        {"map_Kd -s 2 3 1 a.png", "./a.png - 1 0.75 1 0"},
+        {"map_Kd -o 0.25 -s 2 a.png", "./a.png - 1.25 0.25 0 0"},
+        {"map_Kd -clamp on -o 4 5 6", "./6 - 4.5 5.25 1 0"},
+        {"map_Kd -blendu on -mm 0 1 -texres 64 -type sphere -imfchan r -t 1 2 3 a b.png",
+         "./a b.png - 0.5 0.25 1 0"},
+        {"map_Kd -mm 0 a.png", "- - 0.5 0.25 1 1"},
+        {"map_d -s 4 m.png\nmap_Kd -s 2 a.png", "./a.png ./m.png 1 0.25 1 0"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[256];
+        snprintf(text, sizeof text, "newmtl n\nnewmtl m\n%s\n", cases[i][0]);
+        write_text("a.mtl", text);
+        HdMesh mesh = read_text("mtllib a.mtl\nvt 0.5 0.25\nvt 2 2\n" TRIANGLE
+                                "v 0 0 1\nv 1 1 1\nusemtl n\nf 1/2 2/2 3/1\n"
+                                "usemtl m\nf 1/1 2/1 4/1\nf 1 2 5\n");
+        const HdMeshMaterial *m = &mesh.materials[1];
+        const double *uv = mesh.uvs[mesh.corner_uvs[1][2]];
+        snprintf(text, sizeof text, "%s %s %g %g %d %d", m->texture ? m->texture : "-",
+                 m->mask ? m->mask : "-", uv[0], uv[1], m->is_clamped, notes.count);
+        assert_string_equal(text, cases[i][1]);
+        assert_true(mesh.uvs[mesh.corner_uvs[0][2]][0] == 0.5); /* shared before */
+        assert_true(mesh.corner_uvs[2][0] == -1 && !mesh.materials[0].is_clamped);
+        hd_mesh_free(&mesh);
+    }
+}
+
+TEST(colours_of_vertices_are_light) {
+    static const char *const lines[] = {"", " 0 0.5 1", " 0 127.5 255", " -1 255 0 1", " 1 1 x"};
+    static const HdVec3 light[] = {{1, 1, 1}, {0, 0.214041, 1}, {0, 0.214041, 1}, {0, 1, 0}};
+    for (int i = 1; i < 4; i++) {
+        char text[128];
+        snprintf(text, sizeof text, "v 0 0 0\nv 1 0 0%s\nv 0 1 0%s\nf 1 2 3\n", lines[i],
+                 lines[4 * (i % 2)]);
+        HdMesh mesh = read_text(text);
+        assert_true(mesh.colours[0].x == 1.0 && mesh.colours[2].y == 1.0);
+        assert_true(hd_length(hd_sub(mesh.colours[1], light[i])) < 1e-6);
         hd_mesh_free(&mesh);
     }
 }
