@@ -32,12 +32,10 @@ static HdVec3 place_of(const HdObjTwins *twins, const int32_t *corners, int32_t 
 /* Equal for 0 and -0, which are one place. */
 static uint64_t hash_of_place(HdVec3 place) {
     const double numbers[3] = {place.x + 0.0, place.y + 0.0, place.z + 0.0};
-    uint64_t hash = 0, bits;
-    for (int i = 0; i < 3; i++) {
-        memcpy(&bits, &numbers[i], sizeof bits);
-        hash = mix(hash + bits);
-    }
-    return hash;
+    uint64_t bits[3];
+    memcpy(bits, numbers, sizeof bits);
+    return mix(bits[0] * UINT64_C(0x9e3779b97f4a7c15) + bits[1] * UINT64_C(0xc2b2ae3d27d4eb4f) +
+               bits[2] * UINT64_C(0x165667b19e3779f9));
 }
 
 /* A sum over the edges: the same from any corner on and in both directions. */

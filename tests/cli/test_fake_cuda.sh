@@ -102,7 +102,7 @@ echo '{"hedron": 1, "camera": {"eye": [3, -4, 2]}, "meshes": [{"file": "pyramid.
     >"$work/pyramid.json"
 mesh=(HEDRON_CACHE=off "$hedron" render "$work/pyramid.json" "${small[@]}" --math fast --quiet -o mesh.data --backend cuda)
 expect_refusal 3 env FAKE_CUDA_MEMORY=500 "${mesh[@]}"
-expect_stderr_contains "the scene's tables need 1.04 kB, 192 bytes of them for its triangles; Fake device 0"
+expect_stderr_contains "the scene's tables need 1.06 kB, 192 bytes of them for its triangles; Fake device 0"
 expect_stderr_contains 'has 500 bytes; try fewer triangles, a device with more memory, or --backend c'
 expect_exit 0 env FAKE_CUDA_MEMORY=1100 "${mesh[@]}"
 expect_silent_stderr
