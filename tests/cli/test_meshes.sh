@@ -128,11 +128,13 @@ done
 
 # ---- notes of what coincides or lies within glass
 echo '{"hedron": 1, "camera": {"eye": [0, -9, 0]}, "materials": {"m": {"transmission": 1, "index_of_refraction": 1.5}},
-    "solids": [{"kind": "cube", "circumradius": 4, "material": "m"}, {"kind": "cube", "material": "m"}], "meshes": [{"file": "models/copy.obj", "material": "m"}, {"file": "models/copy.obj"}]}' >glass.json
+    "solids": [{"kind": "cube", "circumradius": 4, "material": "m"}, {"kind": "cube", "material": "m"}], "meshes": [{"file": "models/cube.obj"}, {"file": "models/cube.obj"}, {"file": "models/copy.obj", "material": "m"}]}' >glass.json
 expect_exit 0 "$hedron" check glass.json
-for words in 'meshes: 1 of them is in the place' 'solids[1] lies within a solid' 'meshes[0] refracts and may be within solids[0]'; do
+for words in 'meshes: 1 of them is in the place' 'solids[1] lies within a solid' 'meshes[2] refracts and may be within solids[0]'; do
     expect_stdout_contains "glass.json: note: $words"
 done
+expect_stdout_contains 'meshes[0], models/cube.obj'
+expect_stdout_contains 'meshes[2], models/copy.obj'
 
 # ---- errors
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n' >models/wrong.obj

@@ -261,10 +261,12 @@ TEST(meshes_placed_twice_count_once) {
                               {.mesh = 0, .position.x = -0.0},
                               {.mesh = 0, .scale.z = 2.0},
                               {.mesh = 0, .rotation_degrees.y = 1e-300},
+                              {.mesh = 0, .up = HD_UP_Y},
                               {.mesh = 1}};
-    HdScene scene = {.instance_count = 6, .instances = instances};
+    HdScene scene = {.instance_count = 7, .instances = instances};
     int dropped;
     assert_int_equal(hd_scene_drop_second_instances(&scene, &dropped, NULL), HD_OK);
-    assert_true(dropped == 2 && scene.instance_count == 4 && instances[1].mesh == 1 &&
-                instances[2].scale.z == 2.0 && instances[3].rotation_degrees.y == 1e-300);
+    assert_true(dropped == 2 && scene.instance_count == 5 && instances[1].mesh == 1 &&
+                instances[2].scale.z == 2.0 && instances[3].rotation_degrees.y == 1e-300 &&
+                instances[4].up == HD_UP_Y);
 }
