@@ -199,9 +199,9 @@ static const char *read_index(const char *at, const char *end, bool *has_digits,
 static bool keep_index(Text *text, Kind kind, int64_t number, HdSpan word, Corner *corner) {
     Elements *elements = &text->elements[kind];
     const int64_t absolute = number < 0 ? (int64_t)elements->row.count + 1 + number : number;
-    if (elements->highest == 0)
-        elements->first_line = text->lines.line_number;
     if (absolute > elements->highest) {
+        if (elements->highest == 0)
+            elements->first_line = text->lines.line_number;
         elements->highest = absolute;
         elements->line_of_highest = text->lines.line_number;
     }
@@ -522,8 +522,11 @@ static void round_vertices(const Text *text, HdMesh *mesh) {
     HdVec3 lower = mesh->vertices[corners[0].element[VERTEX]], upper = lower;
     for (size_t i = 1; i < text->corners.count; i++) {
         const HdVec3 at = mesh->vertices[corners[i].element[VERTEX]];
-        lower = hd_vec3(fmin(lower.x, at.x), fmin(lower.y, at.y), fmin(lower.z, at.z));
-        upper = hd_vec3(fmax(upper.x, at.x), fmax(upper.y, at.y), fmax(upper.z, at.z));
+        /* Without calls of fmin and fmax, which take most of the time here. */
+        lower = hd_vec3(at.x < lower.x ? at.x : lower.x, at.y < lower.y ? at.y : lower.y,
+                        at.z < lower.z ? at.z : lower.z);
+        upper = hd_vec3(at.x > upper.x ? at.x : upper.x, at.y > upper.y ? at.y : upper.y,
+                        at.z > upper.z ? at.z : upper.z);
     }
     const double half_side = 0.5 * hd_largest(hd_sub(upper, lower));
     if (fmax(hd_largest(lower), hd_largest(upper)) > farthest * half_side)
