@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Another processor renders the same bytes, and continues runs, in both directions: pictures count as finished, and films
-# consist of the same bytes as if one processor had made them. Arguments: this processor's program, the other's, and an emulator for it.
+# consist of the same bytes as if one processor had made them. Arguments: this processor's program, the other's, and an
+# emulator for it.
 set -euo pipefail
 elsewhere=$(realpath "$2")
 # shellcheck source=lib.sh
