@@ -15,6 +15,11 @@ if(CMAKE_C_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR MATCHES "^s390"
     add_compile_options(-fexcess-precision=fast)
 endif()
 
+# Otherwise stat fails on 32 bits if the number of a file is larger.
+if(CMAKE_SIZEOF_VOID_P EQUAL 4)
+    add_compile_definitions(_FILE_OFFSET_BITS=64)
+endif()
+
 set(HEDRON_WARNINGS -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion)
 # Enumerations name integer constants, which are int in C; clang 19 warns where they meet a double.
 if(CMAKE_C_COMPILER_ID MATCHES "Clang")

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Runs that another processor continues, in both directions: its pictures count as finished, and films consist of the same
-# bytes as if one processor had made them. Arguments: this processor's program, the other's, and an emulator for it.
+# Another processor renders the same bytes, and continues runs, in both directions: pictures count as finished, and films
+# consist of the same bytes as if one processor had made them. Arguments: this processor's program, the other's, and an
+# emulator for it.
 set -euo pipefail
 elsewhere=$(realpath "$2")
 # shellcheck source=lib.sh
@@ -18,6 +19,18 @@ expect_exit 0 "${there[@]}" "${picture[@]}" --frames 0-2 -o 'a/%d.png'
 expect_stderr_contains 'hedron: 2 of 3 frames were finished already'
 expect_exit 0 "${here[@]}" "${picture[@]}" --frames 0-2 -o 'b/%d.png'
 expect_exit 0 diff -r a b
+
+# Scenes of all kinds, in both precisions and pipelines.
+frame=(--size 12x8 --samples 1 --depth 4 --frames 0)
+for scene in default five glass octahedron tunnel; do
+    for kind in '--precision float' '--precision double --pipeline wavefront'; do
+        # shellcheck disable=SC2086 # several words
+        expect_exit 0 "${here[@]}" "$project/scenes/$scene.json" "${frame[@]}" $kind -o here.pfm
+        # shellcheck disable=SC2086
+        expect_exit 0 "${there[@]}" "$project/scenes/$scene.json" "${frame[@]}" $kind -o there.pfm
+        expect_same here.pfm there.pfm
+    done
+done
 
 # Formats of binary numbers, which this processor reads.
 expect_exit 0 "${here[@]}" "${picture[@]}" --frames 0 --layers depth -o here.pfm -o here.exr
