@@ -4,7 +4,7 @@
 #ifndef HD_CPU_NEON_H
 #define HD_CPU_NEON_H
 
-/* A register of a packet. Packets of two are split by copies, which compilers remove. */
+/* A register of a packet. Packets of two are split by copies, some of which GCC keeps. */
 enum { PARTS = HD_LANES * (HD_DOUBLE + 1) / 4 };
 #if HD_DOUBLE
 typedef float64x2_t RealPart;
