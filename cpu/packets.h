@@ -17,9 +17,8 @@
 #endif
 #ifdef HD_INTRINSIC
 #include <immintrin.h>
-#elif defined(__AARCH64EL__) && HD_LANES * (HD_DOUBLE + 1) <= 8
+#elif defined(__AARCH64EL__) && HD_LANES * (HD_DOUBLE + 1) == 4
 #define HD_NEON
-#define HD_OWN_MASKS
 #include <arm_neon.h>
 #endif
 
@@ -38,7 +37,6 @@ typedef vint vbits;
 /* Hides the array's origin from compilers, so that they read its numbers from memory. */
 #define HD_KEEP_IN_MEMORY(array) __asm__("" : "+m"(array))
 
-#ifndef HD_NEON
 FN vreal splat(real a) {
     return a - (vreal){0};
 }
@@ -48,8 +46,6 @@ FN vint splat_int(int a) {
 FN vbits splat_bits(real_bits a) {
     return a - (vbits){0};
 }
-#endif
-
 FN vbits bits_of(vreal a) {
     return (vbits)a;
 }
@@ -68,13 +64,13 @@ FN fixed64 lane_fix(const vfix *a, int lane) {
 FN void set_lane_int(vint *a, int lane, int value) {
     (*a)[lane] = value;
 }
-#ifndef HD_NEON
 FN vint to_int(vreal a) {
     return __builtin_convertvector(a, vint);
 }
 FN vreal to_real(vint a) {
     return __builtin_convertvector(a, vreal);
 }
+#ifndef HD_NEON
 FN vfix truncate_to_fix(vreal a) {
     return __builtin_convertvector(a, vfix);
 }
