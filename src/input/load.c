@@ -101,7 +101,7 @@ static bool read_rate(Reader *reader, const HdField *field, const json_t *value,
     const double number = json_number_value(value);
     const long top = text != NULL && text[0] >= '1' && text[0] <= '9' ? strtol(text, &end, 10) : 0;
     const bool is_ntsc = end != NULL && strcmp(end, "/1001") == 0 && top % 1000 == 0;
-    const double frames = is_ntsc ? (double)(top / 1000) : floor(number);
+    const double frames = is_ntsc ? (double)top / 1000.0 : floor(number);
     if ((!is_ntsc && frames != number) || !hd_field_holds(field, frames))
         return refuse(reader, field, value, 0);
     out[0] = frames;

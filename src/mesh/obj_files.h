@@ -24,9 +24,10 @@ char *hd_obj_path(HdObjMemory *memory, const HdObjPlace *place, HdSpan name);
    neither. */
 bool hd_obj_has_file(HdObjMemory *memory, const HdObjPlace *place, HdSpan name);
 
-/* Finds such a file. If there is none, sets `*is_elsewhere` and looks for the last parts of the name, the longest first, in the
-   folder and in the base, at last in other letter case. So a name from another machine finds the
-   copy beside the mesh, and no name leaves the base. Returns the path as hd_obj_path, or NULL. */
+/* Finds such a file. If there is none, sets `*is_elsewhere` and looks for the last parts of the
+   name, the longest first, in the folder and in the base, at last in other letter case. So a name
+   from another machine finds the copy beside the mesh, and no name leaves the base. Returns the
+   path as hd_obj_path, or NULL. */
 char *hd_obj_find_file(HdObjMemory *memory, const HdObjPlace *place, HdSpan name,
                        bool *is_elsewhere);
 

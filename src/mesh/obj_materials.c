@@ -570,7 +570,7 @@ bool hd_obj_read_materials(HdMesh *mesh, const char *path, HdNameTable *names,
     const int count = names->count;
     if (add_plain_names(names, memory) && allocate(&all))
         read_libraries(&all, libraries, size);
-    if (!memory->has_refused) {
+    if (all.definitions != NULL && !memory->has_refused) {
         stand_in(&all, names, count);
         if (name_materials(names, memory, mesh))
             define_materials(&all, mesh);
