@@ -169,12 +169,18 @@ static unsigned char *find(const char *text) {
     return NULL;
 }
 
+/* Four numbers of two bytes and two zero bytes, the low byte first. */
+static void expect_window(const unsigned char *window, const int expected[4]) {
+    for (int i = 0; i < 4; i++)
+        assert_int_equal(window[4 * i] | window[4 * i + 1] << 8, expected[i]);
+}
+
 TEST(a_crop_keeps_its_place) {
     static const int data[] = {100, 417, 100 + WIDTH - 1, 417 + HEIGHT - 1},
                      display[] = {0, 0, 639, 479};
     get_bytes();
-    assert_memory_equal(find("dataWindow") + 11 + 6 + 4, data, sizeof data);
-    assert_memory_equal(find("displayWindow") + 14 + 6 + 4, display, sizeof display);
+    expect_window(find("dataWindow") + 11 + 6 + 4, data);
+    expect_window(find("displayWindow") + 14 + 6 + 4, display);
 }
 
 TEST(other_kinds_are_refused) {
