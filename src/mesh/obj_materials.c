@@ -210,7 +210,8 @@ static void start_material(Reader *reader, HdSpan line) {
     reader->is_in_material = fault == NULL;
     reader->has_dissolve = false;
     if (fault != NULL)
-        pass_over(reader, "newmtl", "the name of a material, expected %s; it is left out", fault);
+        pass_over(reader, "newmtl", "newmtl has no usable name, expected %s; it is left out",
+                  fault);
     else
         reader->material = define(reader, name);
 }

@@ -292,8 +292,8 @@ static bool keep_material(Text *text, HdSpan line) {
     const char *fault = hd_name_fault(name);
     if (fault == NULL)
         return set_material(text, name);
-    pass_over(text, "usemtl", "the name of a material, expected %s; the default one applies",
-              fault);
+    pass_over(text, "usemtl",
+              "usemtl has no usable name, expected %s; the default material applies", fault);
     return set_material(text, hd_span_of(HD_OBJ_NO_MATERIAL));
 }
 
@@ -303,7 +303,7 @@ static bool keep_library(Text *text, HdSpan line) {
     if (fault == NULL)
         return append(text, &text->libraries, 1, hd_span_size(name), name.begin) &&
                append(text, &text->libraries, 1, 1, "");
-    pass_over(text, "mtllib", "the name of a material library, expected %s; it is left out", fault);
+    pass_over(text, "mtllib", "mtllib has no usable name, expected %s; it is left out", fault);
     return true;
 }
 

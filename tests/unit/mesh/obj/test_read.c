@@ -288,10 +288,10 @@ TEST(wrong_items_are_skipped) {
          "corner '1/0' of a face names texture coordinate 0, expected 1 and "
          "up" NOT_GIVEN " (2 times)"},
         {"usemtl\nusemtl a\x07\nf 1 2 3",
-         "the name of a material, expected a name; the default one applies (2 times)"},
+         "usemtl has no usable name, expected a name; the default material applies (2 times)"},
         {"v nan 0 0\nf 1 2 3",
          "number 1 of a vertex is 'nan', expected a decimal number; no face uses it"},
-        {"mtllib \nf 1 2 3", "the name of a material library, expected a name; it is left out"}};
+        {"mtllib \nf 1 2 3", "mtllib has no usable name, expected a name; it is left out"}};
     char text[512];
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         snprintf(text, sizeof text, "%s%s\n", TRIANGLE, cases[i][0]);
@@ -461,7 +461,7 @@ TEST(unused_statements_are_noted) {
         {"illum -1", "2: illum is '-1', expected 0 to 10; the line is left out"},
         {"illum x", "2: illum is 'x', expected 0 to 10; the line is left out"},
         {"\x1b[1m 1", "2: it has no statement of a material library"},
-        {"newmtl", "2: the name of a material, expected a name; it is left out"},
+        {"newmtl", "2: newmtl has no usable name, expected a name; it is left out"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[512];
