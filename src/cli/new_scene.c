@@ -140,7 +140,8 @@ static void print_around(FILE *out, HdSceneFile *file, const char *up, const cha
     forward.z = is_tall ? -tall_slope : -flat_slope;
     const double distance = distance_of(half, hd_normalize(forward));
     const HdVec3 to_eye = hd_scale(hd_normalize(forward), -distance);
-    const double radius = hypot(to_eye.x, to_eye.y), height = half.z + to_eye.z;
+    const double radius = sqrt(to_eye.x * to_eye.x + to_eye.y * to_eye.y);
+    const double height = half.z + to_eye.z;
     fprintf(out, mesh_format, WIDTH, HEIGHT, field_of_view, radius, height, eye_angle, half.z,
             file_text, instance->up == HD_UP_Y ? "y" : "z", mesh_size,
             mesh->normals != NULL ? "file" : "smooth", to_eye.x, to_eye.y, height);
