@@ -337,9 +337,9 @@ HD_ASSERT_SIZE(View, 16, 12);
     X(View, view)                                                                                  \
     /* [to]: the eye minus the centre of `to` */                                                   \
     X(Vector, eye_offsets)                                                                         \
-    /* of a listed or patterned frame */                                                           \
+    /* of a listed frame */                                                                        \
     X(int, entries)                                                                                \
-    /* likewise */                                                                                 \
+    /* of a patterned frame */                                                                     \
     X(int, sample_places)
 
 /* Tables whose rows neighbouring threads mostly read together, and how many rows constant memory

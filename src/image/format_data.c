@@ -9,15 +9,10 @@
 #include <string.h>
 
 #include "base/limits.h"
+#include "base/low_bytes.h"
 #include "base/minmax.h"
 
 enum { HEAD_SIZE = 8 };
-
-static void put_int32(unsigned char out[4], int value) {
-    uint32_t bits = (uint32_t)value;
-    for (int i = 0; i < 4; i++)
-        out[i] = (unsigned char)(bits >> (8 * i) & 0xff);
-}
 
 static int64_t get_int32(const unsigned char bytes[4]) {
     uint32_t bits = 0;
@@ -33,8 +28,8 @@ static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
     unsigned char head[HEAD_SIZE];
     uint8_t encoded[4 * AT_ONCE];
     (void)label; /* cannot hold metadata */
-    put_int32(head, frame->width);
-    put_int32(head + 4, frame->height);
+    hd_put_low_bytes(head, (uint32_t)frame->width, 4);
+    hd_put_low_bytes(head + 4, (uint32_t)frame->height, 4);
     bool good = fwrite(head, 1, HEAD_SIZE, stream) == HEAD_SIZE;
     for (size_t first = 0; first < pixels && good; first += AT_ONCE) {
         const size_t count = hd_min_size(pixels - first, AT_ONCE);

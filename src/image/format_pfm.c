@@ -8,6 +8,7 @@
 #include <sys/types.h>
 
 #include "base/limits.h"
+#include "base/low_bytes.h"
 #include "base/minmax.h"
 #include "image/format.h"
 
@@ -118,8 +119,7 @@ static bool put_floats(const float *values, size_t count, FILE *stream) {
         for (size_t i = 0; i < some; i++) {
             uint32_t bits;
             memcpy(&bits, values + first + i, sizeof bits);
-            for (int k = 0; k < 4; k++)
-                bytes[4 * i + (size_t)k] = (unsigned char)(bits >> (8 * k) & 0xff);
+            hd_put_low_bytes(bytes + 4 * i, bits, 4);
         }
         good = fwrite(bytes, 4, some, stream) == some;
     }

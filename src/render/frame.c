@@ -18,8 +18,7 @@ enum { MAX_THREADS = 16 };
 typedef struct HdBounded {
     HdThreadPool *threads;
     HdBoundPasses passes; /* passes of the scene; their sums are the frame */
-    int width, height;
-    int *pixels; /* x | y << 16, in blocks of neighbours, which suit packets */
+    int *pixels;          /* x | y << 16, in blocks of neighbours, which suit packets */
     HdBoundedMean *means;
     double *steps; /* steps of 1/255 that a pixel may miss, by the list */
 } HdBounded;
@@ -35,14 +34,19 @@ static void free_bounded(HdBounded *bounded) {
     free(bounded);
 }
 
+static int pixel_count(const HdBounded *bounded) {
+    return bounded->passes.scene->width * bounded->passes.scene->height;
+}
+
 static void list_pixels(const HdBounded *bounded) {
     enum { SIDE = HD_BLOCK_SIDE };
+    const int width = bounded->passes.scene->width, height = bounded->passes.scene->height;
     int count = 0;
-    for (int top = 0; top < bounded->height; top += SIDE)
-        for (int left = 0; left < bounded->width; left += SIDE)
+    for (int top = 0; top < height; top += SIDE)
+        for (int left = 0; left < width; left += SIDE)
             for (int z = 0; z < SIDE * SIDE; z++) {
                 int x = left + HD_Z_COLUMN(z), y = top + HD_Z_ROW(z);
-                if (x < bounded->width && y < bounded->height) /* y has the sign bit too */
+                if (x < width && y < height) /* y has the sign bit too */
                     bounded->pixels[count++] = (int)((uint32_t)y << 16 | (uint32_t)x);
             }
 }
@@ -51,8 +55,6 @@ static void list_pixels(const HdBounded *bounded) {
 static HdStatus fill_bounded(HdBounded *bounded, const HdFrameMaker *maker, HdError *error) {
     const HdScene *scene = maker->scene;
     const size_t pixels = (size_t)scene->width * (size_t)scene->height;
-    bounded->width = scene->width;
-    bounded->height = scene->height;
     HD_TRY(
         hd_thread_pool_create(&bounded->threads, hd_min(hd_processor_count(), MAX_THREADS), error));
     bounded->passes = (HdBoundPasses){.scene = scene,
@@ -71,21 +73,23 @@ static HdStatus fill_bounded(HdBounded *bounded, const HdFrameMaker *maker, HdEr
 
 static void fill_pixels(void *context, int first, int end) {
     const HdBounded *bounded = context;
+    const HdFrame *frame = bounded->passes.sums;
+    const size_t width = (size_t)bounded->passes.scene->width;
     for (int i = first; i < end; i++) {
         const HdBoundedMean *mean = &bounded->means[i];
         const uint32_t packed = (uint32_t)bounded->pixels[i];
-        const size_t place = (size_t)(packed >> 16) * (size_t)bounded->width + (packed & 0xffff);
+        const size_t place = (size_t)(packed >> 16) * width + (packed & 0xffff);
         bounded->steps[i] = hd_missing_steps(bounded->passes.curve, (double)mean->bound,
                                              (double)hd_darkest(mean->rgb));
-        memcpy(bounded->passes.sums->rgb + 3 * place, mean->rgb, sizeof mean->rgb);
-        if (bounded->passes.sums->bounds != NULL)
-            bounded->passes.sums->bounds[place] = (float)bounded->steps[i];
+        memcpy(frame->rgb + 3 * place, mean->rgb, sizeof mean->rgb);
+        if (frame->bounds != NULL)
+            frame->bounds[place] = (float)bounded->steps[i];
     }
 }
 
 /* Sums the bounds in the list's order, so that they do not depend on the threads. */
 static void fill_frame(HdBounded *bounded, HdFrame *frame) {
-    const int pixels = bounded->width * bounded->height;
+    const int pixels = pixel_count(bounded);
     double largest = 0.0, sum = 0.0;
     hd_chunks_run(bounded->threads, pixels, fill_pixels, bounded);
     for (int i = 0; i < pixels; i++) {
@@ -119,7 +123,7 @@ static HdStatus render_bounded(const HdFrameMaker *maker, const HdCamera *camera
     bounded->passes.camera = camera;
     bounded->passes.sums = frame;
     const HdBoundPass all = {.pixels = bounded->pixels,
-                             .count = bounded->width * bounded->height,
+                             .count = pixel_count(bounded),
                              .means = bounded->means,
                              .watched = {maker->watch, HD_WATCH_FRAME}};
     HD_TRY(hd_bound_pass(&bounded->passes, &all, error));

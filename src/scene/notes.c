@@ -156,7 +156,7 @@ typedef struct Ball {
 
 static Ball ball_of_instance(const HdScene *scene, int number) {
     const HdInstance *instance = &scene->instances[number];
-    const HdMesh *mesh = &scene->meshes[instance->mesh];
+    const HdMesh *mesh = hd_mesh_of(scene, number);
     const HdVec3 scale = instance->scale, half = hd_sub(mesh->upper, hd_mesh_centre(mesh));
     return (Ball){"meshes", instance->entry, hd_placement_of(scene, number).start,
                   hd_length(hd_vec3(half.x * scale.x, half.y * scale.y, half.z * scale.z))};

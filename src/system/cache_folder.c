@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "base/hash.h"
+#include "base/low_bytes.h"
 #include "system/atomic_file.h"
 
 /* A file holds a checksum of the rest, the key with its terminator, and the payload. If the format
@@ -110,10 +111,9 @@ static const char *read_file(int descriptor, unsigned char **file, size_t *size)
     return done == (ssize_t)*size ? NULL : "it cannot be read";
 }
 
-/* Low byte first on every machine: they may share the folder. */
+/* Machines of any byte order may share the folder. */
 static void write_checksum(unsigned char out[CHECKSUM_BYTES], uint64_t hash) {
-    for (int i = 0; i < CHECKSUM_BYTES; i++)
-        out[i] = (unsigned char)(hash >> (8 * i) & 0xff);
+    hd_put_low_bytes(out, hash, CHECKSUM_BYTES);
 }
 
 /* Moves the payload to the front. Returns the fault, or NULL. */
