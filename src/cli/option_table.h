@@ -34,7 +34,8 @@ ROW("--set", NULL, "PATH=VALUE",
     TEXTS(scene.changes, scene.change_count, HD_MAX_CHANGES), .check = check_change,
     .use = "to try a value without editing the file", .role = HD_DECIDES_PIXELS)
 ROW("--strict-files", NULL, NULL,
-    "Refuse meshes, their libraries and textures for wrong items, otherwise notes",
+    "Refuse meshes, material libraries and textures that have wrong items; without it they get "
+    "notes",
     HD_COMMAND_RENDER | HD_COMMAND_CHECK | HD_COMMAND_TUNE | HD_COMMAND_VIEW,
     FLAG(scene.strict_files))
 OPTION(const char *frames, "--frames", "-f", "LIST",

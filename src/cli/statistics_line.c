@@ -83,7 +83,7 @@ const HdStatisticsKey hd_statistics_keys[] = {
     {NULL, "renderer", NULL, "Settings of the renderer, for people", renderer, 0, NULL},
     {NULL, "width", "pixels", "Width of the picture", width, 0, NULL},
     {NULL, "height", "pixels", "Height of the picture", height, 0, NULL},
-    {NULL, "samples", NULL, "n of the n x n samples of a pixel", samples, 0, NULL},
+    {NULL, "samples", NULL, "Columns of samples in a pixel: n of n x n", samples, 0, NULL},
     {NULL, "depth", NULL, "Maximum ray depth", depth, 0, NULL},
     STAGE(prepare, "Camera and its tables"),
     STAGE(trace, "Tracing on the device"),
