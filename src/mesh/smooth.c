@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/trigonometry.h"
-#include "mesh/mesh.h"
+#include "mesh/places.h"
 
 enum {
     /* Limits how many of the following triangles at an edge each is compared with: proper meshes
@@ -50,42 +50,6 @@ typedef struct Smoother {
 
 static void *allocate(size_t count, size_t size) {
     return malloc(count > 0 ? count * size : size);
-}
-
-/* Orders pointers to points by place, then by address. -0 equals 0. */
-static int compare_places(const void *first, const void *second) {
-    const HdVec3 *a = *(const HdVec3 *const *)first, *b = *(const HdVec3 *const *)second;
-    if (a->x != b->x)
-        return a->x < b->x ? -1 : 1;
-    if (a->y != b->y)
-        return a->y < b->y ? -1 : 1;
-    if (a->z != b->z)
-        return a->z < b->z ? -1 : 1;
-    return (a > b) - (a < b);
-}
-
-/* Numbers the places in the order in which vertices first use them. */
-static bool find_places(Smoother *smoother) {
-    const HdVec3 *vertices = smoother->mesh->vertices;
-    const size_t count = (size_t)smoother->mesh->vertex_count;
-    int32_t *place_of = smoother->place_of; /* temporarily the first vertex at the place */
-    const HdVec3 **sorted = allocate(count, sizeof(void *));
-    if (sorted == NULL)
-        return false;
-    for (size_t i = 0; i < count; i++)
-        sorted[i] = &vertices[i];
-    qsort(sorted, count, sizeof(void *), compare_places);
-    const HdVec3 *place = NULL;
-    for (size_t i = 0; i < count; i++) {
-        if (i == 0 || place->x != sorted[i]->x || place->y != sorted[i]->y ||
-            place->z != sorted[i]->z)
-            place = sorted[i];
-        place_of[sorted[i] - vertices] = (int32_t)(place - vertices);
-    }
-    free(sorted);
-    for (int32_t i = 0; i < smoother->mesh->vertex_count; i++)
-        place_of[i] = place_of[i] == i ? smoother->place_count++ : place_of[place_of[i]];
-    return true;
 }
 
 static int32_t place_at(const Smoother *smoother, int32_t corner) {
@@ -225,7 +189,8 @@ static bool prepare(Smoother *smoother) {
     smoother->normals = allocate(corners, sizeof *smoother->normals);
     smoother->corner_normals = allocate(corners, sizeof(int32_t));
     if (smoother->place_of == NULL || smoother->begin == NULL || smoother->corners == NULL ||
-        smoother->normals == NULL || smoother->corner_normals == NULL || !find_places(smoother))
+        smoother->normals == NULL || smoother->corner_normals == NULL ||
+        !hd_find_places(smoother->mesh, smoother->place_of, &smoother->place_count))
         return false;
     list_corners(smoother);
     const size_t max_incidents = (size_t)smoother->max_incidents;
