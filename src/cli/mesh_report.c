@@ -19,6 +19,8 @@ typedef struct Contents {
 
 typedef struct Report {
     int entry, frame;
+    bool has_camera;
+    HdCamera camera; /* of the frame */
     const char *file;
     const HdMesh *mesh;
     const Contents *contents;
@@ -57,8 +59,6 @@ static bool make_report(Report *report, const HdSceneFile *file, int number, Con
     const HdScene *scene = &file->scene;
     const HdInstance *instance = &scene->instances[number];
     Contents *contents = &of_meshes[instance->mesh];
-    HdCamera camera;
-    HdError ignored;
     report->entry = instance->entry;
     report->file = file->mesh_entries[report->entry].file;
     report->mesh = hd_mesh_of(scene, number);
@@ -67,9 +67,17 @@ static bool make_report(Report *report, const HdSceneFile *file, int number, Con
     if (contents->is_used == NULL && !find_contents(contents, scene, report->mesh))
         return false;
     hd_instance_box(scene, number, &report->lower, &report->upper);
-    if (hd_camera_at(&camera, scene, report->frame, &ignored) == HD_OK)
-        report->sight = hd_instance_sight(scene, number, &camera);
+    if (report->has_camera)
+        report->sight = hd_instance_sight(scene, number, &report->camera);
     return true;
+}
+
+/* Starts a report, which make_report completes for each mesh. */
+static Report start_report(const HdScene *scene, int frame) {
+    Report report = {.frame = frame};
+    HdError ignored;
+    report.has_camera = hd_camera_at(&report.camera, scene, frame, &ignored) == HD_OK;
+    return report;
 }
 
 static Contents *open_contents(const HdSceneFile *file) {
@@ -130,7 +138,7 @@ static void print_report(FILE *out, const char *prefix, const Report *report) {
 void hd_mesh_report_print(FILE *out, const char *prefix, const HdSceneFile *file, int frame) {
     const HdScene *scene = &file->scene;
     Contents *of_meshes = open_contents(file);
-    Report report = {.frame = frame};
+    Report report = start_report(scene, frame);
     int count = 0;
     for (int i = 0; of_meshes != NULL && i < scene->instance_count; i++) {
         if (scene->instances[i].entry < 0 || count++ >= MOST_LINES)
@@ -165,7 +173,7 @@ static json_t *describe(const Report *report) {
 json_t *hd_mesh_report_json(const HdSceneFile *file, int frame) {
     Contents *of_meshes = open_contents(file);
     json_t *list = of_meshes != NULL ? json_array() : NULL;
-    Report report = {.frame = frame};
+    Report report = start_report(&file->scene, frame);
     for (int i = 0; list != NULL && i < file->scene.instance_count; i++) {
         if (file->scene.instances[i].entry < 0)
             continue;
