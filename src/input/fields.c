@@ -176,7 +176,7 @@ static const HdField material_fields[] = {
         "Transmission of rays inside the solid; as outside unless given"),
      NUMBER(0.0, 1.0), INNER_SIDE},
     {AT(HdMaterial, index_of_refraction, "index_of_refraction",
-        "Index inside the solid; outside it is 1, or that of a solid around it"),
+        "Index inside the solid; outside it is 1, or that of what holds it"),
      NUMBER(HD_MIN_INDEX_OF_REFRACTION, HD_MAX_INDEX_OF_REFRACTION), DEFAULT(1.0)},
     {AT(HdMaterial, lit_from_behind, "lit_from_behind",
         "Whether lights behind a face shine through it"),

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
 #include "mesh/mesh.h"
 
 #include <float.h>
@@ -13,6 +14,37 @@ bool hd_mesh_allocate(HdMesh *mesh, size_t vertices, size_t triangles) {
     mesh->group_of = calloc(triangles, sizeof *mesh->group_of);
     return mesh->vertices != NULL && mesh->corners != NULL && mesh->material_of != NULL &&
            mesh->group_of != NULL;
+}
+
+static void free_material(HdMeshMaterial *material) {
+    free(material->name);
+    free(material->texture);
+    free(material->mask);
+}
+
+/* Copies an owned text, which may be NULL. Clears `*has_memory` if there is none. */
+static char *copy_text(const char *text, bool *has_memory) {
+    char *copy = text != NULL ? strdup(text) : NULL;
+    *has_memory &= (copy != NULL) == (text != NULL);
+    return copy;
+}
+
+bool hd_mesh_copy_material(HdMesh *mesh, int material) {
+    const size_t count = (size_t)mesh->material_count + 1;
+    HdMeshMaterial *grown = realloc(mesh->materials, count * sizeof *grown);
+    bool has_memory = grown != NULL;
+    if (!has_memory)
+        return false;
+    mesh->materials = grown;
+    HdMeshMaterial copy = grown[material];
+    copy.name = copy_text(copy.name, &has_memory);
+    copy.texture = copy_text(copy.texture, &has_memory);
+    copy.mask = copy_text(copy.mask, &has_memory);
+    if (has_memory)
+        grown[mesh->material_count++] = copy;
+    else
+        free_material(&copy);
+    return has_memory;
 }
 
 /* Returns whether two corners coincide, or the height over the longest side is within the rounding
@@ -150,11 +182,8 @@ double hd_mesh_reach(const HdMesh *mesh, HdVec3 direction) {
 }
 
 void hd_mesh_free(HdMesh *mesh) {
-    for (int i = 0; mesh->materials != NULL && i < mesh->material_count; i++) {
-        free(mesh->materials[i].name);
-        free(mesh->materials[i].texture);
-        free(mesh->materials[i].mask);
-    }
+    for (int i = 0; mesh->materials != NULL && i < mesh->material_count; i++)
+        free_material(&mesh->materials[i]);
     free(mesh->materials);
     free(mesh->vertices);
     free(mesh->colours);

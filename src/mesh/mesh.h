@@ -75,6 +75,9 @@ typedef struct HdMesh {
    Returns false if out of memory; hd_mesh_free frees the rest. */
 bool hd_mesh_allocate(HdMesh *mesh, size_t vertices, size_t triangles);
 
+/* Appends a copy of the material. Returns false if out of memory, with nothing changed. */
+bool hd_mesh_copy_material(HdMesh *mesh, int material);
+
 /* Removes and counts triangles without an area: two equal corners, or all three on a line up to the
    rounding of their coordinates. Unused vertices stay. */
 void hd_mesh_drop_degenerate(HdMesh *mesh);

@@ -34,6 +34,10 @@ static void add_objects(uint64_t *hash, const HdSceneFile *file) {
     for (int i = 0; i < scene->instance_count; i++) {
         const HdMeshEntry entry = {.instance = scene->instances[i]};
         *hash = hd_object_hash(*hash, entry_type, &entry);
+        if (entry.instance.around != NULL)
+            add_array(hash, entry.instance.around,
+                      scene->meshes[entry.instance.mesh].material_count, sizeof(double),
+                      sizeof(double));
     }
 }
 

@@ -12,6 +12,7 @@
 #include "input/scene_file.h"
 #include "render/bound_pass.h"
 #include "scene/contact.h"
+#include "scene/nesting.h"
 #include "scene/triangulate.h"
 #include "system/interrupt.h"
 
@@ -127,7 +128,7 @@ static HdStatus apply_geometry(HdScene *scene, const HdScenePlan *plan, HdError 
     if (plan->geometry == HD_GEOMETRY_SOLIDS && plan->divisions > 0)
         return hd_fail(error, HD_BAD_INPUT, "--divisions needs --geometry triangles");
     hd_scene_separate_contacts(scene);
-    hd_scene_nest_solids(scene);
+    HD_TRY(hd_scene_nest(scene, error));
     if (plan->geometry == HD_GEOMETRY_SOLIDS)
         return HD_OK;
     return hd_scene_triangulate(scene, DISC_SIDES, plan->divisions > 0 ? plan->divisions : 1,

@@ -195,14 +195,6 @@ double hd_index_around(const HdSolid *solids, int count, const HdSolid *solid) {
     return index;
 }
 
-void hd_scene_nest_solids(HdScene *scene) {
-    double around[HD_MAX_SOLIDS];
-    for (int i = 0; i < scene->solid_count; i++)
-        around[i] = hd_index_around(scene->solids, scene->solid_count, &scene->solids[i]);
-    for (int i = 0; i < scene->solid_count; i++)
-        scene->solids[i].face.index_of_refraction /= around[i];
-}
-
 /* ---- contact ---- */
 
 /* Step by which solids are separated, and distance from which they count as separate, as parts of

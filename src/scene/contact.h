@@ -49,10 +49,6 @@ bool hd_contact_coincides(HdContact contact);
    would shrink by more than a 1024th stays as it is. */
 void hd_scene_separate_contacts(HdScene *scene);
 
-/* Divides each solid's index of refraction by the index around it. Kernels know no other medium
-   outside of a solid than one of index 1. */
-void hd_scene_nest_solids(HdScene *scene);
-
 /* Removes instances whose mesh an earlier one has in the same place, as their triangles would
    coincide, and sets `*dropped` to their number. HD_FAILED: out of memory. */
 HdStatus hd_scene_drop_second_instances(HdScene *scene, int *dropped, HdError *error);

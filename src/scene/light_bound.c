@@ -38,9 +38,8 @@ static void visit_mesh(const HdScene *scene, const HdInstance *instance, Visit *
                        void *context) {
     const HdMesh *mesh = &scene->meshes[instance->mesh];
     for (int m = 0; m < mesh->material_count; m++) {
-        const HdMeshMaterial *own = &mesh->materials[m];
-        visit(context, instance->has_material ? &instance->material : &own->material,
-              own->emission);
+        const HdMaterial material = hd_instance_material(scene, instance, m);
+        visit(context, &material, mesh->materials[m].emission);
     }
 }
 

@@ -6,7 +6,7 @@
 #include "base/trigonometry.h"
 #include "scene/camera.h"
 #include "scene/contact.h"
-#include "scene/placement.h"
+#include "scene/nesting.h"
 #include "scene/scene.h"
 
 /* Degrees; less was probably given in radians, in which no field of view exceeds pi. */
@@ -92,8 +92,10 @@ static void note_contacts(const HdScene *scene, HdProblems *notes) {
     for (int i = 0; i < scene->solid_count; i++) {
         const HdSolid *solid = &scene->solids[i];
         for (int j = 0; j < i; j++)
-            count_contact(hd_solids_contact(&scene->solids[j], solid), i, "solids", j, &touching,
-                          &overlapping);
+            if (!hd_solid_holds(&scene->solids[j], solid) &&
+                !hd_solid_holds(solid, &scene->solids[j]))
+                count_contact(hd_solids_contact(&scene->solids[j], solid), i, "solids", j,
+                              &touching, &overlapping);
         if (scene->floor.present)
             count_contact(hd_floor_contact(solid, &scene->floor), i, "the floor", -1, &touching,
                           &overlapping);
@@ -113,80 +115,56 @@ static void note_contacts(const HdScene *scene, HdProblems *notes) {
 
 /* ---- nesting ---- */
 
-/* Notes solids within refracting ones, which let rays pass. */
+/* Writes "solids[0]", "meshes[1]" or "a part of meshes[1]". */
+static void name_object(const HdScene *scene, const HdNesting *nesting, HdNestObject object,
+                        char out[48]) {
+    const HdInstance *instance = &scene->instances[object.number];
+    if (object.is_solid)
+        snprintf(out, 48, "solids[%d]", object.number);
+    else
+        snprintf(out, 48, "%smeshes[%d]",
+                 nesting->shells[instance->mesh].count > 1 ? "a part of " : "", instance->entry);
+}
+
+/* Notes the first of the results in one state. */
+static void note_nested(const HdScene *scene, const HdNesting *nesting, HdNestState state,
+                        HdProblems *notes) {
+    static const char *const texts[] = {
+        [HD_NEST_WITHIN] = "%s lies within %s, which refracts%s: its index_of_refraction, also one "
+                           "of 1, counts against that one's %.6g",
+        [HD_NEST_CROSSES] = "%s and %s cross or nearly touch%s: the index_of_refraction of each "
+                            "counts as if the other were not there",
+        [HD_NEST_OPEN] = "%s lies within %s, but one of them is not closed%s: its "
+                         "index_of_refraction counts as if the other were not there",
+        [HD_NEST_MIXED] = "%s lies within %s, which has several indices of refraction%s: its own "
+                          "counts against 1"};
+    Pairs pairs = {0};
+    const HdNested *first = NULL;
+    char object[48], other[48], others[48];
+    for (int i = nesting->count; i-- > 0;)
+        if (nesting->list[i].state == state) {
+            first = &nesting->list[i];
+            pairs.count++;
+        }
+    if (first == NULL)
+        return;
+    name_object(scene, nesting, first->object, object);
+    if (first->object.is_solid == first->other.is_solid &&
+        first->object.number == first->other.number)
+        snprintf(other, sizeof other, "another part of it");
+    else
+        name_object(scene, nesting, first->other, other);
+    hd_problem(notes, texts[state], object, other, others_of(&pairs, others), first->around);
+}
+
 static void note_nesting(const HdScene *scene, HdProblems *notes) {
-    Pairs nested = {0};
-    char others[48];
-    double around_first = 1.0;
-    for (int i = 0; i < scene->solid_count; i++) {
-        const HdSolid *solid = &scene->solids[i];
-        const double around = hd_index_around(scene->solids, scene->solid_count, solid);
-        if (around == 1.0 || hd_is_opaque(&solid->face))
-            continue;
-        if (nested.count == 0)
-            around_first = around;
-        count_pairs(&nested, i, "solids", i, 1);
-    }
-    if (nested.count > 0)
-        hd_problem(notes,
-                   "solids[%d] lies within a solid that refracts%s: its index_of_refraction, "
-                   "also one of 1, counts against that one's %.6g",
-                   nested.solid, others_of(&nested, others), around_first);
-}
-
-static bool is_glass(const HdMaterial *material) {
-    return material->index_of_refraction != 1.0 && !hd_is_opaque(material);
-}
-
-static bool instance_is_glass(const HdScene *scene, const HdInstance *instance) {
-    const HdMesh *mesh = &scene->meshes[instance->mesh];
-    bool found = instance->has_material && is_glass(&instance->material);
-    for (int i = 0; i < mesh->material_count && !instance->has_material; i++)
-        found |= is_glass(&mesh->materials[i].material);
-    return found;
-}
-
-/* A ball about an object that refracts. */
-typedef struct Ball {
-    const char *what;
-    int number;
-    HdVec3 centre;
-    double radius;
-} Ball;
-
-static Ball ball_of_instance(const HdScene *scene, int number) {
-    const HdInstance *instance = &scene->instances[number];
-    const HdMesh *mesh = hd_mesh_of(scene, number);
-    const HdVec3 scale = instance->scale, half = hd_sub(mesh->upper, hd_mesh_centre(mesh));
-    return (Ball){"meshes", instance->entry, hd_placement_of(scene, number).start,
-                  hd_length(hd_vec3(half.x * scale.x, half.y * scale.y, half.z * scale.z))};
-}
-
-/* Comparing more would take long; a note on some is enough. */
-enum { MAX_BALLS = 1000 };
-
-static void note_glass_meshes(const HdScene *scene, HdProblems *notes) {
-    Ball balls[MAX_BALLS];
-    int count = 0;
-    for (int i = 0; i < scene->solid_count; i++)
-        if (is_glass(&scene->solids[i].face))
-            balls[count++] =
-                (Ball){"solids", i, scene->solids[i].centre, scene->solids[i].circumradius};
-    for (int i = 0; i < scene->instance_count && count < MAX_BALLS; i++) {
-        if (!instance_is_glass(scene, &scene->instances[i]))
-            continue;
-        const Ball ball = ball_of_instance(scene, i);
-        for (int j = 0; j < count; j++)
-            if (hd_length(hd_sub(balls[j].centre, ball.centre)) < balls[j].radius + ball.radius) {
-                hd_problem(notes,
-                           "meshes[%d] refracts and may be within %s[%d] or overlap it: a mesh "
-                           "counts its index_of_refraction against 1, so give one that lies "
-                           "within glass its index divided by the glass's",
-                           ball.number, balls[j].what, balls[j].number);
-                return;
-            }
-        balls[count++] = ball;
-    }
+    HdNesting nesting;
+    HdError ignored;
+    if (hd_nesting_find(&nesting, scene, true, &ignored) != HD_OK)
+        return;
+    for (int state = 0; state < HD_NEST_STATE_COUNT; state++)
+        note_nested(scene, &nesting, (HdNestState)state, notes);
+    hd_nesting_free(&nesting);
 }
 
 /* Smallest visible jump of a path, as a share of the distance between eye and target. */
@@ -244,5 +222,4 @@ void hd_scene_notes(const HdScene *scene, HdProblems *notes) {
         note_edge_lights(&scene->solids[i], i, notes);
     note_contacts(scene, notes);
     note_nesting(scene, notes);
-    note_glass_meshes(scene, notes);
 }

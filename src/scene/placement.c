@@ -7,6 +7,22 @@ const HdMesh *hd_mesh_of(const HdScene *scene, int instance) {
     return &scene->meshes[scene->instances[instance].mesh];
 }
 
+void hd_invert_columns(const HdVec3 to[3], HdVec3 back[3]) {
+    HdVec3 rows[3];
+    for (int i = 0; i < 3; i++)
+        rows[i] = hd_scale(to[i], 1.0 / hd_dot(to[i], to[i]));
+    back[0] = hd_vec3(rows[0].x, rows[1].x, rows[2].x);
+    back[1] = hd_vec3(rows[0].y, rows[1].y, rows[2].y);
+    back[2] = hd_vec3(rows[0].z, rows[1].z, rows[2].z);
+}
+
+HdVec3 hd_placed_half(const HdPlacement *to, HdVec3 half) {
+    const HdVec3 *c = to->columns;
+    return hd_vec3(fabs(c[0].x) * half.x + fabs(c[1].x) * half.y + fabs(c[2].x) * half.z,
+                   fabs(c[0].y) * half.x + fabs(c[1].y) * half.y + fabs(c[2].y) * half.z,
+                   fabs(c[0].z) * half.x + fabs(c[1].z) * half.y + fabs(c[2].z) * half.z);
+}
+
 /* Computes the columns of the matrix that turns a mesh upright and rotates it. */
 static void rotation_of(const HdInstance *instance, HdVec3 columns[3]) {
     columns[0] = hd_vec3(1.0, 0.0, 0.0);

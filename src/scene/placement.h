@@ -12,6 +12,20 @@ typedef struct HdPlacement {
     HdVec3 columns[3], start;
 } HdPlacement;
 
+/* Maps a point. */
+static inline HdVec3 hd_place(const HdPlacement *to, HdVec3 point) {
+    const HdVec3 *c = to->columns;
+    return hd_add(hd_add(hd_scale(c[0], point.x), hd_scale(c[1], point.y)),
+                  hd_add(hd_scale(c[2], point.z), to->start));
+}
+
+/* Computes the columns of the inverse; those of `to` are perpendicular to each other. */
+void hd_invert_columns(const HdVec3 to[3], HdVec3 back[3]);
+
+/* Returns half the sides of the box about what a placement makes of a box with half the sides
+   `half`. */
+HdVec3 hd_placed_half(const HdPlacement *to, HdVec3 half);
+
 const HdMesh *hd_mesh_of(const HdScene *scene, int instance);
 
 /* Returns an instance's placement in world space. */

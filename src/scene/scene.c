@@ -36,6 +36,15 @@ HdPlatonic hd_solid_shape(const HdSolid *solid) {
     return shape;
 }
 
+HdMaterial hd_instance_material(const HdScene *scene, const HdInstance *instance, int number) {
+    HdMaterial material = instance->has_material
+                              ? instance->material
+                              : scene->meshes[instance->mesh].materials[number].material;
+    if (instance->around != NULL)
+        material.index_of_refraction /= instance->around[number];
+    return material;
+}
+
 bool hd_is_opaque(const HdMaterial *face) {
     return face->transmission == 0.0 && (!face->has_inner_side || face->inner_transmission == 0.0);
 }
@@ -93,6 +102,8 @@ void hd_scene_drop_meshes(HdScene *scene) {
         hd_mesh_free(&scene->meshes[i]);
     for (int i = 0; i < scene->picture_count; i++)
         hd_texture_clear(&scene->pictures[i].texture);
+    for (int i = 0; i < scene->instance_count; i++)
+        free(scene->instances[i].around);
     free(scene->meshes);
     free(scene->instances);
     free(scene->pictures);

@@ -77,6 +77,8 @@ typedef struct HdInstance {
     HdVec3 scale;      /* none is 0; a negative one mirrors, and outer sides stay outer ones */
     bool has_material; /* `material` replaces all of the mesh's own materials */
     HdMaterial material;
+    double *around; /* owned; the index of refraction around each material of the mesh, to which
+                       the material's own is relative; NULL: 1 (hd_scene_nest) */
 } HdInstance;
 
 /* How rays search triangles. */
@@ -147,6 +149,9 @@ typedef struct HdScene {
 
 /* Returns the solid's shape about its centre, rotated, with circumradius 1. */
 HdPlatonic hd_solid_shape(const HdSolid *solid);
+
+/* Returns the material that an instance has for one of its mesh's, with the relative index. */
+HdMaterial hd_instance_material(const HdScene *scene, const HdInstance *instance, int number);
 
 /* Returns whether neither side of a face lets rays pass. */
 bool hd_is_opaque(const HdMaterial *face);

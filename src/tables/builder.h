@@ -107,7 +107,6 @@ HdVec3 hd_max_radiance(const HdScene *scene);
 HdStatus hd_builder_prepare_meshes(HdBuilder *builder, HdError *error);
 void hd_builder_free_meshes(HdBuilder *builder);
 
-const HdMaterial *hd_material_of(const HdInstance *instance, const HdMeshMaterial *material);
 /* Computes the centre of the box about all instances, in world space; returns half its longest
    side. */
 double hd_box_meshes(const HdScene *scene, HdVec3 *centre);

@@ -112,9 +112,10 @@ static void describe_shape(const HdBuilder *builder, HdSceneTables *tables) {
         describe_material(tables, &scene->solids[s].face);
     for (int i = 0; i < scene->instance_count; i++)
         for (int m = 0; m < hd_mesh_of(scene, i)->material_count; m++) {
-            const HdMeshMaterial *material = &hd_mesh_of(scene, i)->materials[m];
-            describe_material(tables, hd_material_of(&scene->instances[i], material));
-            tables->cut_outs |= material->mask_picture >= 0 && hd_mesh_of(scene, i)->uvs != NULL;
+            const HdMesh *mesh = hd_mesh_of(scene, i);
+            const HdMaterial material = hd_instance_material(scene, &scene->instances[i], m);
+            describe_material(tables, &material);
+            tables->cut_outs |= mesh->materials[m].mask_picture >= 0 && mesh->uvs != NULL;
         }
 }
 

@@ -112,16 +112,6 @@ static void store_rows(real rows[3][3], const HdVec3 columns[3]) {
     }
 }
 
-/* Computes the columns of the inverse; those of `to` are perpendicular to each other. */
-static void invert_columns(const HdVec3 to[3], HdVec3 back[3]) {
-    HdVec3 rows[3];
-    for (int i = 0; i < 3; i++)
-        rows[i] = hd_scale(to[i], 1.0 / hd_dot(to[i], to[i]));
-    back[0] = hd_vec3(rows[0].x, rows[1].x, rows[2].x);
-    back[1] = hd_vec3(rows[0].y, rows[1].y, rows[2].y);
-    back[2] = hd_vec3(rows[0].z, rows[1].z, rows[2].z);
-}
-
 /* Returns a generous bound, in mesh coordinates, of the distance that rounding may put between a
    point and the mesh. World coordinates round relative to the longest axis of `to`; the inverse
    enlarges that along the shortest. */
@@ -137,7 +127,7 @@ static void fill_instance(const HdBuilder *builder, Instance *out, int number,
     HdPlacement to = hd_placement_of(builder->scene, number);
     HdVec3 back[3];
     hd_store3(out->start, hd_sub(to.start, builder->mesh_centre));
-    invert_columns(to.columns, back);
+    hd_invert_columns(to.columns, back);
     store_rows(out->to_world, to.columns);
     store_rows(out->to_mesh, back);
     double contact = contact_distance(to.columns);
@@ -213,16 +203,17 @@ static int fill_mesh_materials(const HdBuilder *builder, int number, MeshMateria
     const HdMesh *mesh = hd_mesh_of(builder->scene, number);
     for (int i = 0; i < mesh->material_count; i++) {
         const HdMeshMaterial *material = &mesh->materials[i];
-        const HdMeshMaterial *filter =
-            material->passes_as >= 0 ? &mesh->materials[material->passes_as] : material;
+        const int passes_as = material->passes_as >= 0 ? material->passes_as : i;
+        const HdMaterial own = hd_instance_material(builder->scene, instance, i);
+        const HdMaterial filter = hd_instance_material(builder->scene, instance, passes_as);
         MeshMaterial *mesh_material = &mesh_materials[first + i];
         hd_store3(mesh_material->emission, material->emission);
         mesh_material->material = builder->first_mesh_material + first + i;
         mesh_material->picture = material->picture;
         mesh_material->mask = mesh->uvs != NULL ? material->mask_picture : -1;
         NAMED(hd_fill_material)
-        (&materials[mesh_material->material], hd_material_of(instance, material));
-        set_filters(mesh_material, hd_material_of(instance, filter), filter->is_opaque_to_shadows);
+        (&materials[mesh_material->material], &own);
+        set_filters(mesh_material, &filter, mesh->materials[passes_as].is_opaque_to_shadows);
     }
     return mesh->material_count;
 }

@@ -8,17 +8,10 @@
 #include "base/minmax.h"
 #include "system/thread_pool.h"
 
-const HdMaterial *hd_material_of(const HdInstance *instance, const HdMeshMaterial *material) {
-    return instance->has_material ? &instance->material : &material->material;
-}
-
 /* Returns half the sides of the box about a placed mesh. */
 static HdVec3 reach_of(const HdMesh *mesh, const HdPlacement *to) {
     HdVec3 half = hd_scale(hd_sub(mesh->upper, mesh->lower), 0.5 / hd_mesh_half_side(mesh));
-    const HdVec3 *c = to->columns;
-    return hd_vec3(fabs(c[0].x) * half.x + fabs(c[1].x) * half.y + fabs(c[2].x) * half.z,
-                   fabs(c[0].y) * half.x + fabs(c[1].y) * half.y + fabs(c[2].y) * half.z,
-                   fabs(c[0].z) * half.x + fabs(c[1].z) * half.y + fabs(c[2].z) * half.z);
+    return hd_placed_half(to, half);
 }
 
 double hd_box_meshes(const HdScene *scene, HdVec3 *centre) {

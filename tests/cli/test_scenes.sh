@@ -92,7 +92,7 @@ rm ./*.*
 ours=("$cli_folder"/../../scenes/*.json)
 expect_exit 0 "$hedron" check "${ours[@]}"
 expect_silent_stderr
-expect_stdout_lines $((${#ours[@]} + 2)) '.*\.json: fine, .*|.*knot\.json: meshes\[0\], .*|.*lantern\.json: note: solids\[1\] overlaps solids\[0\]: .*'
+expect_stdout_lines $((${#ours[@]} + 1)) '.*\.json: fine, .*|.*knot\.json: meshes\[0\], .*'
 expect_exit 0 "$hedron" check --schema
 expect_silent_stderr
 expect_stdout_contains 'https://json-schema.org/draft/2020-12/schema'

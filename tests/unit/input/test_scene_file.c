@@ -56,7 +56,12 @@ TEST(test_every_key) {
          25.0,
          0.0,
          6.0,
-         {0, 0, HD_UP_Y, {11.0, 12.0, 13.0}, {40.0, 50.0, 60.0}, {1.0, 2.0, -3.0}, true, dark}},
+         {.up = HD_UP_Y,
+          .position = {11.0, 12.0, 13.0},
+          .rotation_degrees = {40.0, 50.0, 60.0},
+          .scale = {1.0, 2.0, -3.0},
+          .has_material = true,
+          .material = dark}},
         {(char[]){"other.obj"}, HD_NORMALS_FLAT, 40.0, 0.25, 0.0, {.scale = {0.5, 0.5, 0.5}}}};
     const HdSceneFile expected = {
         .scene = {.width = 320,

@@ -138,6 +138,9 @@ TEST(file_contents_change_the_fingerprint) {
     mesh.normals = NULL;
     expect_changed("normals", true);
     mesh.normals = normals;
+    instance.around = &(double){1.5};
+    expect_changed("around", true);
+    instance.around = NULL;
 }
 
 TEST(names_and_unused_values_do_not) {

@@ -234,27 +234,6 @@ TEST(chains_of_contacts_are_separated_by_equal_steps) {
     expect_near(small - solids[3].circumradius, 2.0 * step, 1e-3 * step);
 }
 
-/* Solids within each other count their index against that of the next one around them. */
-TEST(nested_solids_refract_relatively) {
-    const struct {
-        double x[3], edge[3], index[3], expected[3];
-    } rows[] = {
-        {{0.0, 0.0, 0.25}, {4.0, 2.0, 1.0}, {1.5, 1.2, 1.8}, {1.5, 1.2 / 1.5, 1.8 / 1.2}},
-        {{0.0, 0.9, 9.0}, {4.0, 2.0, 1.0}, {1.5, 1.0, 1.3}, {1.5, 1.0 / 1.5, 1.3}}, /* a bubble */
-        {{0.0, 0.9999, 1.5}, {4.0, 2.0, 2.0}, {1.5, 1.4, 1.2}, {1.5, 1.4, 1.2}}};   /* not clear */
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        HdSolid solids[3];
-        HdScene scene = {.solid_count = 3, .solids = solids};
-        for (int k = 0; k < 3; k++) {
-            solids[k] = cube_at(rows[i].x[k], 0.0, 0.0, rows[i].edge[k]);
-            solids[k].face.index_of_refraction = rows[i].index[k];
-        }
-        hd_scene_nest_solids(&scene);
-        for (int k = 0; k < 3; k++)
-            assert_true(solids[k].face.index_of_refraction == rows[i].expected[k]);
-    }
-}
-
 TEST(meshes_placed_twice_count_once) {
     HdInstance instances[] = {{.mesh = 0},
                               {.mesh = 1},
