@@ -6,7 +6,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 need_python
-run python3 -B "$project/tests/reference/compare_scenes.py" "$hedron" 7 20
+run python3 -B "$project/tests/reference/compare_scenes.py" "$hedron" 45 20
 cat "$logs/stdout"
 ((code == 0)) || fail "the tracer has other pixels: $(<"$logs/stderr")"
 finish

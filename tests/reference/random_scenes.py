@@ -164,13 +164,14 @@ class Maker:
         for _ in vertices:  # where the texture begins again is left out
             lines.append(self.words("vt", (shift + self.number(0.51 / n, 1 - 0.51 / n) for n in size)))
         form = self.dice.choice(["{0}", "{0}/{0}", "{0}//{0}", "{0}/{0}/{0}"])
-        for i in range(AROUND - self.chance(0.5)):
+        step = self.dice.choice([1, 1, -1])  # or inside out
+        for i in range(AROUND - self.chance(0.3)):
             j = (i + 1) % AROUND
             upper, lower = (AROUND + i, AROUND + j), (j, i)
             for name, face in (("paint", (*lower, 2 * AROUND)), ("glass", (lower[0], *upper[::-1])),
-                               ("glass", (*lower, upper[0])), ("paint", (*upper[::-1], 2 * AROUND + 1))):
+                               ("glass", (upper[0], *lower[::-1])), ("paint", (*upper, 2 * AROUND + 1))):
                 lines.append(f"usemtl {name}")
-                lines.append("f " + " ".join(form.format(corner + 1) for corner in face))
+                lines.append("f " + " ".join(form.format(corner + 1) for corner in face[::step]))
         (self.folder / f"{self.name}.obj").write_text("\n".join(lines) + "\n")
 
     def mesh(self, centre):
@@ -216,6 +217,10 @@ class Maker:
         things = keys["solids"] + keys.get("meshes", [])
         if not overlapping and keys["solids"] and self.chance(0.4):
             keys["solids"] += self.nested(keys["solids"][0])
+            inmost = keys["solids"][-1]
+            if self.chance(0.7):
+                self.model()
+                keys["meshes"] = [self.mesh(inmost["centre"]) | {"scale": 0.25 * inmost["circumradius"]}]
             keys["image"] |= {"depth": 6, "cutoff": 0.03}
         inside = self.dice.choice(things) if self.chance(0.25) else {}
         keys["camera"] = self.camera(inside.get("centre") or inside.get("position"))

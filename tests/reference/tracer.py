@@ -114,6 +114,10 @@ class Solid:
         """Returns how far a point lies behind the plane of a face."""
         return self.height - dot(self.normals[face], minus(point, self.centre))
 
+    def holds(self, points):
+        """Returns whether points are within it."""
+        return all(self.room(face, point) > 0 for face in range(len(self.normals)) for point in points)
+
     def holding(self, edge):
         """Returns the two faces of an edge."""
         return [face for face in range(len(self.normals))
@@ -307,6 +311,11 @@ class Triangle:
         self.coordinates = [place or (0.0, 1.0) for place in own] if any(own) else None
         self.material, self.texture, self.emission = look
 
+    @property
+    def index_around(self):
+        """The index of what lies around its mesh."""
+        return self.mesh.index_around
+
     def crossing(self, origin, direction):
         """Returns the hit of a line: (distance, side, shares of the corners), or None."""
         across = cross(direction, self.ac)
@@ -373,7 +382,12 @@ class Mesh:
                 corners, own = corners[::-1], own and own[::-1]
             places = [along(position, 1, self.turn(product(self.scale, corner[0]))) for corner in corners]
             self.triangles.append(Triangle(self, corners, places, own, looks[name]))
-        points = [p for t in self.triangles for p in (t.a, along(t.a, 1, t.ab), along(t.a, 1, t.ac))]
+        places = [[tuple(corner[0]) for corner in corners] for _, corners in model.faces]
+        edges = {(face[k - 1], face[k]) for face in places for k in range(3)}
+        volume = sum(dot(a, cross(b, c)) for a, b, c in places)  # below 0: a cavity
+        self.is_closed = volume > 0 and len(edges) == 3 * len(places) and all((b, a) in edges for a, b in edges)
+        self.index_around = 1
+        self.corners = points = [p for t in self.triangles for p in (t.a, along(t.a, 1, t.ab), along(t.a, 1, t.ac))]
         self.centre = times(1 / len(points), blend([1.0] * len(points), points))
         self.radius = max(math.dist(point, self.centre) for point in points) * 1.0001
 
@@ -473,12 +487,13 @@ class Scene:
         self.camera = Camera(keys["camera"], frame)
         materials = {name: Material(own) for name, own in keys.get("materials", {}).items()}
         self.things = [Solid(own, materials) for own in keys.get("solids", [])]
-        for inner, outer in itertools.permutations(sorted(self.things, key=lambda solid: -solid.radius), 2):
-            if all(outer.room(face, corner) > 0 for face in range(len(outer.normals)) for corner in inner.corners):
+        self.meshes = [Mesh(own, materials, path.parent) for own in keys.get("meshes", [])]
+        by_size = sorted(self.things, key=lambda solid: -solid.radius)
+        for outer, inner in itertools.product(by_size, by_size + [mesh for mesh in self.meshes if mesh.is_closed]):
+            if inner is not outer and outer.holds(inner.corners):
                 inner.index_around = outer.material.index  # the smallest one that holds it comes last
         if "floor" in keys:
             self.things.append(Floor(keys["floor"], materials, path.parent))
-        self.meshes = [Mesh(own, materials, path.parent) for own in keys.get("meshes", [])]
         self.lights = [Light(own["position"], tuple(own.get("colour", WHITE)), own)
                        for own in keys.get("lights", [])]
         self.lights += [light for thing in self.things for light in getattr(thing, "lights", ())]
