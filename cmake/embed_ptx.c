@@ -26,6 +26,7 @@
                     .lit_from_behind = true,                                                       \
                     .many_lights = true,                                                           \
                     .cut_outs = true,                                                              \
+                    .environment = true,                                                           \
                     .bounded = (has_bound)                                                         \
                 }                                                                                  \
     }

@@ -172,7 +172,8 @@ static HdStatus copy_table(HdTable *to, const HdTable *from, const char *content
 
 static HdStatus c_upload(void *renderer, const HdSceneTables *tables, HdError *error) {
     CRenderer *c = renderer;
-    const bool is_plain = tables->node_stack == 0 && !tables->refracts && !tables->lit_from_behind;
+    const bool is_plain = tables->node_stack == 0 && !tables->refracts &&
+                          !tables->lit_from_behind && !tables->environment;
     hd_scene_tables_free(&c->scene);
     c->kernel =
         is_plain && c->build->plain_kernel != NULL ? c->build->plain_kernel : c->build->kernel;

@@ -4,7 +4,7 @@
 
        cuda_compile --arch N [--nvrtc LIBRARY] [--double] [--fast] [--wavefront] [--refracts]
                     [--lit-from-behind] [--many-lights] [--meshes] [--bounded] [--cut-outs]
-                    [--block N] [--registers N]
+                    [--environment] [--block N] [--registers N]
 
    Exit codes: 0 they compile and save no convergence barrier to a register (docs/lost-light.md),
    1 otherwise, 77 no NVRTC here supports the architecture. */
@@ -42,7 +42,8 @@ static bool parse(Options *options, int argc, char **argv) {
                  {"--lit-from-behind", &shape->needs.lit_from_behind},
                  {"--many-lights", &shape->needs.many_lights},
                  {"--bounded", &shape->needs.bounded},
-                 {"--cut-outs", &shape->needs.cut_outs}};
+                 {"--cut-outs", &shape->needs.cut_outs},
+                 {"--environment", &shape->needs.environment}};
     const struct {
         const char *name;
         int *number;
@@ -61,7 +62,7 @@ static bool parse(Options *options, int argc, char **argv) {
             options->nvrtc = argv[++i];
         else
             is_known = false;
-        for (int k = 0; !is_known && k < 6; k++)
+        for (int k = 0; !is_known && k < (int)(sizeof flags / sizeof *flags); k++)
             if (strcmp(argv[i], flags[k].name) == 0)
                 is_known = *flags[k].flag = true;
         for (int k = 0; !is_known && k < 3; k++)

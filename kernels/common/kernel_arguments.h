@@ -173,6 +173,7 @@ enum {
 #define MANY_LIGHTS(header)     HD_MANY_LIGHTS
 #define BOUNDED(header)         HD_BOUNDED
 #define CUT_OUTS(header)        (HD_CUT_OUTS && (header)->cut_outs)
+#define ENVIRONMENT(header)     (HD_ENVIRONMENT && (header)->environment_picture >= 0)
 #define PIXEL_SUMS              (HD_BOUNDED ? HD_BOUNDED_SUMS : HD_RADIANCE_SUMS)
 #define MESHES(header)          (HD_NODE_STACK > 0 && (header)->instance_count > 0)
 #define NODE_STACK(header)      (HD_NODE_STACK + 1)
@@ -189,6 +190,7 @@ enum {
 #define MANY_LIGHTS(header)     1
 #define BOUNDED(header)         ((header)->bounded)
 #define CUT_OUTS(header)        ((header)->cut_outs)
+#define ENVIRONMENT(header)     (!HD_PLAIN && (header)->environment_picture >= 0)
 #define PIXEL_SUMS              HD_BOUNDED_SUMS
 #define MESHES(header)          (!HD_PLAIN && (header)->instance_count > 0)
 #define NODE_STACK(header)      ((header)->node_stack + 1)

@@ -55,8 +55,19 @@ FN vreal stay_within(vreal u, int texels) {
     return vmin(vmax(at, splat(R(0.0))), splat((real)(texels - 1)));
 }
 
-/* Returns the bilinear blend of texel centres. One more column and row follow the last ones of a
-   picture: its first ones if it repeats, any values if it does not. */
+/* Returns the bilinear blend of texel centres about column x and row y, within the picture. One
+   more column and row follow its last ones: its first ones if it repeats, any values if it does
+   not. */
+FN Vec3 sample_at(GLOBAL const Picture *picture, GLOBAL const uint *texels, vreal x, vreal y) {
+    /* Rounding may have put a coordinate at the end, after the last texel. */
+    vint column = min_int(to_int(x), splat_int(picture->width - 1));
+    vint row = min_int(to_int(y), splat_int(picture->height - 1));
+    int stride = picture->width + 1;
+    vint place = row * stride + column + picture->first_texel;
+    return blend_texels(texels, place, stride, x - to_real(column), y - to_real(row));
+}
+
+/* Returns the value at texture coordinates. */
 FN Vec3 sample_picture(GLOBAL const Picture *picture, GLOBAL const uint *texels, vreal u, vreal v) {
     vmask clamped = lt_int(splat_int(0), splat_int(picture->is_clamped));
     vreal x = splat(R(0.0)), y = x;
@@ -68,12 +79,7 @@ FN Vec3 sample_picture(GLOBAL const Picture *picture, GLOBAL const uint *texels,
         x = vselect(clamped, stay_within(u, picture->width), x);
         y = vselect(clamped, stay_within(v, picture->height), y);
     }
-    /* Rounding may have put a coordinate at the end, after the last texel. */
-    vint column = min_int(to_int(x), splat_int(picture->width - 1));
-    vint row = min_int(to_int(y), splat_int(picture->height - 1));
-    int stride = picture->width + 1;
-    vint place = row * stride + column + picture->first_texel;
-    return blend_texels(texels, place, stride, x - to_real(column), y - to_real(row));
+    return sample_at(picture, texels, x, y);
 }
 
 /* Returns the three words of each lane's triangle in a table. */

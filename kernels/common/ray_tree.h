@@ -4,6 +4,7 @@
 #ifndef HD_RAY_TREE_H
 #define HD_RAY_TREE_H
 
+#include "environment.h"
 #include "lights.h"
 
 /* Returns the isolated solid that all rays run in; otherwise -1. */
@@ -234,6 +235,8 @@ FN void trace_and_shade(SCENE_PARAMETERS const Ray *ray, int level, Sample *samp
     Hit hit = closest_hit(SCENE_ARGUMENTS ray, local_origin);
     vmask struck = ray->alive & ~lt_int(hit.object, splat_int(0));
     mirror->alive = through->alive = mask_none();
+    if (ENVIRONMENT(header) && must_visit(ray->alive & ~struck))
+        radiance = vec3_add(radiance, environment_at(SCENE_ARGUMENTS ray->direction));
     if (!must_visit(struck)) {
         add_radiance(SCENE_ARGUMENTS sample, ray->alive, radiance, ray->weight);
         return;

@@ -19,24 +19,26 @@ typedef struct ALIGNED_16 {
 typedef struct ALIGNED_16 {
     real background[3]; /* radiance */
     real exposure;
-    real mesh_reach; /* largest coordinate of a mesh, relative to the meshes' centre */
-    real unused0;
-    real light_bound[3]; /* sum of the lights' intensities, in scenes with an error bound */
-    real unused1[3];
+    real mesh_reach;         /* largest coordinate of a mesh, relative to the meshes' centre */
+    real environment_factor; /* of the environment's texels */
+    real light_bound[3];     /* sum of the lights' intensities, in scenes with an error bound */
+    real environment_start;  /* its picture's coordinate towards the x axis */
+    real unused[2];
     int solid_count; /* also the object number of the floor, if the scene has one */
     int floor_end;
     int object_count;
     int plane_count;
     int light_count;
     int instance_count;
-    int top_root;        /* node over all instances; -1: kernels test each instance */
-    int node_stack;      /* maximum of nodes that wait during a traversal */
-    int wide_stack;      /* likewise for wide nodes */
-    int refracts;        /* whether some index of refraction is not 1 */
-    int lit_from_behind; /* whether some material is */
-    int bounded;         /* whether pixels have an error bound (HD_BOUNDED_SUMS) */
-    int cut_outs;        /* whether some mesh material has holes */
-    int unused_int[3];
+    int top_root;            /* node over all instances; -1: kernels test each instance */
+    int node_stack;          /* maximum of nodes that wait during a traversal */
+    int wide_stack;          /* likewise for wide nodes */
+    int refracts;            /* whether some index of refraction is not 1 */
+    int lit_from_behind;     /* whether some material is */
+    int bounded;             /* whether pixels have an error bound (HD_BOUNDED_SUMS) */
+    int cut_outs;            /* whether some mesh material has holes */
+    int environment_picture; /* what rays see beyond the objects, besides `background`; -1: none */
+    int unused_int[2];
 } Header;
 
 /* For a solid with parallel faces (Object.paired): the planes n.x = distance and n.x = -distance of

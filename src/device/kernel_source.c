@@ -29,6 +29,7 @@ void hd_kernel_defines(const HdKernelShape *shape, char text[HD_KERNEL_DEFINES_S
         {"HD_MANY_LIGHTS", shape->needs.many_lights},
         {"HD_BOUNDED", shape->needs.bounded},
         {"HD_CUT_OUTS", shape->needs.cut_outs},
+        {"HD_ENVIRONMENT", shape->needs.environment},
         {"HD_SMALL_TABLES", shape->needs.small_tables},
         {"HD_STRICT", shape->math == HD_MATH_STRICT},
         {"HD_ROUNDED_BY_FMA", shape->rounds_by_fma},
@@ -94,6 +95,7 @@ HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables) {
         .many_lights = tables->many_lights && tables->node_stack == 0,
         .bounded = tables->bounded,
         .cut_outs = tables->cut_outs,
+        .environment = tables->environment,
         .small_tables = tables->small_tables,
     };
 }
@@ -103,17 +105,17 @@ bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b) {
            a->node_stack_bound == b->node_stack_bound && a->refracts == b->refracts &&
            a->lit_from_behind == b->lit_from_behind && a->many_lights == b->many_lights &&
            a->bounded == b->bounded && a->cut_outs == b->cut_outs &&
-           a->small_tables == b->small_tables;
+           a->environment == b->environment && a->small_tables == b->small_tables;
 }
 
 void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capacity) {
     snprintf(text, (size_t)capacity,
-             "built for up to %d planes and depth %d, %s refraction, %s, %s%s%s%s",
+             "built for up to %d planes and depth %d, %s refraction, %s, %s%s%s%s%s",
              needs->plane_bound, needs->depth_bound, needs->refracts ? "with" : "without",
              needs->lit_from_behind ? "faces lit from behind" : "no faces lit from behind",
              needs->node_stack_bound > 0 ? "meshes" : "no meshes",
              needs->many_lights ? ", many lights" : "", needs->bounded ? ", error bounds" : "",
-             needs->cut_outs ? ", cut-outs" : "");
+             needs->cut_outs ? ", cut-outs" : "", needs->environment ? ", an environment" : "");
 }
 
 int hd_kernel_item_count(int width, int height, int pixels_per_item) {

@@ -23,6 +23,7 @@ typedef struct HdKernelNeeds {
     bool many_lights;  /* enough of them to cull lights by clusters */
     bool bounded;      /* pixels come with an error bound */
     bool cut_outs;     /* materials of meshes have holes */
+    bool environment;  /* rays that hit nothing see a picture */
     bool small_tables; /* the tables of solids fit in constant memory, if the device has it */
 } HdKernelNeeds;
 

@@ -214,6 +214,9 @@ static void check_picture(HdSceneChecker *checker, const HdScene *scene) {
     check_object(checker, "image", scene);
     check_vector(checker, hd_field(&hd_scene_fields, "background"), "background",
                  &scene->background);
+    enter(checker, "environment", "environment");
+    check_object(checker, "environment", &scene->environment);
+    leave(checker);
 }
 
 /* Materials */

@@ -325,6 +325,24 @@ static const HdField floor_fields[] = {
 };
 static const HdObjectType floor_object = TYPE(HdSceneFile, floor_fields, NULL);
 
+static const HdField environment_fields[] = {
+    {AT(HdEnvironment, file, "file",
+        "Panorama: PNG, JPEG, OpenEXR, PFM or data file, relative to the scene's folder"),
+     .type = HD_FIELD_FILE, EXAMPLE("\"sky.jpg\""), REQUIRED},
+    {AT(HdEnvironment, curve, "curve", "Transfer curve of the file; OpenEXR and PFM are linear"),
+     CHOICE(curves, HD_CURVE_SRGB)},
+    {AT(HdEnvironment, intensity, "intensity", "Factor of the picture"), NUMBER(0.0, HD_MAX_NUMBER),
+     DEFAULT(1.0)},
+    {AT(HdEnvironment, rotation_degrees, "rotation",
+        "Rotation about the z axis; at 0 the picture's middle lies towards the x axis"),
+     NUMBER(-HD_MAX_ROTATION, HD_MAX_ROTATION), DEGREES, DEFAULT(0.0)},
+};
+static const HdObjectType environment = TYPE(HdEnvironment, environment_fields, NULL);
+
+static bool has_environment(const void *owner) {
+    return ((const HdSceneFile *)owner)->scene.environment.file != NULL;
+}
+
 static const HdField scene_fields[] = {
     {AT(HdSceneFile, schema, "$schema", "Address of the JSON Schema, for editors"), TEXT},
     {AT(HdSceneFile, version, "hedron", "Version of the format"), CHOICE(versions, 1), REQUIRED,
@@ -334,6 +352,9 @@ static const HdField scene_fields[] = {
     {HERE("output", "File of the frames and its style"), PART(output), .is_unseen = true},
     {AT(HdSceneFile, scene.background, "background", "Radiance of rays that hit nothing"),
      VECTOR(0.0, HD_MAX_NUMBER), .is_light = true, MEASURE("linear RGB"), DEFAULT(0.0)},
+    {AT(HdSceneFile, scene.environment, "environment",
+        "Picture all around, added to background; it lights nothing"),
+     PART(environment), .is_given = has_environment},
     {HERE("materials", "Materials by their names"), .type = HD_FIELD_MATERIALS,
      .object = &hd_material_fields, .most = HD_MAX_MATERIALS},
     {AT(HdSceneFile, scene.solids, "solids", "Platonic solids"), .type = HD_FIELD_LIST,

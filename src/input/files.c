@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/panorama.h"
 #include "image/picture.h"
 #include "input/check.h"
 #include "input/classic.h"
@@ -60,6 +61,22 @@ HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdProblems *notes, HdErro
     HD_TRY(hd_path_expand_home(file->texture_path, expanded, error));
     HD_TRY(hd_texture_read(texture, expanded, file->texture_curve, error));
     note_cut_short(texture, expanded, notes);
+    return HD_OK;
+}
+
+HdStatus hd_scene_file_load_environment(HdSceneFile *file, HdProblems *notes, HdError *error) {
+    HdEnvironment *environment = &file->scene.environment;
+    const HdTexture *texture = &environment->texture;
+    char expanded[HD_MAX_PATH];
+    if (environment->file == NULL)
+        return HD_OK;
+    HD_TRY(hd_path_expand_home(environment->file, expanded, error));
+    HD_TRY(hd_panorama_read(&environment->texture, &environment->top, expanded, environment->curve,
+                            error));
+    note_cut_short(texture, expanded, notes);
+    if (texture->width != 2 * texture->height && notes != NULL)
+        hd_problem(notes, "%s has %d x %d pixels, so it is stretched: a panorama is twice as wide",
+                   expanded, texture->width, texture->height);
     return HD_OK;
 }
 

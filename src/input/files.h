@@ -27,6 +27,9 @@ HdStatus hd_default_input(HdSceneFile *input, HdError *error);
    folder). */
 HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdProblems *notes, HdError *error);
 
+/* Loads the picture of the scene's environment, if any. */
+HdStatus hd_scene_file_load_environment(HdSceneFile *file, HdProblems *notes, HdError *error);
+
 /* Loads the files of the entries of "meshes", each once for all entries that agree, with their
    materials and textures. Builds the hierarchies and fills in the scene's meshes, instances and
    pictures. Reports unusable files in `problems`, if the scene is strict all wrong ones; if it has

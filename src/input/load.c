@@ -588,11 +588,18 @@ static HdStatus parse_json(json_t **root, const char *text, size_t size, const c
 /* Loads the files; only lack of memory and a signal are failures of its own. */
 static HdStatus load_files(HdSceneFile *file, const HdSceneSource *source, HdProblems *problems,
                            HdError *error) {
-    HdStatus status = hd_scene_file_load_texture(file, source->file_notes, error);
-    if (status == HD_BAD_INPUT)
-        hd_problem(problems, "floor.texture.file: %s", error->message);
-    else if (status != HD_OK)
-        return status;
+    static const struct {
+        const char *path;
+        HdStatus (*load)(HdSceneFile *file, HdProblems *notes, HdError *error);
+    } pictures[] = {{"floor.texture.file", hd_scene_file_load_texture},
+                    {"environment.file", hd_scene_file_load_environment}};
+    for (size_t i = 0; i < sizeof pictures / sizeof *pictures; i++) {
+        const HdStatus status = pictures[i].load(file, source->file_notes, error);
+        if (status == HD_BAD_INPUT)
+            hd_problem(problems, "%s: %s", pictures[i].path, error->message);
+        else if (status != HD_OK)
+            return status;
+    }
     return hd_scene_file_load_meshes(file, problems, source->file_notes, error);
 }
 
@@ -623,6 +630,9 @@ static void note_seldom_meant(const HdSceneFile *file, HdProblems *notes) {
         hd_problem(notes,
                    "output.alpha is true, but output.path is neither PNG nor OpenEXR, which alone "
                    "have alpha");
+    if (file->output.style.picture.has_alpha && file->scene.environment.file != NULL)
+        hd_problem(notes, "output.alpha is true, but only background is taken out of colours: "
+                          "environment remains at the borders of objects");
 }
 
 static HdStatus build(HdSceneFile *file, json_t *root, const HdSceneSource *source,

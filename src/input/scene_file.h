@@ -44,6 +44,7 @@ typedef struct HdSceneFile {
     int version;              /* format version; there is one */
     char schema[HD_MAX_PATH]; /* location of the JSON Schema, for editors; empty: not given */
     HdScene scene;            /* hd_scene_file_load_texture loads the floor's texture,
+                                 hd_scene_file_load_environment the environment's,
                                  hd_scene_file_load_meshes the meshes, instances and pictures */
     int mesh_entry_count;
     HdMeshEntry *mesh_entries; /* owned */
@@ -63,7 +64,7 @@ typedef struct HdSceneSource {
     const HdSceneChange *changes; /* applied before any check; messages name them */
     int change_count;
     bool is_strict;         /* refuse files with faults that readers could pass over */
-    bool loads_files;       /* load the texture and the meshes, and report problems with them */
+    bool loads_files;       /* load textures and meshes, and report problems with them */
     HdProblems *file_notes; /* notes on unused contents of loaded mesh files; NULL: none */
     HdProblems *notes; /* notes of notes.h and of a check of the whole sequence; NULL: neither */
 } HdSceneSource;

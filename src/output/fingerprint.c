@@ -76,6 +76,9 @@ static void add_mesh(uint64_t *hash, const HdMesh *mesh) {
 
 static void add_content(uint64_t *hash, const HdScene *scene) {
     add_texture(hash, &scene->floor.texture);
+    add_texture(hash, &scene->environment.texture);
+    *hash = hd_hash_numbers(*hash, &scene->environment.top, sizeof scene->environment.top,
+                            sizeof scene->environment.top);
     add_integer(hash, scene->picture_count);
     for (int i = 0; i < scene->picture_count; i++) {
         add_texture(hash, &scene->pictures[i].texture);

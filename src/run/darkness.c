@@ -6,6 +6,7 @@
 #include "base/minmax.h"
 #include "render/backends.h"
 #include "scene/camera.h"
+#include "scene/light_bound.h"
 #include "verify/trust.h"
 
 /* Pixels of the longer side of the small picture; its maximum depth. */
@@ -190,7 +191,7 @@ static void note_reasons(const Preview *seen, HdCurve curve, HdProblems *notes) 
         NOTE_REASON(seen, notes, "%s",
                     "no material shows light: all lack ambient, diffuse and specular, or a colour");
     if ((ways & COLOURED) == 0 && (ways & MIRROR) != 0 &&
-        !is_bright(curve, exposure * hd_largest(seen->scene->background)))
+        !is_bright(curve, exposure * hd_largest(hd_background_bound(seen->scene))))
         NOTE_REASON(seen, notes, "%s", "mirrors and glass show background, which is black");
     note_lights(seen, notes);
     if (notes->count == before && seen->bright == 0)
@@ -205,7 +206,8 @@ static void note_reasons(const Preview *seen, HdCurve curve, HdProblems *notes) 
 void hd_note_darkness(const HdScene *scene, HdCurve curve, int frame, HdProblems *notes) {
     const int objects = scene->solid_count + scene->instance_count + scene->floor.present;
     const int before = notes->count;
-    const bool is_dark = !is_bright(curve, scene->exposure * hd_largest(scene->background));
+    const bool is_dark =
+        !is_bright(curve, scene->exposure * hd_largest(hd_background_bound(scene)));
     Preview seen = {.scene = scene, .frame = frame};
     HdError ignored;
     if (scene->crop.whole_width > 0 || render_preview(&seen, curve, &ignored) != HD_OK)

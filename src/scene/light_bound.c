@@ -22,6 +22,12 @@ static HdVec3 solid_light(const HdSolid *solid) {
     return hd_scale(sum, lights->intensity);
 }
 
+HdVec3 hd_background_bound(const HdScene *scene) {
+    const HdEnvironment *around = &scene->environment;
+    const double most = around->texture.width > 0 ? around->top * around->intensity : 0.0;
+    return hd_add(scene->background, hd_vec3(most, most, most));
+}
+
 HdVec3 hd_light_bound(const HdScene *scene) {
     HdVec3 sum = {0.0, 0.0, 0.0};
     for (int i = 0; i < scene->light_count; i++)
@@ -143,7 +149,7 @@ HdVec3 hd_surface_bound(const HdScene *scene) {
 
 HdVec3 hd_radiance_bound(const HdScene *scene) {
     Bounding bounding = bound_surfaces(scene);
-    HdVec3 last = scene->background;
+    HdVec3 last = hd_background_bound(scene);
     for (int s = 0; s < scene->solid_count; s++)
         last = hd_maximum(last, disc_bound(&scene->solids[s]));
     return hd_scale((HdVec3){bound_of_channel(last.x, bounding.own.x, bounding.endless.x),
@@ -243,7 +249,7 @@ static HdVec3 seen_inside(const Views *views, int solid) {
    they may have points in common with it. */
 static HdVec3 seen_outside(const Views *views, int object) {
     const int solids = views->scene->solid_count;
-    HdVec3 most = views->scene->background;
+    HdVec3 most = hd_background_bound(views->scene);
     for (int i = 0; i < solids; i++) {
         bool is_near = object < solids ? views->near[object][i] : views->near[i][object];
         if (i != object)

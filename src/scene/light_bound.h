@@ -6,6 +6,9 @@
 
 #include "scene/scene.h"
 
+/* Returns a bound of what rays see that hit nothing. */
+HdVec3 hd_background_bound(const HdScene *scene);
+
 /* Returns the sum of all lights' intensities, which no point's light exceeds. */
 HdVec3 hd_light_bound(const HdScene *scene);
 

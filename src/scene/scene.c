@@ -118,5 +118,7 @@ void hd_scene_free(HdScene *scene) {
     free(scene->lights);
     hd_scene_drop_meshes(scene);
     hd_texture_clear(&scene->floor.texture);
+    hd_texture_clear(&scene->environment.texture);
+    free(scene->environment.file);
     *scene = (HdScene){0};
 }

@@ -63,6 +63,17 @@ typedef struct HdPicture {
     bool is_clamped; /* clamped at its border; otherwise it repeats */
 } HdPicture;
 
+/* A picture all around, twice as wide as high, that adds to the background. Seen from within, its
+   columns are in equal steps of the angle about the z axis, its rows in equal steps from it. */
+typedef struct HdEnvironment {
+    char *file;              /* owned; path to open, "~" not expanded; NULL: none is named */
+    HdCurve curve;           /* of the values in the file, if it is a texture */
+    double intensity;        /* factor of all texels */
+    double rotation_degrees; /* about the z axis; at 0 the middle is towards the x axis */
+    HdTexture texture;       /* width 0: none */
+    double top;              /* what 65535 in a texel stands for, before `intensity` */
+} HdEnvironment;
+
 /* A mesh's axis that points up. With y, (x, y, z) becomes (x, -z, y). */
 typedef enum HdUpAxis { HD_UP_Z, HD_UP_Y } HdUpAxis;
 
@@ -132,6 +143,7 @@ typedef struct HdScene {
     double cutoff;    /* weight below which, in every channel, a ray ends; 0: off */
     double exposure;
     HdVec3 background;
+    HdEnvironment environment;
     int solid_count;
     HdSolid *solids; /* owned */
     int light_count;

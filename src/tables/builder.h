@@ -63,7 +63,8 @@ typedef struct HdBuilder {
     HdHierarchy top; /* hierarchy over the instances; no nodes if they are few */
     size_t first_top_node;
     int first_mesh_material;
-    int picture_count; /* pictures of the scene, then of the floor */
+    int picture_count;       /* pictures of the scene, of the floor, of the environment */
+    int environment_picture; /* number of the last one; -1: none */
     size_t texels;
     void *table[HD_SCENE_TABLE_COUNT];
 } HdBuilder;

@@ -105,6 +105,7 @@ static void describe_shape(const HdBuilder *builder, HdSceneTables *tables) {
     tables->depth = scene->depth;
     tables->many_lights = builder->lanes == 1 && HD_LIGHT_CLUSTERS(builder->light_count) > 0;
     tables->bounded = hd_scene_has_error_bound(scene);
+    tables->environment = builder->environment_picture >= 0;
     tables->node_stack = builder->node_stack;
     if (builder->has_floor)
         describe_material(tables, &scene->floor.material);

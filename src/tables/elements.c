@@ -40,6 +40,8 @@ HdVec3 hd_object_centre(const HdScene *scene, int object) {
 
 const HdTexture *hd_builder_texture(const HdBuilder *builder, int picture) {
     const HdScene *scene = builder->scene;
+    if (picture == builder->environment_picture)
+        return &scene->environment.texture;
     return picture < scene->picture_count ? &scene->pictures[picture].texture
                                           : &scene->floor.texture;
 }
@@ -49,6 +51,8 @@ static void count_pictures(HdBuilder *builder) {
     builder->picture_count = scene->picture_count;
     if (builder->has_floor && scene->floor.texture.width > 0)
         builder->picture_count++;
+    builder->environment_picture =
+        scene->environment.texture.width > 0 ? builder->picture_count++ : -1;
     for (int i = 0; i < builder->picture_count; i++) {
         const HdTexture *texture = hd_builder_texture(builder, i);
         builder->texels += ((size_t)texture->width + 1) * ((size_t)texture->height + 1);

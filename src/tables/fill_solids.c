@@ -6,9 +6,18 @@
 
 #include "scene/light_bound.h"
 
+static void fill_environment(Header *header, const HdBuilder *builder) {
+    const HdEnvironment *environment = &builder->scene->environment;
+    const double start = 0.5 + environment->rotation_degrees / 360.0;
+    header->environment_picture = builder->environment_picture;
+    header->environment_factor = (real)(environment->intensity * environment->top);
+    header->environment_start = (real)(start - floor(start));
+}
+
 void NAMED(hd_fill_header)(const HdBuilder *builder, const HdSceneTables *tables) {
     Header *header = builder->table[HD_TABLE_header];
     hd_store3(header->background, builder->scene->background);
+    fill_environment(header, builder);
     header->exposure = (real)builder->scene->exposure;
     header->refracts = tables->refracts;
     header->lit_from_behind = tables->lit_from_behind;
@@ -236,7 +245,8 @@ void NAMED(hd_fill_pictures)(const HdBuilder *builder) {
     uint *texels = builder->table[HD_TABLE_texels], *words = texels;
     for (int i = 0; i < builder->picture_count; i++) {
         const HdTexture *texture = hd_builder_texture(builder, i);
-        bool is_clamped = i == scene->picture_count || scene->pictures[i].is_clamped;
+        bool is_clamped = i < scene->picture_count ? scene->pictures[i].is_clamped
+                                                   : i != builder->environment_picture;
         int first = (int)((words - texels) / 2);
         pictures[i] = (Picture){first, texture->width, texture->height, is_clamped};
         words = fill_texels(words, texture);

@@ -58,6 +58,7 @@ void hd_scene_tables_raise(HdSceneTables *tables, const HdSceneTables *like) {
     tables->many_lights = tables->many_lights || like->many_lights;
     tables->bounded = tables->bounded || like->bounded;
     tables->cut_outs = tables->cut_outs || like->cut_outs;
+    tables->environment = tables->environment || like->environment;
     tables->small_tables = tables->small_tables && like->small_tables;
 }
 

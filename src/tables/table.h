@@ -35,6 +35,7 @@ typedef struct HdSceneTables {
     bool small_tables;    /* whether they fit HD_SMALL_SCENE_TABLES and HD_SMALL_FRAME_TABLES */
     bool bounded;         /* whether pixels have an error bound */
     bool cut_outs;        /* whether some material of a mesh has holes */
+    bool environment;     /* whether rays that hit nothing see a picture */
 } HdSceneTables;
 
 /* In the order of HD_FRAME_TABLES. */
@@ -63,8 +64,8 @@ enum { HD_LISTED_WIDTH = 8 }; /* width in pixels of the frame that entries form,
 const char *hd_scene_table_content(int table);
 
 /* Raises the kernel needs of compiled tables to those of `like`: planes, depth, stack of nodes,
-   refraction, light from behind, many lights and error bound. Tables stay small only if `like` is.
-   */
+   refraction, light from behind, many lights, error bound, cut-outs and environment. Tables stay
+   small only if `like` is. */
 void hd_scene_tables_raise(HdSceneTables *tables, const HdSceneTables *like);
 
 void hd_scene_tables_free(HdSceneTables *tables);

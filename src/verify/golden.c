@@ -18,6 +18,7 @@ const HdSceneTables hd_golden_needs = {.plane_count = 32,
                                        .lit_from_behind = true,
                                        .many_lights = true,
                                        .cut_outs = true,
+                                       .environment = true,
                                        .small_tables = true};
 
 static void two_lights(HdScene *scene) {
@@ -52,6 +53,18 @@ static bool three_solids(HdScene *scene, HdCamera *camera, double spacing) {
 
 static bool three_textured(HdScene *scene, HdCamera *camera, double spacing) {
     return three_solids(scene, camera, spacing) && build_texture(&scene->floor.texture, 24, 24);
+}
+
+/* A picture all around, in a mirror and through clear faces; the view holds a pole and the seam. */
+static bool under_a_sky(HdScene *scene, HdCamera *camera, double variant) {
+    (void)variant;
+    if (!build_scene(scene, 64, 48, 2, 6, 2, 2) || !build_sky(scene, 20, 10, 2.5, 130.0))
+        return false;
+    two_lights(scene);
+    build_solid(scene, 0, HD_OCTAHEDRON, hd_vec3(-1.0, 0.4, 0.0), 1.1, hd_vec3(1.0, 0.9, 0.8), 1);
+    build_solid(scene, 1, HD_TETRAHEDRON, hd_vec3(1.1, 0.1, -0.1), 1.2, hd_vec3(0.9, 1.0, 0.9), 1);
+    build_camera(camera, hd_vec3(0.2, -2.2, -2.6), hd_vec3(0.0, 0.0, 0.6), 110.0);
+    return true;
 }
 
 /* The eye lies exactly on the face x = 1 of a hexahedron with half-integer centre and edge 2, and
@@ -461,6 +474,7 @@ const HdGoldenFrame hd_golden_frames[] = {
     {.name = "paper-cube", SOLID(HEXAHEDRON), .change = lanterns, .tests_build = true},
     {.name = "plain-instances", FEW_INSTANCES, .change = without_refraction},
     {.name = "paper-instances", FEW_INSTANCES, .change = paper_instances},
+    {.name = "under-a-sky", .base = under_a_sky, .tests_build = true},
 };
 const int hd_golden_frame_count = (int)(sizeof hd_golden_frames / sizeof hd_golden_frames[0]);
 

@@ -22,7 +22,7 @@ enum { PLANES = 32, FLOOR_PLANES = 5, MIN_PLANES = 3 };
 #define SHALLOW    .plane_count = PLANES, .depth = 8
 #define DEEP       .plane_count = PLANES, .depth = 16
 #define HAS_MESHES .node_stack = 32
-#define ALL        .refracts = true, .lit_from_behind = true, .many_lights = true
+#define ALL        .refracts = true, .lit_from_behind = true, .many_lights = true, .environment = true
 /* Tables that are small enough are in constant memory (HdSceneTables.small_tables). */
 #define SMALL .small_tables = true
 
@@ -245,6 +245,12 @@ static bool draw_meshes(Random *rng, HdScene *scene) {
     return finish_meshes(scene);
 }
 
+static bool draw_sky(Random *rng, HdScene *scene) {
+    const int height = 1 + below(rng, 20);
+    const double top = from_to(rng, 0.1, 3.0), rotation = from_to(rng, -400.0, 400.0);
+    return build_sky(scene, 2 * height, height, top, rotation);
+}
+
 static void draw_picture(Random *rng, HdScene *scene) {
     scene->depth = rng->kind->needs.depth - below(rng, 3);
     if (scene->depth > 8 || chance(rng, 0.4))
@@ -279,6 +285,7 @@ static bool draw_scene(Random *rng, HdScene *scene, HdCamera *camera) {
         light->falloff = draw_falloff(rng);
     }
     if ((chance(rng, 0.8) && !draw_floor(rng, scene)) ||
+        (rng->kind->needs.environment && chance(rng, 0.6) && !draw_sky(rng, scene)) ||
         (rng->kind->has_meshes && !draw_meshes(rng, scene)))
         return false;
     HdVec3 eye = vector(rng, -5.5, 5.5), target = vector(rng, -0.8, 0.8);
@@ -331,7 +338,8 @@ static const HdSceneTables *needs_of(const HdRandomTest *test, int kind) {
                                           .node_stack = 32,
                                           .refracts = true,
                                           .lit_from_behind = true,
-                                          .cut_outs = true};
+                                          .cut_outs = true,
+                                          .environment = true};
     return test->general ? &general : &kinds[kind].needs;
 }
 

@@ -98,6 +98,12 @@ bool build_texture(HdTexture *texture, int width, int height) {
     return true;
 }
 
+bool build_sky(HdScene *scene, int width, int height, double top, double rotation_degrees) {
+    scene->environment =
+        (HdEnvironment){.intensity = 0.75, .rotation_degrees = rotation_degrees, .top = top};
+    return build_texture(&scene->environment.texture, width, height);
+}
+
 void build_floor(HdScene *scene, HdVec3 a, HdVec3 b, HdVec3 c, HdVec3 d) {
     scene->floor.present = true;
     scene->floor.corners[0] = a;

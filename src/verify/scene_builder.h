@@ -26,6 +26,9 @@ void build_floor(HdScene *scene, HdVec3 a, HdVec3 b, HdVec3 c, HdVec3 d);
 void build_square_floor(HdScene *scene, double half_side, double z);
 bool build_texture(HdTexture *texture, int width, int height);
 
+/* Makes an environment of such a texture, whose texels are up to `top`, with intensity 0.75. */
+bool build_sky(HdScene *scene, int width, int height, double top, double rotation_degrees);
+
 /* Looks from `eye` at `target`, z up. */
 void build_camera(HdCamera *camera, HdVec3 eye, HdVec3 target, double field_of_view_degrees);
 

@@ -355,11 +355,13 @@ static uint64_t add_file(uint64_t hash, const char *path) {
 }
 
 /* Returns a hash that changes when one of the files is written or replaced: the scene (NULL: none),
-   its texture and its meshes. */
+   its textures and its meshes. */
 static uint64_t hash_files(const char *path, const HdSceneFile *file) {
     uint64_t hash = add_file(HD_HASH_START, path);
     if (file->texture_path[0] != '\0')
         hash = add_file(hash, file->texture_path);
+    if (file->scene.environment.file != NULL)
+        hash = add_file(hash, file->scene.environment.file);
     for (int i = 0; i < file->mesh_entry_count; i++)
         hash = add_file(hash, file->mesh_entries[i].file);
     return hash;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The floor's texture in the classic mode: every format, the places of its file, and files that are no textures. The unit tests
-# cover the contents of files, right and wrong (image).
+# The floor's texture in the classic mode: every format, the places of its file, and files that are no textures; notes on an
+# environment. The unit tests cover the contents of files, right and wrong (image).
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -50,6 +50,11 @@ expect_different photo.data home.data
 head -c -40 photo.png >early.png
 accept early.png early.data
 expect_stderr_contains 'early.png ends early, so a part of the picture is grey or coarse'
+# As an environment it is too narrow, and remains where pixels have alpha.
+echo '{"hedron": 1, "camera": {"eye": [9, 0, 0]}}' >sky.json
+expect_exit 0 "$hedron" check sky.json --set 'environment={"file": "early.png"}' --set output.alpha=true
+expect_stdout_contains 'early.png has 37 x 29 pixels, so it is stretched'
+expect_stdout_contains 'environment remains at the borders of objects'
 # Alpha carries no meaning.
 for alpha in 000 377; do
     printf '%b' '\1\0\0\0\1\0\0\0\0200\0100\040' "\\0$alpha" >alpha.texture

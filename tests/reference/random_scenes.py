@@ -209,6 +209,10 @@ class Maker:
                           "exposure": self.number(0.5, 2)},
                 "background": self.colour(0),
                 "lights": [self.light() for _ in range(self.dice.randint(0, 3))]}
+        if self.chance(0.4):
+            self.texture(f"{self.name}-sky.data")
+            keys["environment"] = {"file": f"{self.name}-sky.data", "intensity": self.number(0.2, 2),
+                                   "rotation": self.number(-400, 400), "curve": self.dice.choice(["srgb", "linear"])}
         if self.chance(0.8):
             keys["floor"] = self.floor(overlapping)
         if self.chance(0.5) or not keys["solids"]:

@@ -14,19 +14,21 @@ def off_the_srgb_curve(s):
 class Texture:
     """Texels in linear light, in steps of 1/65535."""
 
-    def __init__(self, path, curve, repeats):
+    def __init__(self, path, curve, repeats, *, clamps_rows=False):
         data = path.read_bytes()
         self.width, self.height = struct.unpack("<ii", data[:8])
         light = off_the_srgb_curve if curve == "srgb" else float
         level = [math.floor(light(value / 255) * 65535 + 0.5) / 65535 for value in range(256)]
         self.texels = [tuple(level[value] for value in data[i:i + 3]) for i in range(8, len(data), 4)]
-        self.repeats = repeats
+        self.repeats, self.clamps_rows = repeats, clamps_rows or not repeats
 
     def at(self, s, t):
         """Returns the value, bilinear between texel centres."""
         p, q = s * self.width - 0.5, t * self.height - 0.5
         if not self.repeats:
-            p, q = min(max(p, 0), self.width - 1), min(max(q, 0), self.height - 1)
+            p = min(max(p, 0), self.width - 1)
+        if self.clamps_rows:
+            q = min(max(q, 0), self.height - 1)
         column, row = math.floor(p), math.floor(q)
         p, q = p - column, q - row
         total = BLACK

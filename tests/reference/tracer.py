@@ -473,6 +473,20 @@ class Camera:
         return unit(along(along(self.forward, i * h, self.right), -j * h, self.up))
 
 
+class Environment:
+    """A picture all around."""
+
+    def __init__(self, keys, folder):
+        self.texture = Texture(folder / keys["file"], keys.get("curve", "srgb"), True, clamps_rows=True)
+        self.intensity, self.turn = keys.get("intensity", 1), keys.get("rotation", 0) / 360
+
+    def at(self, direction):
+        """Returns the light from a direction."""
+        x, y, z = direction
+        s = 0.5 + self.turn - math.atan2(y, x) / (2 * math.pi)
+        return times(self.intensity, self.texture.at(s, math.atan2(math.hypot(x, y), z) / math.pi))
+
+
 class Scene:
     """A scene file, and the light along rays."""
 
@@ -484,6 +498,7 @@ class Scene:
         self.samples, self.depth = image.get("samples", 3), image.get("depth", 8)
         self.cutoff, self.exposure = image.get("cutoff", 0), image.get("exposure", 1)
         self.background = tuple(keys.get("background", BLACK))
+        self.environment = Environment(keys["environment"], path.parent) if "environment" in keys else None
         self.camera = Camera(keys["camera"], frame)
         materials = {name: Material(own) for name, own in keys.get("materials", {}).items()}
         self.things = [Solid(own, materials) for own in keys.get("solids", [])]
@@ -574,6 +589,10 @@ class Scene:
         if transmission > 0:
             yield times(transmission, surface.colour), passing, surface.side == OUTER
 
+    def beyond(self, direction):
+        """Returns what a ray sees that hits nothing."""
+        return along(self.background, 1, self.environment.at(direction)) if self.environment else self.background
+
     def sample(self, direction):
         """Returns the sum of the rays of one tree."""
         total = BLACK
@@ -581,7 +600,7 @@ class Scene:
         while rays:
             weight, level, origin, direction, left, within = rays.pop()
             surface = self.nearest(origin, direction, left, within)
-            radiance = self.shaded(surface, direction) if surface else self.background
+            radiance = self.shaded(surface, direction) if surface else self.beyond(direction)
             radiance = tuple(min(max(self.exposure * r, 0), CONTRIBUTION_LIMIT) for r in radiance)
             total = along(total, 1, product(weight, radiance))
             if surface is None or surface.ends or level == self.depth:

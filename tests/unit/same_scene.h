@@ -78,14 +78,28 @@ static inline void expect_same_mesh(const HdMeshEntry *a, const HdMeshEntry *b) 
 
 static inline void expect_same_scene(const HdScene *a, const HdScene *b) {
 #define M(member) MEMBER(HdScene, member)
-    static const Member members[] = {M(width),       M(height),      M(depth),
-                                     M(cutoff),      M(sampling),    M(max_error),
-                                     M(exposure),    M(background),  M(frame_count),
-                                     M(solid_count), M(light_count), M(floor.present)};
+    static const Member members[] = {M(width),
+                                     M(height),
+                                     M(depth),
+                                     M(cutoff),
+                                     M(sampling),
+                                     M(max_error),
+                                     M(exposure),
+                                     M(background),
+                                     M(frame_count),
+                                     M(solid_count),
+                                     M(light_count),
+                                     M(floor.present),
+                                     M(environment.curve),
+                                     M(environment.intensity),
+                                     M(environment.rotation_degrees)};
     static const Member others[] = {M(samples_per_side), M(field_of_view_degrees)};
 #undef M
     EXPECT_SAME(members, a, b);
     EXPECT_SAME(others, a, b);
+    assert_int_equal(a->environment.file != NULL, b->environment.file != NULL);
+    if (a->environment.file != NULL)
+        assert_string_equal(a->environment.file, b->environment.file);
     expect_same_path(&a->eye, &b->eye);
     expect_same_path(&a->target, &b->target);
     for (int i = 0; i < a->solid_count; i++)

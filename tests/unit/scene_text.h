@@ -27,6 +27,8 @@ static const char rich_text[] =
     "  \"output\": {\"path\": \"out/%04d.png\", \"frames_per_second\": \"25000/1001\",\n"
     "             \"curve\": \"linear\", \"bits\": 16, \"alpha\": true},\n"
     "  \"background\": [0.1, 0.2, 3],\n"
+    "  \"environment\": {\"file\": \"sky.pfm\", \"curve\": \"linear\", \"intensity\": 2,\n"
+    "                  \"rotation\": 70},\n"
     "  \"materials\": {\n"
     "    \"glass\": {\"colour\": [0.9, 0.8, 0.7], \"mirror_tint\": [0.6, 0.5, 0.4],\n"
     "              \"ambient\": 0.01, \"diffuse\": 0.02, \"specular\": 0.03, \"shininess\": 65,\n"

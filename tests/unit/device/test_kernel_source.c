@@ -75,7 +75,7 @@ TEST(scenes_of_similar_size_need_the_same) {
     assert_int_equal(hd_kernel_needs(&tables).plane_bound, 16);
     tables.refracts = tables.lit_from_behind = true;
     assert_true(hd_kernel_needs(&tables).refracts && hd_kernel_needs(&tables).lit_from_behind);
-    for (int i = 0; i < 9; i++) {
+    for (int i = 0; i < 10; i++) {
         HdKernelNeeds other = expected;
         other.plane_bound += i == 0;
         other.depth_bound += i == 1;
@@ -86,6 +86,7 @@ TEST(scenes_of_similar_size_need_the_same) {
         other.many_lights ^= i == 6;
         other.small_tables ^= i == 7;
         other.cut_outs ^= i == 8;
+        other.environment ^= i == 9;
         assert_false(hd_kernel_needs_equal(&expected, &other));
     }
 }
@@ -97,11 +98,11 @@ TEST(needs_are_printed_in_words) {
     assert_string_equal(text, "built for up to 8 planes and depth 16, without refraction, no faces "
                               "lit from behind, no meshes");
     needs.refracts = needs.lit_from_behind = needs.many_lights = needs.bounded = needs.cut_outs =
-        true;
+        needs.environment = true;
     needs.node_stack_bound = 32;
     hd_kernel_needs_describe(&needs, text, sizeof text);
     expect_contains(text, "16, with refraction, faces lit from behind, meshes, many lights, error "
-                          "bounds, cut-outs");
+                          "bounds, cut-outs, an environment");
 }
 
 /* Neighbours in the list have other values. */
@@ -117,7 +118,7 @@ TEST(all_features_of_a_shape_are_defined) {
                                            .node_stack_bound = 32,
                                            .refracts = true,
                                            .many_lights = true,
-                                           .small_tables = true},
+                                           .environment = true},
                                  .math = HD_MATH_FAST,
                                  .rounds_by_fma = true};
     hd_kernel_defines(&shape, text);
@@ -126,8 +127,8 @@ TEST(all_features_of_a_shape_are_defined) {
                         " -DHD_GROUP_SIZE=96 -DHD_WAVEFRONT=1 -DHD_FIRST_HITS=0"
                         " -DHD_PLANE_BOUND=8 -DHD_DEPTH_BOUND=16 -DHD_NODE_STACK=32"
                         " -DHD_WIDE_STACK=128 -DHD_REFRACTS=1 -DHD_LIT_FROM_BEHIND=0"
-                        " -DHD_MANY_LIGHTS=1 -DHD_BOUNDED=0 -DHD_CUT_OUTS=0 -DHD_SMALL_TABLES=1"
-                        " -DHD_STRICT=0 -DHD_ROUNDED_BY_FMA=1 -DHD_PROBE=0");
+                        " -DHD_MANY_LIGHTS=1 -DHD_BOUNDED=0 -DHD_CUT_OUTS=0 -DHD_ENVIRONMENT=1"
+                        " -DHD_SMALL_TABLES=0 -DHD_STRICT=0 -DHD_ROUNDED_BY_FMA=1 -DHD_PROBE=0");
 }
 
 TEST(blocks_cover_the_picture) {

@@ -339,11 +339,13 @@ TEST(test_problems_of_all_kinds) {
         .name = "a.json", .folder = "", .changes = changes, .change_count = 3, .loads_files = true};
     assert_int_equal(hd_scene_file_parse(&file, rich_text, strlen(rich_text), &source, &error),
                      HD_BAD_INPUT);
-    expect_contains(error.message, "a.json: 5 problems\n");
+    expect_contains(error.message, "a.json: 6 problems\n");
     expect_contains(error.message, "\n  materials.glass: reflection + transmission is 1.03");
     expect_contains(error.message, "\n  --set image.width=0: image.width is 0, expected");
     expect_contains(error.message,
                     "\n  floor.texture.file: cannot read the texture no such.png: No such file");
+    expect_contains(error.message,
+                    "\n  environment.file: cannot read the texture sky.pfm: No such");
     expect_contains(error.message, "\n  meshes[0].file: cannot read the mesh model.obj: No such");
 }
 

@@ -2,6 +2,9 @@
 /* Scene files are read as written, and changed by --set. */
 #define _XOPEN_SOURCE 700
 
+#include <math.h>
+
+#include "image/picture.h"
 #include "input/files.h"
 #include "same_scene.h"
 #include "scene_text.h"
@@ -76,6 +79,7 @@ TEST(test_every_key) {
                   .eye.cylinder = {30.0, 1.0, 0.1, 0.2, 0.3, 2.0, 3.0, 4.0, 0.4, 0.5},
                   .target = {true, {0.5, 0.25, 0.125}, {0}},
                   .background = {0.1, 0.2, 3.0},
+                  .environment = {(char[]){"sky.pfm"}, HD_CURVE_LINEAR, 2.0, 70.0, {0}, 0.0},
                   .solid_count = 3,
                   .solids = solids,
                   .light_count = 2,
@@ -182,6 +186,32 @@ TEST(test_files_count_from_the_folder) {
 static HdStatus load_texture(const char *text, const char *change) {
     expect_scene(&file, text, change);
     return hd_scene_file_load_texture(&file, NULL, &error);
+}
+
+/* Light above HD_MAX_PANORAMA_LIGHT is clamped; what is no number, or negative, is black. */
+TEST(test_environments_keep_bright_light) {
+    static const struct {
+        float light[6];
+        double top;
+        uint16_t texels[6];
+    } cases[] = {{{0.5F, 0.0F, 4.0F, 1.0F, -1.0F, 2.0F}, 4.0, {8192, 0, 65535, 16384, 0, 32768}},
+                 {{1e5F, 8.0F, NAN, 16.0F, 0.0F, 0.0F}, 16.0, {65535, 32768, 0, 65535, 0, 0}},
+                 {{0.0F}, 1.0, {0}}};
+    const HdEnvironment *environment = &file.scene.environment;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        HdFrame frame = {.width = 2, .height = 1, .floats = 3, .rgb = (float *)cases[i].light};
+        const HdPictureStyle style = {.bits = 32};
+        expect_scene(&file, rich_text, NULL);
+        assert_int_equal(hd_picture_write(&frame, &style, "sky.pfm", &error), HD_OK);
+        assert_int_equal(hd_scene_file_load_environment(&file, NULL, &error), HD_OK);
+        expect_near(environment->top, cases[i].top, 0.0);
+        assert_memory_equal(environment->texture.texels, cases[i].texels, sizeof cases[i].texels);
+        hd_scene_file_free(&file);
+    }
+    expect_scene(&file, rich_text, "environment.file=missing.exr");
+    assert_int_equal(hd_scene_file_load_environment(&file, NULL, &error), HD_BAD_INPUT);
+    expect_contains(error.message, "missing.exr");
+    hd_scene_file_free(&file);
 }
 
 /* Middle grey on the curve is darker in linear light. */

@@ -81,7 +81,7 @@ static HdVec3 colours[3];
 static double uvs[1][2];
 static int32_t corners[1][3], corner_normals[1][3], corner_uvs[1][3], material_of[1];
 static uint8_t group_of[1];
-static uint16_t floor_texels[6], texels[3];
+static uint16_t floor_texels[6], sky_texels[3], texels[3];
 static HdMeshMaterial materials[3]; /* the second is the mesh's */
 static HdMesh mesh = {.vertex_count = 3,
                       .normal_count = 1,
@@ -104,6 +104,8 @@ static HdInstance instance = {.has_material = true};
 TEST(file_contents_change_the_fingerprint) {
     HdScene *scene = &file.scene;
     const Bits list[] = {BITS(floor_texels),
+                         BITS(sky_texels),
+                         BITS(scene->environment.top),
                          BITS(texels),
                          BITS(vertices),
                          BITS(normals),
@@ -162,6 +164,7 @@ static int read_scene(void **state) {
     expect_scene(&file, rich_text, NULL);
     file.schema[0] = 's';
     HdScene *scene = &file.scene;
+    scene->environment.texture = (HdTexture){.width = 1, .height = 1, .texels = sky_texels};
     scene->floor.texture = (HdTexture){.width = 2, .height = 1, .texels = floor_texels};
     scene->mesh_count = scene->picture_count = scene->instance_count = 1;
     scene->meshes = &mesh;

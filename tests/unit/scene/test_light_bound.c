@@ -35,6 +35,8 @@ TEST(lights_add_up) {
     solid.lights.colours[1] = (HdVec3){0.0, 0.25, 0.0};
     scene = (HdScene){.solid_count = 1, .solids = &solid, .background = {5.0, 0.0, 9.0}};
     expect_bound(hd_radiance_bound(&scene), 8.0, 2.0, 9.0);
+    scene.environment = (HdEnvironment){.intensity = 2.0, .top = 3.0, .texture.width = 1};
+    expect_bound(hd_radiance_bound(&scene), 11.0, 6.0, 15.0);
 }
 
 /* A surface's emission, by the share that it absorbs. */
@@ -95,6 +97,11 @@ TEST(bounds_cover_visible_radiance) {
     expect_bound(seen[0].outside, 4.0, 2.0, 0.0);
     expect_bound(seen[1].inside, 4.0, 2.0, 0.0);
     expect_bound(seen[1].outside, 0.5, 0.05, 0.0); /* never itself */
+    scene.environment = (HdEnvironment){.intensity = 0.5, .top = 0.5, .texture.width = 1};
+    hd_seen_bounds(&scene, seen);
+    expect_bound(seen[1].outside, 0.75, 0.25, 0.25);
+    scene.environment.texture.width = 0;
+    hd_seen_bounds(&scene, seen);
     expect_bound(seen[2].outside, 4.0, 2.0, 0.0);
     solids[0].face.inner_transmission = 0.25;
     hd_seen_bounds(&scene, seen);
