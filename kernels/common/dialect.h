@@ -95,16 +95,20 @@ FN vmask lanes_after(vmask left, vmask done) {
 #endif
 }
 
-/* Returns whether to do work that only the lanes of `m` need. GPUs always do it: it is free if
-   other threads of the warp need it, and each nested branch costs a barrier (docs/lost-light.md).
-   */
-FN int must_visit(vmask m) {
+/* Returns whether to do work that only some threads need. GPUs always do it: it is free if other
+   threads of the warp need it, and each nested branch costs a barrier (docs/lost-light.md). */
+FN int must_enter(int needed) {
 #if HD_GROUP_SIZE
-    (void)m;
+    (void)needed;
     return 1;
 #else
-    return any_lane(m);
+    return needed;
 #endif
+}
+
+/* Likewise for work that only the lanes of `m` need. */
+FN int must_visit(vmask m) {
+    return must_enter(any_lane(m));
 }
 
 /* Returns `counts`, one more in the lanes of `m`. */
@@ -255,6 +259,16 @@ FN void store_lanes_int(GLOBAL int *to, const int offset[HD_LANES], const vint *
     for (int lane = 0; lane < HD_LANES; lane++)
         to[offset[lane]] = lane_int(a, lane);
 }
+
+/* Returns whether no thread of the warp that gets here together has a higher number; 0 <= number <
+   limit. */
+#ifndef HD_OWN_HIGHEST
+FN int is_highest_of_warp(int number, int limit) {
+    (void)number;
+    (void)limit;
+    return 1;
+}
+#endif
 
 /* Adds to memory that threads share. Without groups (HD_GROUP_SIZE is 0) each thread has its own
    memory, so a plain addition does. */

@@ -178,6 +178,8 @@ enum {
 #define MESHES(header)          (HD_NODE_STACK > 0 && (header)->instance_count > 0)
 #define NODE_STACK(header)      (HD_NODE_STACK + 1)
 #define WIDE_STACK(header)      (HD_WIDE_STACK + 1)
+/* Otherwise barriers do not suffice (docs/lost-light.md). */
+#define ALIGNS_DEPTHS (HD_NODE_STACK == 0)
 #else
 #ifndef HD_PLAIN
 #define HD_PLAIN 0
@@ -195,6 +197,7 @@ enum {
 #define MESHES(header)          (!HD_PLAIN && (header)->instance_count > 0)
 #define NODE_STACK(header)      ((header)->node_stack + 1)
 #define WIDE_STACK(header)      ((header)->wide_stack + 1)
+#define ALIGNS_DEPTHS           0
 #endif
 
 #endif

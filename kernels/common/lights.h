@@ -245,11 +245,13 @@ FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const rea
                    Vec3 *light) {
     GLOBAL const Material *face = materials + solid->face_material;
     vreal passes = splat(transmission);
-    if (solid->rim_depth > R(0.0) && transmission > R(0.0)) {
+    int has_rim = solid->rim_depth > R(0.0) && transmission > R(0.0);
+    if (must_enter(has_rim)) {
         /* A rim is near two planes, the face's own among them. */
-        vreal t = crossing_time(where);
+        int end = solid->first_plane + (has_rim ? solid->plane_count : 0);
+        vreal t = has_rim ? crossing_time(where) : splat(R(0.0));
         vint near_planes = splat_int(0);
-        for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++) {
+        for (int k = solid->first_plane; k < end; k++) {
             vreal from = coordinates[k];
             vreal coordinate = multiply_add(t, splat(light_row[k]) - from, from);
             vreal height = solid->paired ? absolute(coordinate) : coordinate;
@@ -387,14 +389,15 @@ FN vmask beyond_falloff(GLOBAL const Light *light, vreal squared) {
     return le(squared * splat(light->inverse_falloff_squared), splat(R(-1.0)));
 }
 
-/* Returns `light` as the solids, the floor and the meshes transmit it to the points of `lit`. */
-FN Vec3 passing_light(SCENE_PARAMETERS int number, Vec3 light, Vec3 to_light,
+/* Returns `light` as the first `solids` solids, the floor and the meshes transmit it to the points
+   of `lit`. */
+FN Vec3 passing_light(SCENE_PARAMETERS int number, int solids, Vec3 light, Vec3 to_light,
                       const Surface *surface, const vreal *coordinates, const vint *outside_planes,
                       const uint *some_outside, const vmask *may_cross, const LitPoints *points,
                       int known, vmask lit) {
     GLOBAL const real *light_row = light_coordinates + number * header->plane_count;
     GLOBAL const LightSides *sides = light_sides + number * header->object_count;
-    for (int object = 0; object < header->solid_count; object++) {
+    for (int object = 0; object < solids; object++) {
         if (cannot_occlude(known, object))
             continue;
         cross_solid(SCENE_ARGUMENTS object, sides + object, light_row, coordinates,
@@ -522,9 +525,11 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
         *shadow_tests = count_lanes(*shadow_tests, lit);
         known |= occlusion_mask(SCENE_ARGUMENTS & rows, i + 1);
         Vec3 light = vec3_of(lights[i].intensity);
-        if (MESHES(header) || ~known & masked_objects)
-            light = passing_light(SCENE_ARGUMENTS i, light, to_light, surface, coordinates,
-                                  outside_planes, some_outside, may_cross, points, known, lit);
+        int may_block = ~known & masked_objects;
+        if (MESHES(header) || must_enter(may_block))
+            light = passing_light(SCENE_ARGUMENTS i, may_block ? header->solid_count : 0, light,
+                                  to_light, surface, coordinates, outside_planes, some_outside,
+                                  may_cross, points, known, lit);
         vreal share = vselect(lit, falloff_at(lights + i, squared), zero);
         Vec3 reflected = phong(&surface->material, shines, shininess, common_shininess, cosine,
                                vec3_dot(mirrored, to_light), squared, share);

@@ -251,20 +251,18 @@ FN void trace_and_shade(SCENE_PARAMETERS const Ray *ray, int level, Sample *samp
 }
 
 /* Adds to `sample` the ray trees of eye rays in `direction` (unit) in the lanes of `alive`. At most
-   one ray for each depth waits on the stack. The inner loop descends until no ray continues, the
-   outer one pops the next, so that the threads of a warp descend together. */
+   one ray for each depth waits on the stack. The inner loop descends until no ray continues. Of the
+   threads of a warp, those with the deepest waiting rays go on: the others join them later. */
 FN void trace(SCENE_PARAMETERS Vec3 direction, vmask alive, Sample *sample) {
     Ray stack[DEPTH_BOUND(view)];
     int stack_level[DEPTH_BOUND(view)];
-    int waiting = 0, level = 0, in_tree;
+    int waiting = 0, level = 0, descends = 1, in_tree;
     Ray ray = eye_ray(direction, alive);
     do {
-        int mirrors, passes;
-        do {
+        while (descends) {
             Ray mirror, through;
             trace_and_shade(SCENE_ARGUMENTS & ray, level, sample, &mirror, &through);
-            mirrors = any_lane(mirror.alive);
-            passes = any_lane(through.alive);
+            int mirrors = any_lane(mirror.alive), passes = any_lane(through.alive);
             level++;
             if (mirrors && passes) {
                 stack[waiting] = mirror;
@@ -272,9 +270,13 @@ FN void trace(SCENE_PARAMETERS Vec3 direction, vmask alive, Sample *sample) {
                 waiting++;
             }
             ray = passes ? through : mirror;
-        } while (mirrors || passes);
+            descends = mirrors || passes;
+        }
         in_tree = waiting > 0;
-        if (in_tree) {
+        if (in_tree)
+            descends =
+                !ALIGNS_DEPTHS || is_highest_of_warp(stack_level[waiting - 1], DEPTH_BOUND(view));
+        if (descends) {
             waiting--;
             ray = stack[waiting];
             level = stack_level[waiting];

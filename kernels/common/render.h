@@ -170,19 +170,19 @@ FN void add_sample(SCENE_PARAMETERS const Sample *sample, int first,
     }
 }
 
-/* Traces every `parts`-th packet of the item's first `count` samples, from packet `part` on; at
-   least one, which is dead if no samples remain. */
-FN void gather_samples(SCENE_PARAMETERS int item, int part, int parts, int count,
+/* Traces every `parts`-th packet of the item's samples from packet `part` on; dead ones, if it does
+   not exist. All threads of a group have equally many packets, so the loop needs no barrier. */
+FN void gather_samples(SCENE_PARAMETERS int item, int exists, int part, int parts,
                        PixelAccumulator *accumulator) {
-    int first = part * HD_LANES;
-    do {
+    const int count = HD_PIXELS_PER_ITEM * view->samples, step = parts * HD_LANES;
+    for (int start = 0; start < count; start += step) {
         Vec3 direction;
+        int first = start + part * HD_LANES;
         vmask alive = sample_directions(SAMPLE_ARGUMENTS item, first, &direction);
         Sample sample = empty_sample();
-        trace(SCENE_ARGUMENTS direction, first < count ? alive : mask_none(), &sample);
+        trace(SCENE_ARGUMENTS direction, exists ? alive : mask_none(), &sample);
         add_sample(SCENE_ARGUMENTS & sample, first, accumulator);
-        first += parts * HD_LANES;
-    } while (first < count);
+    }
 }
 
 FN void store_pixels(GLOBAL const Header *header, GLOBAL const View *view, int item,
@@ -209,7 +209,7 @@ FN void store_pixels(GLOBAL const Header *header, GLOBAL const View *view, int i
 FN void render_item(SCENE_PARAMETERS int item, GLOBAL float *pixels, GLOBAL RayCounts *counts) {
     PixelAccumulator accumulator;
     clear_accumulator(&accumulator);
-    gather_samples(SCENE_ARGUMENTS item, 0, 1, HD_PIXELS_PER_ITEM * view->samples, &accumulator);
+    gather_samples(SCENE_ARGUMENTS item, 1, 0, 1, &accumulator);
     store_pixels(header, view, item, &accumulator, pixels);
     *counts = accumulator.counts;
 }
@@ -257,8 +257,7 @@ FN void render_by_group(SCENE_PARAMETERS int first_item, int item_count, int par
         int has_item = place < items_per_group && first + place < item_count;
         PixelAccumulator accumulator;
         clear_accumulator(&accumulator);
-        gather_samples(SCENE_ARGUMENTS item, part, parts,
-                       has_item ? HD_PIXELS_PER_ITEM * view->samples : 0, &accumulator);
+        gather_samples(SCENE_ARGUMENTS item, has_item, part, parts, &accumulator);
         /* Threads without an item may have no neighbours to read from. */
         add_parts(&accumulator, has_item ? part : -1, parts, scratch + thread * GROUP_SCRATCH);
         if (has_item && part == 0) {

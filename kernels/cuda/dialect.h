@@ -48,6 +48,25 @@ FN int count_bits(uint bits) {
     return __popc(bits);
 }
 
+/* Threads that the compiler lets diverge belong to other sets: each set has a highest number. */
+#define HD_OWN_HIGHEST
+FN int is_highest_of_warp(int number, int limit) {
+    uint together = __activemask();
+#if __CUDA_ARCH__ >= 800
+    (void)limit;
+    return __reduce_max_sync(together, (uint)number) == (uint)number;
+#else
+    int bit = 1, highest = 1;
+    while (2 * bit < limit)
+        bit *= 2;
+    for (; bit > 0; bit /= 2) {
+        uint have = __ballot_sync(together, highest && number & bit);
+        highest = highest && (number & bit || !have);
+    }
+    return highest;
+#endif
+}
+
 #if HD_GROUP_SIZE
 FN void add_shared(fixed64 *sum, fixed64 amount) {
     atomicAdd((uint64 *)sum, (uint64)amount);

@@ -45,7 +45,7 @@ int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked) {
     enum { BLOCK_REGISTERS = 65536, GRANULARITY = 8 };
     bool has_middle = (shape->needs.many_lights || shape->needs.node_stack_bound > 0) &&
                       shape->precision == HD_PRECISION_FLOAT;
-    int few = 64, many = has_middle ? 96 : 128;
+    int few = 64, many = has_middle ? 80 : 128;
     if (asked > 0)
         return asked;
     int limit = nvidia_arch >= 70 ? many : few;

@@ -29,6 +29,15 @@ extern const FakeShared fake_shared = {__start_fake_shared_memory, __stop_fake_s
 static inline void __syncthreads() {
     fake_thread.wait();
 }
+/* Each time it is asked, a warp is this thread alone, or has another one with all bits set. */
+static bool fake_is_alone;
+static inline unsigned __activemask() {
+    fake_is_alone = !fake_is_alone;
+    return fake_is_alone ? 1 : 3;
+}
+static inline unsigned __ballot_sync(unsigned, int is_set) {
+    return (is_set != 0) | (fake_is_alone ? 0 : 2);
+}
 template <typename T> static inline T atomicAdd(T *to, T amount) {
     T before = *to;
     *to += amount;
