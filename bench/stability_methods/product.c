@@ -128,8 +128,9 @@ static double transmittance(const HdTable *scene, const HdLitPoint *point, int l
     LightRows rows = light_rows(points.object);
     Vec3 to_light = vec3_sub(light_position(SCENE_ARGUMENTS & rows, light), surface.point);
     Vec3 white = vec3_splat(R(1.0), R(1.0), R(1.0));
-    Vec3 passing = passing_light(SCENE_ARGUMENTS light, white, to_light, &surface, coordinates,
-                                 outer, some_outer, open_to, &points, 0, mask_all());
+    Vec3 passing =
+        passing_light(SCENE_ARGUMENTS light, header->solid_count, white, to_light, &surface,
+                      coordinates, outer, some_outer, open_to, &points, 0, mask_all());
     return (double)lane_real(&passing.x, 0);
 }
 

@@ -118,7 +118,9 @@ static double distance_of(HdVec3 half, HdVec3 forward) {
             hd_vec3(i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 4 ? half.z : -half.z);
         const double aside =
             fmax(fabs(hd_dot(corner, right)) / across, fabs(hd_dot(corner, up)) / upright);
-        distance = fmax(distance, aside - hd_dot(corner, forward));
+        const double needed = aside - hd_dot(corner, forward);
+        if (needed > distance) /* gcc 12 for aarch64 fails on fmax here, at -O3 */
+            distance = needed;
     }
     return distance;
 }

@@ -55,8 +55,10 @@ LISTING(list_c, C)
 
 static HdStatus open_c(const HdDevice *device, const HdRenderOptions *asked, void **renderer,
                        HdError *failure) {
+    HdRenderOptions own = *asked;
+    own.lanes = 0; /* not every processor has kernels of several lanes */
     return is_missing ? hd_fail(failure, HD_UNAVAILABLE, "it is missing")
-                      : hd_backend_c.functions->open(device, asked, renderer, failure);
+                      : hd_backend_c.functions->open(device, &own, renderer, failure);
 }
 
 static HdRendererFunctions c_functions;
