@@ -340,12 +340,12 @@ static HdStatus try_each(Tuner *tuner, HdRenderOptions *options, int *member, co
 }
 
 static HdStatus try_pipeline(Tuner *tuner, HdPipeline pipeline, HdError *error) {
-    static const int limits[] = {64, 96, 128, 168};
+    static const int limits[] = {64, 80, 96, 128, 168};
     HdRenderOptions options = *tuner->options;
     options.pipeline = pipeline;
     HD_TRY(try(tuner, &options, error));
     return tuner->device->nvidia_arch > 0 && tuner->options->registers == 0
-               ? try_each(tuner, &options, &options.registers, limits, 4, error)
+               ? try_each(tuner, &options, &options.registers, limits, 5, error)
                : HD_OK;
 }
 
