@@ -118,12 +118,13 @@ static void note_contacts(const HdScene *scene, HdProblems *notes) {
 /* Writes "solids[0]", "meshes[1]" or "a part of meshes[1]". */
 static void name_object(const HdScene *scene, const HdNesting *nesting, HdNestObject object,
                         char out[48]) {
-    const HdInstance *instance = &scene->instances[object.number];
-    if (object.is_solid)
+    if (object.is_solid) {
         snprintf(out, 48, "solids[%d]", object.number);
-    else
-        snprintf(out, 48, "%smeshes[%d]",
-                 nesting->shells[instance->mesh].count > 1 ? "a part of " : "", instance->entry);
+        return;
+    }
+    const HdInstance *instance = &scene->instances[object.number];
+    snprintf(out, 48, "%smeshes[%d]",
+             nesting->shells[instance->mesh].count > 1 ? "a part of " : "", instance->entry);
 }
 
 /* Notes the first of the results in one state. */

@@ -135,6 +135,8 @@ for words in 'meshes: 1 of them is in the place' 'solids[1] lies within meshes[2
 done
 expect_stdout_contains 'meshes[0], models/cube.obj'
 expect_stdout_contains 'meshes[2], models/copy.obj'
+expect_exit 0 "$hedron" check glass.json --set 'meshes=[]'
+expect_stdout_contains 'solids[1] lies within solids[0]'
 
 # ---- indices count against those around; a tiny stray triangle opens a mesh, so that they do not; two files are as one
 part() { # MATERIAL SCALE FIRST: a cube of this material; its vertices count on from FIRST
