@@ -510,6 +510,12 @@ static void check_pair(HdSceneChecker *checker, const HdSolid *solids, const boo
                name, other_name, depth);
 }
 
+/* Returns the index of refraction around a solid. */
+static double index_around(const HdSolid *solids, int count, int number) {
+    const int around = hd_solid_around(solids, count, number);
+    return around >= 0 ? solids[around].face.index_of_refraction : 1.0;
+}
+
 /* Checks that of two solids that overlap, and of which one refracts, one is opaque or within the
    other, if all positions and sizes are valid. */
 static void check_overlaps(HdSceneChecker *checker, const HdSolid *solids) {
@@ -518,8 +524,8 @@ static void check_overlaps(HdSceneChecker *checker, const HdSolid *solids) {
         if (checker->is_solid_wrong[i])
             return;
     for (int i = 0; i < checker->solid_count; i++)
-        refracts[i] = solids[i].face.index_of_refraction !=
-                      hd_index_around(solids, checker->solid_count, &solids[i]);
+        refracts[i] =
+            solids[i].face.index_of_refraction != index_around(solids, checker->solid_count, i);
     for (int i = 0; i < checker->solid_count; i++)
         for (int j = i + 1; j < checker->solid_count; j++)
             check_pair(checker, solids, refracts, i, j);

@@ -119,20 +119,25 @@ static HdBox box_of(const HdMesh *mesh, int triangle, HdVec3 middle, double scal
     return box;
 }
 
-HdStatus hd_mesh_build(HdMesh *mesh, HdThreadPool *pool, HdError *error) {
-    HdBox *boxes = calloc((size_t)mesh->triangle_count, sizeof *boxes);
+HdStatus hd_mesh_build_tree(HdHierarchy *tree, const HdMesh *mesh, const int32_t *triangles,
+                            int count, HdThreadPool *pool, HdError *error) {
+    const HdVec3 middle = hd_mesh_centre(mesh);
+    const double scale = 1.0 / hd_mesh_half_side(mesh);
+    HdBox *boxes = calloc((size_t)count, sizeof *boxes);
     if (boxes == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: a mesh has %d triangles",
-                       mesh->triangle_count);
-    find_box(mesh, &mesh->lower, &mesh->upper);
-    HdVec3 middle = hd_mesh_centre(mesh);
-    double scale = 1.0 / hd_mesh_half_side(mesh);
-    for (int i = 0; i < mesh->triangle_count; i++)
-        boxes[i] = box_of(mesh, i, middle, scale);
-    HdStatus status =
-        hd_hierarchy_build(&mesh->tree, boxes, mesh->triangle_count, &tree_options, pool, error);
+        return hd_fail(error, HD_FAILED, "out of memory: a mesh has %d triangles", count);
+    for (int i = 0; i < count; i++)
+        boxes[i] = box_of(mesh, triangles != NULL ? triangles[i] : i, middle, scale);
+    const HdStatus status = hd_hierarchy_build(tree, boxes, count, &tree_options, pool, error);
     free(boxes);
+    for (int i = 0; i < count && triangles != NULL && status == HD_OK; i++)
+        tree->order[i] = triangles[tree->order[i]];
     return status;
+}
+
+HdStatus hd_mesh_build(HdMesh *mesh, HdThreadPool *pool, HdError *error) {
+    find_box(mesh, &mesh->lower, &mesh->upper);
+    return hd_mesh_build_tree(&mesh->tree, mesh, NULL, mesh->triangle_count, pool, error);
 }
 
 static double reach_of_box(const HdBox *box, HdVec3 d) {

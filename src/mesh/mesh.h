@@ -104,6 +104,11 @@ HdStatus hd_check_divisions(int64_t triangle_count, int divisions, HdError *erro
 /* Computes the box and builds the hierarchy of a finished mesh with at least one triangle. */
 HdStatus hd_mesh_build(HdMesh *mesh, HdThreadPool *pool, HdError *error);
 
+/* Builds a hierarchy over some triangles of a mesh with a box, in the coordinates of its own;
+   `order` gets their numbers in the mesh. NULL: its first `count` triangles. */
+HdStatus hd_mesh_build_tree(HdHierarchy *tree, const HdMesh *mesh, const int32_t *triangles,
+                            int count, HdThreadPool *pool, HdError *error);
+
 /* Returns the centre of the box of a built mesh, in local coordinates. */
 static inline HdVec3 hd_mesh_centre(const HdMesh *mesh) {
     return hd_scale(hd_add(mesh->lower, mesh->upper), 0.5);

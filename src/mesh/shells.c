@@ -58,58 +58,49 @@ static void number_shells(HdShells *shells, const HdMesh *mesh, const int32_t *p
 }
 
 static void box_shells(HdShells *shells, const HdMesh *mesh) {
-    for (int i = mesh->triangle_count; i-- > 0;) {
+    for (int i = 0; i < mesh->triangle_count; i++) {
         HdShell *shell = &shells->shells[shells->shell_of[i]];
         for (int k = 0; k < 3; k++) {
             const HdVec3 at = mesh->vertices[mesh->corners[i][k]];
             shell->lower = hd_minimum(shell->lower, at);
             shell->upper = hd_maximum(shell->upper, at);
         }
-        shell->first = i;
+        shell->count++;
     }
 }
 
-/* Returns the shell of all triangles of a leaf; -1: several, or it is empty. */
-static int32_t shell_of_leaf(const HdShells *shells, const HdMesh *mesh, int32_t leaf) {
-    const int32_t *triangle = mesh->tree.order + (leaf >> HD_LEAF_SHIFT);
-    const int count = leaf & HD_MAX_LEAF;
-    for (int i = 1; i < count; i++)
-        if (shells->shell_of[triangle[i]] != shells->shell_of[triangle[0]])
-            return -1;
-    return count > 0 ? shells->shell_of[triangle[0]] : -1;
-}
-
-/* Children come after their parents. */
-static void fill_shells_below(HdShells *shells, const HdMesh *mesh) {
-    for (int i = mesh->tree.node_count; i-- > 0;)
-        for (int k = 0; k < 2; k++) {
-            const int32_t child = mesh->tree.nodes[i].child[k];
-            const int32_t *below = child >= 0 ? shells->shell_below[child] : NULL;
-            if (below == NULL)
-                shells->shell_below[i][k] = shell_of_leaf(shells, mesh, ~child);
-            else
-                shells->shell_below[i][k] = below[0] == below[1] ? below[0] : -1;
-        }
+static void list_triangles(HdShells *shells, const HdMesh *mesh) {
+    int32_t first = 0;
+    for (int i = 0; i < shells->count; i++) {
+        HdShell *shell = &shells->shells[i];
+        shell->first = first;
+        first += shell->count;
+        shell->count = 0;
+    }
+    for (int i = 0; i < mesh->triangle_count; i++) {
+        HdShell *shell = &shells->shells[shells->shell_of[i]];
+        shells->triangles[shell->first + shell->count++] = i;
+    }
 }
 
 static bool find(HdShells *shells, const HdMesh *mesh, const int32_t *place_of, int32_t *parent,
                  int32_t *number, int place_count) {
     shells->shell_of = malloc((size_t)mesh->triangle_count * sizeof *shells->shell_of);
-    if (parent == NULL || number == NULL || shells->shell_of == NULL)
+    shells->triangles = malloc((size_t)mesh->triangle_count * sizeof *shells->triangles);
+    if (parent == NULL || number == NULL || shells->shell_of == NULL || shells->triangles == NULL)
         return false;
     for (int32_t i = 0; i < place_count; i++)
         parent[i] = i;
     join_triangles(mesh, place_of, parent);
     number_shells(shells, mesh, place_of, parent, number);
-    shells->shells = malloc((size_t)shells->count * sizeof *shells->shells);
-    for (int i = 0; i < shells->count && shells->shells != NULL; i++)
+    shells->shells = calloc((size_t)shells->count, sizeof *shells->shells);
+    if (shells->shells == NULL)
+        return false;
+    for (int i = 0; i < shells->count; i++)
         shells->shells[i] = (HdShell){.lower = {HUGE_VAL, HUGE_VAL, HUGE_VAL},
                                       .upper = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
-    shells->shell_below = malloc((size_t)mesh->tree.node_count * sizeof *shells->shell_below);
-    if (shells->shells == NULL || shells->shell_below == NULL)
-        return false;
     box_shells(shells, mesh);
-    fill_shells_below(shells, mesh);
+    list_triangles(shells, mesh);
     return true;
 }
 
@@ -197,9 +188,20 @@ HdStatus hd_shells_measure(HdShells *shells, const HdMesh *mesh, HdError *error)
     return shells->are_measured ? HD_OK : no_memory(mesh, error);
 }
 
+HdStatus hd_shell_build(HdShells *shells, const HdMesh *mesh, int shell, HdThreadPool *pool,
+                        HdError *error) {
+    HdShell *of = &shells->shells[shell];
+    if (hd_shell_tree(shells, mesh, shell)->node_count > 0)
+        return HD_OK;
+    return hd_mesh_build_tree(&of->tree, mesh, shells->triangles + of->first, of->count, pool,
+                              error);
+}
+
 void hd_shells_free(HdShells *shells) {
+    for (int i = 0; shells->shells != NULL && i < shells->count; i++)
+        hd_hierarchy_free(&shells->shells[i].tree);
     free(shells->shells);
     free(shells->shell_of);
-    free(shells->shell_below);
+    free(shells->triangles);
     *shells = (HdShells){0};
 }

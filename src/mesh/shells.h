@@ -6,20 +6,20 @@
 #include "mesh/mesh.h"
 
 typedef struct HdShell {
-    int32_t first;       /* its first triangle */
-    HdVec3 lower, upper; /* box, in the mesh's coordinates */
-    bool is_closed;      /* one triangle runs along each edge, and one along it back */
-    double volume;       /* of a closed shell, where half the longest side of the mesh's box is 1;
-                            negative if outer sides face inwards */
+    int32_t first, count; /* part of HdShells.triangles */
+    HdVec3 lower, upper;  /* box, in the mesh's coordinates */
+    bool is_closed;       /* one triangle runs along each edge, and one along it back */
+    double volume;        /* of a closed shell, where half the longest side of the mesh's box is 1;
+                             negative if outer sides face inwards */
+    HdHierarchy tree;     /* over its triangles; without nodes until hd_shell_build */
 } HdShell;
 
 typedef struct HdShells {
     int count;
-    HdShell *shells;           /* owned; in the order of their first triangles */
-    int32_t *shell_of;         /* owned; shell of each triangle */
-    int32_t (*shell_below)[2]; /* owned; for the children of each node of the mesh's tree the shell
-                                  of all their triangles, -1: several */
-    bool are_measured;         /* `is_closed` and `volume` are set */
+    HdShell *shells;    /* owned; in the order of their first triangles */
+    int32_t *shell_of;  /* owned; shell of each triangle */
+    int32_t *triangles; /* owned; those of each shell, in ascending order */
+    bool are_measured;  /* `is_closed` and `volume` are set */
 } HdShells;
 
 /* Finds the shells of a built mesh. HD_FAILED: out of memory; `shells` is then empty. */
@@ -28,6 +28,16 @@ HdStatus hd_shells_find(HdShells *shells, const HdMesh *mesh, HdError *error);
 /* Measures the shells unless that is done. This takes longer than to find them. HD_FAILED: out of
    memory. */
 HdStatus hd_shells_measure(HdShells *shells, const HdMesh *mesh, HdError *error);
+
+/* Builds the tree of a shell unless that is done. Errors as of hd_hierarchy_build. */
+HdStatus hd_shell_build(HdShells *shells, const HdMesh *mesh, int shell, HdThreadPool *pool,
+                        HdError *error);
+
+/* Returns the tree of a shell on which that was called. */
+static inline const HdHierarchy *hd_shell_tree(const HdShells *shells, const HdMesh *mesh,
+                                               int shell) {
+    return shells->count == 1 ? &mesh->tree : &shells->shells[shell].tree;
+}
 
 void hd_shells_free(HdShells *shells);
 

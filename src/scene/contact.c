@@ -184,15 +184,16 @@ bool hd_solid_holds(const HdSolid *outer, const HdSolid *inner) {
 }
 
 /* Of two solids that hold a third, the inner one has the smaller circumradius. */
-double hd_index_around(const HdSolid *solids, int count, const HdSolid *solid) {
-    double smallest = (double)INFINITY, index = 1.0;
+int hd_solid_around(const HdSolid *solids, int count, int number) {
+    double smallest = (double)INFINITY;
+    int around = -1;
     for (int i = 0; i < count; i++)
-        if (&solids[i] != solid && solids[i].circumradius < smallest &&
-            hd_solid_holds(&solids[i], solid)) {
+        if (i != number && solids[i].circumradius < smallest &&
+            hd_solid_holds(&solids[i], &solids[number])) {
             smallest = solids[i].circumradius;
-            index = solids[i].face.index_of_refraction;
+            around = i;
         }
-    return index;
+    return around;
 }
 
 /* ---- contact ---- */

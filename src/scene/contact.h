@@ -21,9 +21,8 @@ double hd_solid_overlap(const HdSolid *a, const HdSolid *b);
  */
 bool hd_solid_holds(const HdSolid *outer, const HdSolid *inner);
 
-/* Returns the index of refraction around a solid: that of the innermost of `count` solids that
-   holds it, else 1. */
-double hd_index_around(const HdSolid *solids, int count, const HdSolid *solid);
+/* Returns the innermost of `count` solids that holds the solid of this number; -1: none. */
+int hd_solid_around(const HdSolid *solids, int count, int number);
 
 typedef enum HdContact {
     HD_CONTACT_NONE,

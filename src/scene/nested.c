@@ -9,6 +9,7 @@
 /* The index around each shell of an instance, if one is not 1. */
 typedef struct Surroundings {
     int instance;
+    double all;     /* of all shells, unless `around` is there */
     double *around; /* owned; by shell */
 } Surroundings;
 
@@ -34,15 +35,19 @@ static HdStatus no_memory(const Nester *nester) {
 
 /* ---- surroundings ---- */
 
-static HdStatus add_surroundings(Nester *nester, int instance) {
+static HdStatus add_surroundings(Nester *nester, const HdNested *nested) {
+    const int instance = nested->object.number;
     const int shells = nester->nesting->shells[nester->scene->instances[instance].mesh].count;
-    const Surroundings added = {instance, malloc((size_t)shells * sizeof(double))};
-    if (added.around == NULL ||
+    Surroundings added = {.instance = instance, .all = nested->around};
+    const bool is_one = nested->shell == HD_ALL_SHELLS;
+    if (!is_one)
+        added.around = malloc((size_t)shells * sizeof(double));
+    if ((!is_one && added.around == NULL) ||
         !hd_append(&nester->list, sizeof added, &nester->count, &nester->capacity, &added)) {
         free(added.around);
         return no_memory(nester);
     }
-    for (int i = 0; i < shells; i++)
+    for (int i = 0; i < shells && !is_one; i++)
         added.around[i] = 1.0;
     return HD_OK;
 }
@@ -50,14 +55,18 @@ static HdStatus add_surroundings(Nester *nester, int instance) {
 static HdStatus list_surroundings(Nester *nester) {
     for (int i = 0; i < nester->nesting->count; i++) {
         const HdNested *nested = &nester->nesting->list[i];
-        const int number = nested->object.number;
         if (nested->state != HD_NEST_WITHIN || nested->object.is_solid)
             continue;
-        if (nester->count == 0 || nester->list[nester->count - 1].instance != number)
-            HD_TRY(add_surroundings(nester, number));
-        nester->list[nester->count - 1].around[nested->shell] = nested->around;
+        if (nester->count == 0 || nester->list[nester->count - 1].instance != nested->object.number)
+            HD_TRY(add_surroundings(nester, nested));
+        if (nested->shell != HD_ALL_SHELLS)
+            nester->list[nester->count - 1].around[nested->shell] = nested->around;
     }
     return HD_OK;
+}
+
+static double index_around(const Surroundings *in, int shell) {
+    return in->around != NULL ? in->around[shell] : in->all;
 }
 
 static bool is_of_mesh(const Nester *nester, const Surroundings *in, int mesh) {
@@ -76,7 +85,7 @@ static bool has_surroundings(const Nester *nester, int mesh) {
 static bool are_alike(const Nester *nester, int mesh, int a, int b) {
     for (int i = 0; i < nester->count; i++)
         if (is_of_mesh(nester, &nester->list[i], mesh) &&
-            nester->list[i].around[a] != nester->list[i].around[b])
+            index_around(&nester->list[i], a) != index_around(&nester->list[i], b))
             return false;
     return true;
 }
@@ -108,6 +117,16 @@ typedef struct Copies {
     int32_t *number;   /* owned; of the copy of each material for each class; 0: none */
 } Copies;
 
+static HdStatus refuse_materials(const Nester *nester, const HdMesh *mesh, int own, int classes) {
+    int i = 0;
+    while (&nester->scene->meshes[nester->scene->instances[i].mesh] != mesh)
+        i++;
+    return hd_fail(nester->error, HD_BAD_INPUT,
+                   "meshes[%d]: its parts lie in %d media, so that its %d materials need copies; "
+                   "expected at most %d materials and copies",
+                   nester->scene->instances[i].entry, classes, own, (int)HD_MAX_MESH_MATERIALS);
+}
+
 /* Changes the materials of the triangles in all classes but the first to copies. */
 static HdStatus copy_materials(const Nester *nester, HdMesh *mesh, const int32_t *shell_of,
                                const Classes *classes, Copies *copies) {
@@ -125,10 +144,7 @@ static HdStatus copy_materials(const Nester *nester, HdMesh *mesh, const int32_t
         if (*number == 0) {
             *number = mesh->material_count;
             if (*number >= HD_MAX_MESH_MATERIALS)
-                return hd_fail(nester->error, HD_BAD_INPUT,
-                               "a mesh has %d materials and parts within %d media, which take more "
-                               "than %d materials",
-                               own, classes->count, (int)HD_MAX_MESH_MATERIALS);
+                return refuse_materials(nester, mesh, own, classes->count);
             if (!hd_mesh_copy_material(mesh, mesh->material_of[i]) ||
                 !hd_append(&copies->class_of, sizeof class, &copies->count, &copies->capacity,
                            &class))
@@ -151,9 +167,9 @@ static HdStatus set_around(const Nester *nester, int mesh, const Classes *classe
         if (around == NULL)
             return no_memory(nester);
         for (int m = 0; m < own; m++)
-            around[m] = in->around[classes->first[0]];
+            around[m] = index_around(in, classes->first[0]);
         for (int m = 0; m < copies->count; m++)
-            around[own + m] = in->around[classes->first[copies->class_of[m]]];
+            around[own + m] = index_around(in, classes->first[copies->class_of[m]]);
         nester->scene->instances[in->instance].around = around;
     }
     return HD_OK;

@@ -10,49 +10,76 @@
 #include "scene/contact.h"
 #include "scene/shell_gap.h"
 #include "scene/triangulate.h"
+#include "system/interrupt.h"
 
 /* The triangles of a shell that let rays pass. */
-typedef struct Look {
+typedef struct Medium {
     bool is_clear; /* there are such */
     double index;  /* their index of refraction; NaN: several */
-} Look;
+} Medium;
 
-/* The shell of the same mesh around a shell. */
-typedef struct Holder {
-    int32_t shell, unsure; /* the innermost; one in another state; -1: none */
-    HdNestState state;     /* of the unsure one */
-} Holder;
+typedef struct Object Object;
+
+/* A shell of an object. */
+typedef struct Surface {
+    const Object *object; /* NULL: none */
+    int shell;
+} Surface;
+
+/* What is around a surface. */
+typedef struct Around {
+    Surface holder, unsure; /* the innermost that holds it; one in another state */
+    HdNestState state;      /* of the unsure one */
+} Around;
 
 /* A mesh, or the faces of a solid. */
 typedef struct Model {
     const HdMesh *mesh;
     HdShells *shells;
-    Look *looks;        /* owned; of the mesh's own materials, by shell */
-    Holder *holders[2]; /* owned; by shell, if own materials count, and if all shells are clear */
+    Medium *media;  /* owned; of the mesh's own materials, by shell */
+    Around *own[2]; /* owned; shells of the mesh around each of them, if its own materials count,
+                       and if an instance has another material */
 } Model;
 
 /* A solid, or an instance that lets rays pass. */
-typedef struct Thing {
-    HdNestObject object;
+struct Object {
+    HdNestObject name;
     const HdSolid *solid;       /* NULL: an instance */
     const HdMaterial *material; /* of all triangles; NULL: the mesh's own ones */
     Model *model;               /* NULL without clear instances */
     HdPlacedMesh placed;
     HdVec3 lower, upper; /* box in the world */
-} Thing;
+};
+
+/* A shell around a point. */
+typedef struct Candidate {
+    double volume;
+    int32_t shell;
+} Candidate;
 
 typedef struct Finder {
     const HdScene *scene;
     HdNesting *nesting;
     HdError *error;
-    int thing_count;
-    Thing *things;
-    Model *models;  /* of the meshes, then of the solids */
-    HdMesh *solids; /* faces of the solids */
+    bool for_notes;
+    HdThreadPool *pool; /* one thread */
+    int object_count;
+    Object *objects; /* the solids come first */
+    Model *models;   /* of the meshes, then of the solids */
+    HdMesh *solids;  /* faces of the solids */
     HdShells *of_solids;
-    HdHierarchy tree; /* over the things */
-    HdShellList list; /* reused */
+    HdHierarchy tree; /* over the objects */
+    HdShellList list; /* reused, like the next */
+    Candidate *candidates;
+    int candidate_capacity;
+    int64_t work; /* visits of boxes and triangles that may follow */
 } Finder;
+
+/* Bounds the time for shells that lie too close to each other: about 20 s. */
+static const int64_t MAX_WORK = INT64_C(1) << 30;
+
+/* Likewise for a note on those that cross. */
+static const int64_t MAX_CROSSING_WORK = INT64_C(1) << 23;
 
 static HdStatus no_memory(HdError *error) {
     HD_NO_ROOM(error, "the objects that lie within others");
@@ -97,33 +124,47 @@ static bool has_media(const HdScene *scene) {
 }
 
 /* Rays do not enter an opaque mesh, but solids hold others in any case. */
-static bool is_clear(const Thing *thing, int shell) {
-    if (thing->material != NULL)
-        return !hd_is_opaque(thing->material);
-    return thing->model->looks[shell].is_clear;
+static bool is_clear(const Object *object, int shell) {
+    if (object->material != NULL)
+        return !hd_is_opaque(object->material);
+    return object->model->media[shell].is_clear;
 }
 
-static const HdShell *shell_of(const Thing *thing, int shell) {
-    return &thing->model->shells->shells[shell];
+static const HdShell *shell_of(const Object *object, int shell) {
+    return &object->model->shells->shells[shell];
+}
+
+static bool surface_refracts(const Surface *surface) {
+    const Object *object = surface->object;
+    return (object->material != NULL ? object->material->index_of_refraction
+                                     : object->model->media[surface->shell].index) != 1.0;
+}
+
+/* Returns whether the surface is a closed shell turned inside out, which counts as of index 1. */
+static bool is_cavity(const Surface *surface) {
+    if (surface->object->solid != NULL || !surface->object->model->shells->are_measured)
+        return false;
+    const HdShell *shell = shell_of(surface->object, surface->shell);
+    return shell->is_closed && shell->volume < 0.0;
 }
 
 /* Returns the index within a shell; outer sides that face inwards bound a cavity. NaN: several. */
-static double index_within(const Thing *thing, int shell) {
-    if (thing->solid == NULL && shell_of(thing, shell)->volume < 0.0)
+static double index_within(const Object *object, int shell) {
+    if (object->solid == NULL && shell_of(object, shell)->volume < 0.0)
         return 1.0;
-    return thing->material != NULL ? thing->material->index_of_refraction
-                                   : thing->model->looks[shell].index;
+    return object->material != NULL ? object->material->index_of_refraction
+                                    : object->model->media[shell].index;
 }
 
 /* ---- preparing ---- */
 
-static void look_at(Look *look, const HdMaterial *material) {
+static void add_to_medium(Medium *medium, const HdMaterial *material) {
     if (hd_is_opaque(material))
         return;
-    if (!look->is_clear)
-        *look = (Look){true, material->index_of_refraction};
-    else if (look->index != material->index_of_refraction)
-        look->index = (double)NAN;
+    if (!medium->is_clear)
+        *medium = (Medium){true, material->index_of_refraction};
+    else if (medium->index != material->index_of_refraction)
+        medium->index = (double)NAN;
 }
 
 static HdStatus prepare_model(Model *model, const HdMesh *mesh, HdShells *shells, HdError *error) {
@@ -131,51 +172,52 @@ static HdStatus prepare_model(Model *model, const HdMesh *mesh, HdShells *shells
         return HD_OK;
     *model = (Model){.mesh = mesh, .shells = shells};
     HD_TRY(hd_shells_find(shells, mesh, error));
-    model->looks = calloc((size_t)shells->count, sizeof *model->looks);
-    if (model->looks == NULL)
+    model->media = calloc((size_t)shells->count, sizeof *model->media);
+    if (model->media == NULL)
         return no_memory(error);
     for (int i = 0; i < mesh->triangle_count; i++)
-        look_at(&model->looks[shells->shell_of[i]],
-                &mesh->materials[mesh->material_of != NULL ? mesh->material_of[i] : 0].material);
+        add_to_medium(
+            &model->media[shells->shell_of[i]],
+            &mesh->materials[mesh->material_of != NULL ? mesh->material_of[i] : 0].material);
     return HD_OK;
 }
 
-static void place_thing(Thing *thing, HdPlacement to) {
-    const HdMesh *mesh = thing->model->mesh;
+static void place_object(Object *object, HdPlacement to) {
+    const HdMesh *mesh = object->model->mesh;
     const HdVec3 half = hd_placed_half(
         &to, hd_scale(hd_sub(mesh->upper, mesh->lower), 0.5 / hd_mesh_half_side(mesh)));
-    thing->placed = (HdPlacedMesh){mesh, thing->model->shells, to};
-    thing->lower = hd_sub(to.start, half);
-    thing->upper = hd_add(to.start, half);
+    object->placed = (HdPlacedMesh){mesh, object->model->shells, to};
+    object->lower = hd_sub(to.start, half);
+    object->upper = hd_add(to.start, half);
 }
 
 /* A solid's faces, without rim and discs. */
-static HdStatus mesh_solid(Finder *finder, Thing *thing, int number, HdThreadPool *pool) {
+static HdStatus mesh_solid(Finder *finder, Object *object, int number) {
     HdMesh *mesh = &finder->solids[number];
-    HdSolid plain = *thing->solid;
+    HdSolid plain = *object->solid;
     plain.rim_width = 0.0;
     plain.lights.per_edge = 0;
     HD_TRY(hd_triangulate_solid(mesh, &plain, HD_MIN_DISC_SIDES, 1, finder->error));
-    HD_TRY(hd_mesh_build(mesh, pool, finder->error));
-    thing->model = &finder->models[finder->scene->mesh_count + number];
-    HD_TRY(prepare_model(thing->model, mesh, &finder->of_solids[number], finder->error));
+    HD_TRY(hd_mesh_build(mesh, finder->pool, finder->error));
+    object->model = &finder->models[finder->scene->mesh_count + number];
+    HD_TRY(prepare_model(object->model, mesh, &finder->of_solids[number], finder->error));
     HD_TRY(hd_shells_measure(&finder->of_solids[number], mesh, finder->error));
     const double half = hd_mesh_half_side(mesh);
-    place_thing(thing, (HdPlacement){{{half, 0.0, 0.0}, {0.0, half, 0.0}, {0.0, 0.0, half}},
-                                     hd_add(thing->solid->centre, hd_mesh_centre(mesh))});
+    place_object(object, (HdPlacement){{{half, 0.0, 0.0}, {0.0, half, 0.0}, {0.0, 0.0, half}},
+                                       hd_add(object->solid->centre, hd_mesh_centre(mesh))});
     return HD_OK;
 }
 
-static HdStatus add_solids(Finder *finder, bool has_meshes, HdThreadPool *pool) {
+static HdStatus add_solids(Finder *finder, bool has_meshes) {
     for (int i = 0; i < finder->scene->solid_count; i++) {
         const HdSolid *solid = &finder->scene->solids[i];
         const double radius = solid->circumradius;
-        Thing *thing = &finder->things[finder->thing_count++];
-        *thing = (Thing){.object = {true, i}, .solid = solid, .material = &solid->face};
+        Object *object = &finder->objects[finder->object_count++];
+        *object = (Object){.name = {true, i}, .solid = solid, .material = &solid->face};
         if (has_meshes)
-            HD_TRY(mesh_solid(finder, thing, i, pool));
-        thing->lower = hd_sub(solid->centre, hd_vec3(radius, radius, radius));
-        thing->upper = hd_add(solid->centre, hd_vec3(radius, radius, radius));
+            HD_TRY(mesh_solid(finder, object, i));
+        object->lower = hd_sub(solid->centre, hd_vec3(radius, radius, radius));
+        object->upper = hd_add(solid->centre, hd_vec3(radius, radius, radius));
     }
     return HD_OK;
 }
@@ -186,21 +228,21 @@ static HdStatus add_instances(Finder *finder) {
         const HdInstance *instance = &scene->instances[i];
         if (!is_clear_instance(scene, i))
             continue;
-        Thing *thing = &finder->things[finder->thing_count++];
-        *thing = (Thing){.object = {false, i},
-                         .material = instance->has_material ? &instance->material : NULL,
-                         .model = &finder->models[instance->mesh]};
-        HD_TRY(prepare_model(thing->model, hd_mesh_of(scene, i),
+        Object *object = &finder->objects[finder->object_count++];
+        *object = (Object){.name = {false, i},
+                           .material = instance->has_material ? &instance->material : NULL,
+                           .model = &finder->models[instance->mesh]};
+        HD_TRY(prepare_model(object->model, hd_mesh_of(scene, i),
                              &finder->nesting->shells[instance->mesh], finder->error));
-        place_thing(thing, hd_placement_of(scene, i));
+        place_object(object, hd_placement_of(scene, i));
     }
     return HD_OK;
 }
 
 /* Returns a box in floats, slightly too large. */
-static HdBox box_of(const Thing *thing) {
-    const double lower[3] = {thing->lower.x, thing->lower.y, thing->lower.z};
-    const double upper[3] = {thing->upper.x, thing->upper.y, thing->upper.z};
+static HdBox box_of(const Object *object) {
+    const double lower[3] = {object->lower.x, object->lower.y, object->lower.z};
+    const double upper[3] = {object->upper.x, object->upper.y, object->upper.z};
     HdBox box;
     for (int axis = 0; axis < 3; axis++) {
         box.lower[axis] = nextafterf((float)lower[axis], -FLT_MAX);
@@ -209,15 +251,15 @@ static HdBox box_of(const Thing *thing) {
     return box;
 }
 
-static HdStatus build_tree(Finder *finder, HdThreadPool *pool) {
+static HdStatus build_tree(Finder *finder) {
     const HdHierarchyOptions options = {.node_cost = 0.1f, .max_in_leaf = 1};
-    HdBox *boxes = calloc((size_t)finder->thing_count, sizeof *boxes);
+    HdBox *boxes = calloc((size_t)finder->object_count, sizeof *boxes);
     if (boxes == NULL)
         return no_memory(finder->error);
-    for (int i = 0; i < finder->thing_count; i++)
-        boxes[i] = box_of(&finder->things[i]);
-    const HdStatus status = hd_hierarchy_build(&finder->tree, boxes, finder->thing_count, &options,
-                                               pool, finder->error);
+    for (int i = 0; i < finder->object_count; i++)
+        boxes[i] = box_of(&finder->objects[i]);
+    const HdStatus status = hd_hierarchy_build(&finder->tree, boxes, finder->object_count, &options,
+                                               finder->pool, finder->error);
     free(boxes);
     return status;
 }
@@ -230,23 +272,17 @@ static HdStatus prepare(Finder *finder) {
         has_meshes = is_clear_instance(scene, i);
     finder->nesting->mesh_count = scene->mesh_count;
     finder->nesting->shells = calloc(meshes + 1, sizeof(HdShells));
-    finder->things = calloc(solids + (size_t)scene->instance_count, sizeof *finder->things);
+    finder->objects = calloc(solids + (size_t)scene->instance_count, sizeof *finder->objects);
     finder->models = calloc(solids + meshes, sizeof *finder->models);
     finder->solids = calloc(solids + 1, sizeof *finder->solids);
     finder->of_solids = calloc(solids + 1, sizeof *finder->of_solids);
-    if (finder->nesting->shells == NULL || finder->things == NULL || finder->models == NULL ||
+    if (finder->nesting->shells == NULL || finder->objects == NULL || finder->models == NULL ||
         finder->solids == NULL || finder->of_solids == NULL)
         return no_memory(finder->error);
-    HdThreadPool *pool = NULL;
-    HdStatus status = hd_thread_pool_create(&pool, 1, finder->error);
-    if (status == HD_OK)
-        status = add_solids(finder, has_meshes, pool);
-    if (status == HD_OK)
-        status = add_instances(finder);
-    if (status == HD_OK)
-        status = build_tree(finder, pool);
-    hd_thread_pool_destroy(pool);
-    return status;
+    HD_TRY(hd_thread_pool_create(&finder->pool, 1, finder->error));
+    HD_TRY(add_solids(finder, has_meshes));
+    HD_TRY(add_instances(finder));
+    return build_tree(finder);
 }
 
 /* ---- pairs ---- */
@@ -255,119 +291,163 @@ static HdStatus prepare(Finder *finder) {
  */
 static const double clear_share = 0x1p-14;
 
-/* A shell of a thing. */
-typedef struct Part {
-    const Thing *thing;
-    int shell;
-} Part;
-
-/* What was found around a part. */
-typedef struct Around {
-    Part holder, unsure; /* the innermost that holds it; one in another state */
-    HdNestState state;   /* of the unsure one */
-} Around;
-
-static double volume_of(const Part *part) {
-    const HdVec3 *to = part->thing->placed.to.columns;
-    return fabs(shell_of(part->thing, part->shell)->volume) * hd_length(to[0]) * hd_length(to[1]) *
-           hd_length(to[2]);
+static double volume_of(const Surface *surface) {
+    const HdVec3 *to = surface->object->placed.to.columns;
+    return fabs(shell_of(surface->object, surface->shell)->volume) * hd_length(to[0]) *
+           hd_length(to[1]) * hd_length(to[2]);
 }
 
 /* Of two that hold a third, the inner one is smaller. */
-static bool is_smaller(const Part *a, const Part *b) {
-    if (a->thing->solid != NULL && b->thing->solid != NULL)
-        return a->thing->solid->circumradius < b->thing->solid->circumradius;
+static bool is_smaller(const Surface *a, const Surface *b) {
     return volume_of(a) < volume_of(b);
 }
 
-static void add_holder(Around *around, const Part *part) {
-    if (around->holder.thing == NULL || is_smaller(part, &around->holder))
-        around->holder = *part;
+static void add_holder(Around *around, const Surface *surface) {
+    if (around->holder.object == NULL || is_smaller(surface, &around->holder))
+        around->holder = *surface;
 }
 
-/* Adds what the part around says about the part within, which has a corner there. */
-static HdStatus judge(Finder *finder, Around *around, const Part *within, const Part *outer) {
-    const Model *model = within->thing->model, *of_outer = outer->thing->model;
-    HD_TRY(hd_shells_measure(model->shells, model->mesh, finder->error));
-    HD_TRY(hd_shells_measure(of_outer->shells, of_outer->mesh, finder->error));
-    const HdShell *a = shell_of(within->thing, within->shell);
-    const HdShell *b = shell_of(outer->thing, outer->shell);
-    if (a->is_closed && a->volume < 0.0) /* a cavity, itself of index 1 */
+static HdStatus measure(Finder *finder, const Object *object) {
+    return hd_shells_measure(object->model->shells, object->model->mesh, finder->error);
+}
+
+static HdStatus build_surface(Finder *finder, const Surface *surface) {
+    const Model *model = surface->object->model;
+    return hd_shell_build(model->shells, model->mesh, surface->shell, finder->pool, finder->error);
+}
+
+static HdStatus is_within(Finder *finder, const Surface *surface, const Surface *outer,
+                          bool *is_within) {
+    const HdPlacedMesh *placed = &surface->object->placed, *around = &outer->object->placed;
+    *is_within = hd_shell_fits(placed, surface->shell, around, outer->shell);
+    if (!*is_within)
         return HD_OK;
-    const bool are_closed = a->is_closed && b->is_closed;
-    if (are_closed && hd_shells_are_clear(&within->thing->placed, within->shell,
-                                          &outer->thing->placed, outer->shell, clear_share)) {
+    HD_TRY(build_surface(finder, surface));
+    HD_TRY(build_surface(finder, outer));
+    *is_within = hd_shells_are_clear(placed, surface->shell, around, outer->shell, clear_share,
+                                     &finder->work);
+    return HD_OK;
+}
+
+/* Adds what the surface around says about the surface within, which has a corner there. */
+static HdStatus judge(Finder *finder, Around *around, const Surface *surface,
+                      const Surface *outer) {
+    const bool are_closed = shell_of(surface->object, surface->shell)->is_closed &&
+                            shell_of(outer->object, outer->shell)->is_closed;
+    bool holds = false;
+    if (are_closed)
+        HD_TRY(is_within(finder, surface, outer, &holds));
+    if (holds) {
         add_holder(around, outer);
-    } else if (is_clear(outer->thing, outer->shell) && around->unsure.thing == NULL &&
-               index_within(outer->thing, outer->shell) != 1.0) {
+    } else if (is_clear(outer->object, outer->shell) && around->unsure.object == NULL &&
+               index_within(outer->object, outer->shell) != 1.0) {
         around->unsure = *outer;
         around->state = are_closed ? HD_NEST_CROSSES : HD_NEST_OPEN;
     }
     return HD_OK;
 }
 
-/* Adds the shells of a thing that hold a corner of the part. */
-static HdStatus judge_thing(Finder *finder, Around *around, const Part *part, const Thing *thing) {
-    const int but = thing == part->thing ? part->shell : -1;
-    const HdVec3 corner =
-        hd_mesh_corner(part->thing->model->mesh, shell_of(part->thing, part->shell)->first, 0);
-    if (!hd_shells_around(&thing->placed,
-                          hd_point_between(&part->thing->placed, &thing->placed, corner), but,
-                          &finder->list))
+static int compare_candidates(const void *first, const void *second) {
+    const Candidate *a = first, *b = second;
+    return a->volume != b->volume ? (a->volume > b->volume) - (a->volume < b->volume)
+                                  : (a->shell > b->shell) - (a->shell < b->shell);
+}
+
+/* Sorts the listed shells that let rays pass by their volumes. Solids hold others in any case. */
+static HdStatus sort_candidates(Finder *finder, const Object *object, int *count) {
+    *count = 0;
+    if (finder->list.count == 0)
+        return HD_OK;
+    HD_TRY(measure(finder, object));
+    finder->candidates = hd_reserved(finder->candidates, sizeof *finder->candidates,
+                                     finder->list.count, &finder->candidate_capacity);
+    if (finder->candidates == NULL)
         return no_memory(finder->error);
     for (int i = 0; i < finder->list.count; i++) {
-        const Part outer = {thing, finder->list.shells[i]};
-        if (thing->solid != NULL || is_clear(thing, outer.shell))
-            HD_TRY(judge(finder, around, part, &outer));
+        const Surface outer = {object, finder->list.shells[i]};
+        if (object->solid != NULL || is_clear(object, outer.shell))
+            finder->candidates[(*count)++] = (Candidate){volume_of(&outer), outer.shell};
+    }
+    if (*count > 0)
+        qsort(finder->candidates, (size_t)*count, sizeof *finder->candidates, compare_candidates);
+    return HD_OK;
+}
+
+static HdVec3 corner_of(const Surface *surface) {
+    const HdShells *shells = surface->object->model->shells;
+    return hd_mesh_corner(surface->object->model->mesh,
+                          shells->triangles[shells->shells[surface->shell].first], 0);
+}
+
+/* Adds the shells of a object that hold a corner of the surface, from the smallest to the first one
+   that holds all of it. */
+static HdStatus judge_object(Finder *finder, Around *around, const Surface *surface,
+                             const Object *object) {
+    const int but = object == surface->object ? surface->shell : -1;
+    int count;
+    if (!hd_shells_around(
+            &object->placed,
+            hd_point_between(&surface->object->placed, &object->placed, corner_of(surface)), but,
+            &finder->list, &finder->work))
+        return no_memory(finder->error);
+    HD_TRY(sort_candidates(finder, object, &count));
+    if (count > 0)
+        HD_TRY(measure(finder, surface->object));
+    if (is_cavity(surface) && !finder->for_notes)
+        return HD_OK;
+    for (int i = 0; i < count && finder->work > 0; i++) {
+        const Surface outer = {object, finder->candidates[i].shell};
+        if (around->holder.object != NULL && !is_smaller(&outer, &around->holder))
+            break;
+        HD_TRY(judge(finder, around, surface, &outer));
     }
     return HD_OK;
 }
 
 /* ---- shells of one mesh ---- */
 
-/* Finds the holders of all shells of a mesh that has several. All places of it share them. */
-static HdStatus find_holders(Finder *finder, const Thing *thing, Holder *holders) {
-    for (int i = 0; i < thing->model->shells->count; i++) {
-        Around around = {.state = HD_NEST_WITHIN};
-        const Part part = {thing, i};
-        if (is_clear(thing, i))
-            HD_TRY(judge_thing(finder, &around, &part, thing));
-        holders[i] = (Holder){around.holder.thing != NULL ? around.holder.shell : -1,
-                              around.unsure.thing != NULL ? around.unsure.shell : -1, around.state};
+static HdStatus poll(const Finder *finder) {
+    return hd_interrupt_signal() == 0
+               ? HD_OK
+               : hd_fail(finder->error, HD_INTERRUPTED,
+                         "interrupted while finding the objects that lie within others");
+}
+
+/* Finds the shells of a mesh around each other. All its instances share them. */
+static HdStatus find_own(Finder *finder, const Object *object, Around *own) {
+    for (int i = 0; i < object->model->shells->count && finder->work > 0; i++) {
+        HD_TRY(poll(finder));
+        if (is_clear(object, i))
+            HD_TRY(judge_object(finder, &own[i], &(Surface){object, i}, object));
     }
     return HD_OK;
 }
 
-static HdStatus add_own(Finder *finder, Around *around, const Part *part) {
-    const Thing *thing = part->thing;
-    Holder **holders = &thing->model->holders[thing->material != NULL];
-    const int count = thing->model->shells->count;
-    if (*holders == NULL) {
-        *holders = calloc((size_t)count, sizeof **holders);
-        if (*holders == NULL)
+static HdStatus add_own(Finder *finder, Around *around, const Surface *surface) {
+    const Object *object = surface->object;
+    Around **own = &object->model->own[object->material != NULL];
+    if (*own == NULL) {
+        *own = calloc((size_t)object->model->shells->count, sizeof **own);
+        if (*own == NULL)
             return no_memory(finder->error);
-        HD_TRY(find_holders(finder, thing, *holders));
+        HD_TRY(find_own(finder, object, *own));
     }
-    const Holder *holder = &(*holders)[part->shell];
-    if (holder->shell >= 0)
-        add_holder(around, &(Part){thing, holder->shell});
-    if (holder->unsure >= 0 && around->unsure.thing == NULL) {
-        around->unsure = (Part){thing, holder->unsure};
-        around->state = holder->state;
-    }
+    *around = (*own)[surface->shell];
+    if (around->holder.object != NULL)
+        around->holder.object = object;
+    if (around->unsure.object != NULL)
+        around->unsure.object = object;
     return HD_OK;
 }
 
-/* ---- all things ---- */
+/* ---- all objects ---- */
 
-static HdStatus add_other(Finder *finder, Around *around, const Part *part, const Thing *thing) {
-    if (thing == part->thing)
+/* Solids within solids are known. */
+static HdStatus add_other(Finder *finder, Around *around, const Surface *surface,
+                          const Object *object) {
+    if (object == surface->object || (object->solid != NULL && surface->object->solid != NULL))
         return HD_OK;
-    if (thing->solid == NULL || part->thing->solid == NULL)
-        return judge_thing(finder, around, part, thing);
-    if (hd_solid_holds(thing->solid, part->thing->solid))
-        add_holder(around, &(Part){thing, 0});
-    return HD_OK;
+    return judge_object(finder, around, surface, object);
 }
 
 static bool is_in_box(HdVec3 point, const HdBox *box) {
@@ -378,14 +458,14 @@ static bool is_in_box(HdVec3 point, const HdBox *box) {
     return true;
 }
 
-/* Judges the things whose boxes hold a point of the part. */
-static HdStatus add_others(Finder *finder, Around *around, const Part *part, HdVec3 point) {
+/* Judges the objects whose boxes hold a point of the surface. */
+static HdStatus add_others(Finder *finder, Around *around, const Surface *surface, HdVec3 point) {
     int32_t waiting[HD_MAX_HIERARCHY_DEPTH + 2] = {0};
     for (int count = 1; count > 0;) {
         const int32_t child = waiting[--count];
         if (child < 0) {
-            HD_TRY(add_other(finder, around, part,
-                             &finder->things[finder->tree.order[~child >> HD_LEAF_SHIFT]]));
+            HD_TRY(add_other(finder, around, surface,
+                             &finder->objects[finder->tree.order[~child >> HD_LEAF_SHIFT]]));
             continue;
         }
         const HdBuildNode *node = &finder->tree.nodes[child];
@@ -396,71 +476,124 @@ static HdStatus add_others(Finder *finder, Around *around, const Part *part, HdV
     return HD_OK;
 }
 
-static HdStatus add_result(Finder *finder, const Part *part, const Part *other, HdNestState state,
-                           double around) {
+static HdStatus add_result(Finder *finder, const Surface *surface, const Surface *other,
+                           HdNestState state, double around) {
     HdNesting *nesting = finder->nesting;
-    const HdNested nested = {part->thing->object, other->thing->object, part->shell, state, around};
+    const HdNested nested = {surface->object->name, other->object->name, surface->shell, state,
+                             around};
     return hd_append(&nesting->list, sizeof nested, &nesting->count, &nesting->capacity, &nested)
                ? HD_OK
                : no_memory(finder->error);
 }
 
-static HdStatus add_within(Finder *finder, const Part *part, const Part *holder) {
-    const double index = index_within(holder->thing, holder->shell);
+static HdStatus add_within(Finder *finder, const Surface *surface, const Surface *holder) {
+    const double index = index_within(holder->object, holder->shell);
     if (index == 1.0)
         return HD_OK;
-    return isnan(index) ? add_result(finder, part, holder, HD_NEST_MIXED, 1.0)
-                        : add_result(finder, part, holder, HD_NEST_WITHIN, index);
+    return isnan(index) ? add_result(finder, surface, holder, HD_NEST_MIXED, 1.0)
+                        : add_result(finder, surface, holder, HD_NEST_WITHIN, index);
 }
 
-static HdStatus add_results(Finder *finder, const Part *part, const Around *around) {
-    if (around->holder.thing != NULL)
-        HD_TRY(add_within(finder, part, &around->holder));
-    if (around->unsure.thing != NULL)
-        HD_TRY(add_result(finder, part, &around->unsure, around->state, 1.0));
+static HdStatus add_results(Finder *finder, const Surface *surface, const Around *around) {
+    if (around->holder.object != NULL)
+        HD_TRY(add_within(finder, surface, &around->holder));
+    if (around->unsure.object != NULL)
+        HD_TRY(add_result(finder, surface, &around->unsure, around->state, 1.0));
     return HD_OK;
 }
 
-static HdStatus find_part(Finder *finder, const Part *part) {
-    const Thing *thing = part->thing;
+static HdStatus find_around(Finder *finder, Around *around, const Surface *surface) {
+    const Object *object = surface->object;
+    if (object->solid != NULL) {
+        const HdScene *scene = finder->scene;
+        const int number = hd_solid_around(scene->solids, scene->solid_count, object->name.number);
+        if (number >= 0)
+            around->holder.object = &finder->objects[number];
+        return add_others(finder, around, surface, object->solid->centre);
+    }
+    if (object->model->shells->count > 1)
+        HD_TRY(add_own(finder, around, surface));
+    return add_others(finder, around, surface, hd_place(&object->placed.to, corner_of(surface)));
+}
+
+static HdStatus note_cavity(Finder *finder, const Surface *surface, const Around *around) {
+    const bool is_held = around->unsure.object != NULL ||
+                         (around->holder.object != NULL &&
+                          index_within(around->holder.object, around->holder.shell) != 1.0);
+    return finder->for_notes && !is_held && surface_refracts(surface)
+               ? add_result(finder, surface, surface, HD_NEST_CAVITY, 1.0)
+               : HD_OK;
+}
+
+static HdStatus find_surface(Finder *finder, const Surface *surface) {
     Around around = {.state = HD_NEST_WITHIN};
-    HdVec3 point;
-    if (!is_clear(thing, part->shell))
+    if (!is_clear(surface->object, surface->shell))
         return HD_OK;
-    if (thing->solid != NULL)
-        point = thing->solid->centre;
-    else
-        point = hd_place(&thing->placed.to, hd_mesh_corner(thing->model->mesh,
-                                                           shell_of(thing, part->shell)->first, 0));
-    if (thing->solid == NULL && thing->model->shells->count > 1)
-        HD_TRY(add_own(finder, &around, part));
-    HD_TRY(add_others(finder, &around, part, point));
-    return add_results(finder, part, &around);
+    if (finder->for_notes && surface_refracts(surface) && surface->object->solid == NULL)
+        HD_TRY(measure(finder, surface->object));
+    HD_TRY(find_around(finder, &around, surface));
+    if (finder->work <= 0)
+        return add_result(finder, surface, surface, HD_NEST_SKIPPED, 1.0);
+    return is_cavity(surface) ? note_cavity(finder, surface, &around)
+                              : add_results(finder, surface, &around);
+}
+
+/* Leaves one of the results from `first` on if all shells of the object lie within one other. */
+static void merge_results(HdNesting *nesting, int first, int shells) {
+    if (nesting->count - first != shells || shells < 2)
+        return;
+    HdNested *list = nesting->list + first;
+    for (int i = 0; i < shells; i++)
+        if (list[i].state != HD_NEST_WITHIN || list[i].around != list[0].around ||
+            list[i].other.is_solid != list[0].other.is_solid ||
+            list[i].other.number != list[0].other.number)
+            return;
+    list[0].shell = HD_ALL_SHELLS;
+    nesting->count = first + 1;
+}
+
+static HdStatus find_object(Finder *finder, const Object *object) {
+    const int shells = object->solid != NULL ? 1 : object->model->shells->count;
+    const int first = finder->nesting->count;
+    for (int i = 0; i < shells && finder->work > 0; i++) {
+        HD_TRY(poll(finder));
+        HD_TRY(find_surface(finder, &(Surface){object, i}));
+    }
+    merge_results(finder->nesting, first, shells);
+    return HD_OK;
 }
 
 /* ---- crossings ---- */
 
-/* Comparing more would take long; a note on some is enough. */
-enum { MAX_COMPARED = 1000 };
-
-static bool thing_refracts(const Finder *finder, const Thing *thing) {
-    return thing->solid != NULL ? refracts(&thing->solid->face)
-                                : instance_refracts(finder->scene, thing->object.number);
+static bool object_refracts(const Finder *finder, const Object *object) {
+    return object->solid != NULL ? refracts(&object->solid->face)
+                                 : instance_refracts(finder->scene, object->name.number);
 }
 
-static bool boxes_meet(const Thing *a, const Thing *b) {
-    return a->lower.x <= b->upper.x && b->lower.x <= a->upper.x && a->lower.y <= b->upper.y &&
-           b->lower.y <= a->upper.y && a->lower.z <= b->upper.z && b->lower.z <= a->upper.z;
+static HdStatus surfaces_cross(Finder *finder, const Surface *a, const Surface *b, bool *cross) {
+    const HdPlacedMesh *placed = &a->object->placed, *other = &b->object->placed;
+    if (--finder->work <= 0 || !hd_shell_boxes_meet(placed, a->shell, other, b->shell))
+        return HD_OK;
+    HD_TRY(build_surface(finder, a));
+    HD_TRY(build_surface(finder, b));
+    const bool are_clear =
+        hd_shells_are_clear(placed, a->shell, other, b->shell, 0.0, &finder->work);
+    *cross = !are_clear && finder->work > 0;
+    return HD_OK;
 }
 
 /* Solids that cross are none of a valid scene. */
-static bool cross(const Thing *a, const Thing *b) {
-    if (a->solid != NULL && b->solid != NULL)
-        return false;
-    if (a == b && a->model->shells->count == 1)
-        return false;
-    return boxes_meet(a, b) &&
-           !hd_shells_are_clear(&a->placed, HD_ANY_SHELL, &b->placed, HD_ANY_SHELL, 0.0);
+static HdStatus objects_cross(Finder *finder, const Object *a, const Object *b, bool *cross) {
+    if ((a->solid != NULL && b->solid != NULL) ||
+        !hd_boxes_meet(a->lower, a->upper, b->lower, b->upper))
+        return HD_OK;
+    HD_TRY(poll(finder));
+    for (int i = 0; i < a->model->shells->count && finder->work > 0; i++) {
+        const int count = a == b ? i : b->model->shells->count;
+        for (int k = 0; k < count && !*cross && finder->work > 0; k++)
+            HD_TRY(surfaces_cross(finder, &(Surface){a, i}, &(Surface){b, k}, cross));
+    }
+    return HD_OK;
 }
 
 static bool knows_crossing(const HdNesting *nesting) {
@@ -471,58 +604,65 @@ static bool knows_crossing(const HdNesting *nesting) {
 }
 
 static HdStatus find_crossing(Finder *finder) {
-    const int count = hd_min(finder->thing_count, MAX_COMPARED);
+    bool cross = false;
     if (knows_crossing(finder->nesting))
         return HD_OK;
-    for (int i = 0; i < count; i++) {
-        const Thing *thing = &finder->things[i];
-        for (int j = 0; j <= i && thing_refracts(finder, thing); j++)
-            if (thing_refracts(finder, &finder->things[j]) && cross(thing, &finder->things[j]))
-                return add_result(finder, &(Part){&finder->things[j], 0}, &(Part){thing, 0},
+    finder->work = finder->work < MAX_CROSSING_WORK ? finder->work : MAX_CROSSING_WORK;
+    for (int i = 0; i < finder->object_count && finder->work > 0; i++) {
+        const Object *object = &finder->objects[i];
+        for (int j = 0; j <= i && object_refracts(finder, object) && finder->work > 0; j++) {
+            const Object *other = &finder->objects[j];
+            finder->work--;
+            if (object_refracts(finder, other))
+                HD_TRY(objects_cross(finder, object, other, &cross));
+            if (cross)
+                return add_result(finder, &(Surface){other, 0}, &(Surface){object, 0},
                                   HD_NEST_CROSSES, 1.0);
+        }
     }
     return HD_OK;
 }
 
 /* ---- all ---- */
 
-static HdStatus find(Finder *finder, bool finds_crossings) {
+static HdStatus find(Finder *finder) {
     HD_TRY(prepare(finder));
-    for (int i = 0; i < finder->thing_count; i++) {
-        const Thing *thing = &finder->things[i];
-        const int shells = thing->solid != NULL ? 1 : thing->model->shells->count;
-        for (int k = 0; k < shells; k++)
-            HD_TRY(find_part(finder, &(Part){thing, k}));
-    }
-    return finds_crossings ? find_crossing(finder) : HD_OK;
+    for (int i = 0; i < finder->object_count && finder->work > 0; i++)
+        HD_TRY(find_object(finder, &finder->objects[i]));
+    return finder->for_notes ? find_crossing(finder) : HD_OK;
 }
 
 static void free_finder(Finder *finder) {
     const int solids = finder->scene->solid_count, meshes = finder->scene->mesh_count;
     for (int i = 0; finder->models != NULL && i < meshes + solids; i++) {
-        free(finder->models[i].looks);
-        free(finder->models[i].holders[0]);
-        free(finder->models[i].holders[1]);
+        free(finder->models[i].media);
+        free(finder->models[i].own[0]);
+        free(finder->models[i].own[1]);
     }
     for (int i = 0; finder->solids != NULL && i < solids; i++)
         hd_mesh_free(&finder->solids[i]);
     for (int i = 0; finder->of_solids != NULL && i < solids; i++)
         hd_shells_free(&finder->of_solids[i]);
-    free(finder->things);
+    free(finder->objects);
     free(finder->models);
     free(finder->solids);
     free(finder->of_solids);
     free(finder->list.shells);
+    free(finder->candidates);
+    hd_thread_pool_destroy(finder->pool);
     hd_hierarchy_free(&finder->tree);
 }
 
-HdStatus hd_nesting_find(HdNesting *nesting, const HdScene *scene, bool finds_crossings,
-                         HdError *error) {
+HdStatus hd_nesting_find(HdNesting *nesting, const HdScene *scene, bool for_notes, HdError *error) {
     *nesting = (HdNesting){0};
     if (!has_media(scene))
         return HD_OK;
-    Finder finder = {.scene = scene, .nesting = nesting, .error = error};
-    const HdStatus status = find(&finder, finds_crossings);
+    Finder finder = {.scene = scene,
+                     .nesting = nesting,
+                     .error = error,
+                     .for_notes = for_notes,
+                     .work = MAX_WORK};
+    const HdStatus status = find(&finder);
     free_finder(&finder);
     if (status != HD_OK)
         hd_nesting_free(nesting);

@@ -13,6 +13,8 @@ typedef enum HdNestState {
     HD_NEST_CROSSES, /* begins within, but crosses or nearly touches the other one */
     HD_NEST_OPEN,    /* within, but one of the two is not closed */
     HD_NEST_MIXED,   /* within one whose clear triangles have several indices */
+    HD_NEST_CAVITY,  /* turned inside out, but within nothing that refracts */
+    HD_NEST_SKIPPED, /* not compared, nor what follows: it would take too long */
     HD_NEST_STATE_COUNT
 } HdNestState;
 
@@ -22,16 +24,18 @@ typedef struct HdNestObject {
     int number; /* among the scene's solids or instances */
 } HdNestObject;
 
+enum { HD_ALL_SHELLS = -1 };
+
 /* A clear solid or shell of an instance, and another one. */
 typedef struct HdNested {
     HdNestObject object, other;
-    int shell; /* of the object's mesh; of a solid 0 */
+    int shell; /* of the object's mesh, or HD_ALL_SHELLS; of a solid 0 */
     HdNestState state;
     double around; /* the other's index of refraction, not 1, if within; else 1 */
 } HdNested;
 
-/* Results in the order of solids, instances and shells; one within another has one of that state.
- */
+/* Results in the order of solids, instances and shells. One within another has one of that state;
+   one result stands for all shells of an instance if they lie within the same object. */
 typedef struct HdNesting {
     int count, capacity;
     HdNested *list; /* owned */
@@ -39,11 +43,10 @@ typedef struct HdNesting {
     HdShells *shells; /* owned; of each mesh; empty if they did not matter */
 } HdNesting;
 
-/* Finds what lies within what in a scene with built meshes. `finds_crossings` adds the first pair
-   of surfaces that refract and cross. HD_FAILED: out of memory. HD_INTERRUPTED: a signal came.
-   `nesting` is then empty. */
-HdStatus hd_nesting_find(HdNesting *nesting, const HdScene *scene, bool finds_crossings,
-                         HdError *error);
+/* Finds what lies within what in a scene with built meshes. `for_notes` adds cavities, and the
+   first pair of surfaces that refract and cross. HD_FAILED: out of memory. HD_INTERRUPTED: a signal
+   came. `nesting` is then empty. */
+HdStatus hd_nesting_find(HdNesting *nesting, const HdScene *scene, bool for_notes, HdError *error);
 
 void hd_nesting_free(HdNesting *nesting);
 

@@ -116,46 +116,100 @@ static void note_contacts(const HdScene *scene, HdProblems *notes) {
 /* ---- nesting ---- */
 
 /* Writes "solids[0]", "meshes[1]" or "a part of meshes[1]". */
-static void name_object(const HdScene *scene, const HdNesting *nesting, HdNestObject object,
-                        char out[48]) {
-    if (object.is_solid) {
+static void name_object(const HdScene *scene, HdNestObject object, bool is_part, char out[48]) {
+    if (object.is_solid)
         snprintf(out, 48, "solids[%d]", object.number);
-        return;
+    else
+        snprintf(out, 48, "%smeshes[%d]", is_part ? "a part of " : "",
+                 scene->instances[object.number].entry);
+}
+
+static bool has_parts(const HdScene *scene, const HdNesting *nesting, HdNestObject object) {
+    return !object.is_solid && nesting->shells[scene->instances[object.number].mesh].count > 1;
+}
+
+/* A result that stands for all of its kind. */
+typedef struct Nest {
+    char object[48], other[48], others[48];
+    bool is_closed; /* the object's shell */
+    double around;
+} Nest;
+
+static Nest describe(const HdScene *scene, const HdNesting *nesting, const HdNested *first,
+                     int count) {
+    const HdNestObject object = first->object, other = first->other;
+    Nest nest = {.is_closed = true, .around = first->around};
+    const Pairs pairs = {.count = count};
+    name_object(scene, object, first->shell != HD_ALL_SHELLS && has_parts(scene, nesting, object),
+                nest.object);
+    if (object.is_solid == other.is_solid && object.number == other.number)
+        snprintf(nest.other, sizeof nest.other, "another part of it");
+    else
+        name_object(scene, other, has_parts(scene, nesting, other), nest.other);
+    if (count > 1)
+        others_of(&pairs, nest.others);
+    if (!object.is_solid && first->shell != HD_ALL_SHELLS)
+        nest.is_closed =
+            nesting->shells[scene->instances[object.number].mesh].shells[first->shell].is_closed;
+    return nest;
+}
+
+static void note_nest(const Nest *nest, HdNestState state, HdProblems *notes) {
+    switch (state) {
+    case HD_NEST_WITHIN:
+        hd_problem(notes, "%s lies in %s of index %.6g%s: its own index is divided by %.6g",
+                   nest->object, nest->other, nest->around, nest->others, nest->around);
+        break;
+    case HD_NEST_CROSSES:
+        hd_problem(notes,
+                   "%s and %s intersect or nearly touch%s: light bends at each as if the other "
+                   "were not there",
+                   nest->object, nest->other, nest->others);
+        break;
+    case HD_NEST_OPEN:
+        hd_problem(notes,
+                   "%s lies in %s%s, but %s is not closed, because at an edge a face is missing "
+                   "or turned inside out: light bends as if the other were not there",
+                   nest->object, nest->other, nest->others,
+                   nest->is_closed ? nest->other : nest->object);
+        break;
+    case HD_NEST_MIXED:
+        hd_problem(notes,
+                   "%s lies in %s, which has several indices of refraction%s: its own index is "
+                   "not divided",
+                   nest->object, nest->other, nest->others);
+        break;
+    case HD_NEST_CAVITY:
+        hd_problem(notes,
+                   "%s refracts, but is inside out%s, so it counts as a cavity of index 1: faces "
+                   "must run counterclockwise as seen from outside",
+                   nest->object, nest->others);
+        break;
+    case HD_NEST_SKIPPED:
+        hd_problem(notes,
+                   "%s and what follows were not compared with others, which would take too "
+                   "long: their indices count as if they lay in nothing",
+                   nest->object);
+        break;
+    case HD_NEST_STATE_COUNT:
+        break;
     }
-    const HdInstance *instance = &scene->instances[object.number];
-    snprintf(out, 48, "%smeshes[%d]",
-             nesting->shells[instance->mesh].count > 1 ? "a part of " : "", instance->entry);
 }
 
 /* Notes the first of the results in one state. */
 static void note_nested(const HdScene *scene, const HdNesting *nesting, HdNestState state,
                         HdProblems *notes) {
-    static const char *const texts[] = {
-        [HD_NEST_WITHIN] = "%s lies within %s, which refracts%s: its index_of_refraction, also one "
-                           "of 1, counts against that one's %.6g",
-        [HD_NEST_CROSSES] = "%s and %s cross or nearly touch%s: the index_of_refraction of each "
-                            "counts as if the other were not there",
-        [HD_NEST_OPEN] = "%s lies within %s, but one of them is not closed%s: its "
-                         "index_of_refraction counts as if the other were not there",
-        [HD_NEST_MIXED] = "%s lies within %s, which has several indices of refraction%s: its own "
-                          "counts against 1"};
-    Pairs pairs = {0};
     const HdNested *first = NULL;
-    char object[48], other[48], others[48];
+    int count = 0;
     for (int i = nesting->count; i-- > 0;)
         if (nesting->list[i].state == state) {
             first = &nesting->list[i];
-            pairs.count++;
+            count++;
         }
     if (first == NULL)
         return;
-    name_object(scene, nesting, first->object, object);
-    if (first->object.is_solid == first->other.is_solid &&
-        first->object.number == first->other.number)
-        snprintf(other, sizeof other, "another part of it");
-    else
-        name_object(scene, nesting, first->other, other);
-    hd_problem(notes, texts[state], object, other, others_of(&pairs, others), first->around);
+    const Nest nest = describe(scene, nesting, first, count);
+    note_nest(&nest, state, notes);
 }
 
 static void note_nesting(const HdScene *scene, HdProblems *notes) {

@@ -47,13 +47,7 @@ static Box placed_box(const HdPlacement *map, Box box) {
 }
 
 static bool boxes_meet(const Box *a, const Box *b) {
-    return a->lower.x <= b->upper.x && b->lower.x <= a->upper.x && a->lower.y <= b->upper.y &&
-           b->lower.y <= a->upper.y && a->lower.z <= b->upper.z && b->lower.z <= a->upper.z;
-}
-
-static Box box_of_mesh(const HdMesh *mesh) {
-    const HdVec3 half = hd_scale(hd_sub(mesh->upper, mesh->lower), 0.5 / hd_mesh_half_side(mesh));
-    return (Box){hd_scale(half, -1.0), half};
+    return hd_boxes_meet(a->lower, a->upper, b->lower, b->upper);
 }
 
 static Box box_of_shell(const HdPlacedMesh *placed, int shell) {
@@ -75,7 +69,8 @@ static double half_diagonal(Box box) {
    models seldom meet them. */
 typedef struct Line {
     HdVec3 point;
-    double slope[2];
+    double slope[2], per_slope[2]; /* and its reciprocal */
+    Box near;                      /* what is about the point, in the mesh's own coordinates */
 } Line;
 
 static const double slopes[][2] = {{0.31830989, 0.14142136},  {-0.27182818, 0.57721566},
@@ -95,10 +90,8 @@ typedef struct Hits {
 } Hits;
 
 /* Narrows the part `span` of the line to where a coordinate is between two bounds. */
-static bool clip(double span[2], double from, double slope, double lower, double upper) {
-    if (slope == 0.0)
-        return lower <= from && from <= upper;
-    const double a = (lower - from) / slope, b = (upper - from) / slope;
+static bool clip(double span[2], double from, double per_slope, double lower, double upper) {
+    const double a = (lower - from) * per_slope, b = (upper - from) * per_slope;
     span[0] = fmax(span[0], fmin(a, b));
     span[1] = fmin(span[1], fmax(a, b));
     return span[0] <= span[1];
@@ -109,8 +102,8 @@ static bool meets_box(const Line *line, Box box) {
     box = enlarged(box, rounding);
     double span[2] = {box.lower.z - line->point.z, box.upper.z - line->point.z};
     return span[0] <= span[1] &&
-           clip(span, line->point.x, line->slope[0], box.lower.x, box.upper.x) &&
-           clip(span, line->point.y, line->slope[1], box.lower.y, box.upper.y);
+           clip(span, line->point.x, line->per_slope[0], box.lower.x, box.upper.x) &&
+           clip(span, line->point.y, line->per_slope[1], box.lower.y, box.upper.y);
 }
 
 /* Returns whether the line meets the triangle, and if so its side. Triangles that share an edge
@@ -143,24 +136,38 @@ static bool meets_triangle(const Line *line, const HdMesh *mesh, int32_t triangl
     return true;
 }
 
-/* Returns false if out of memory. */
+static Line line_through(HdVec3 point, const double slope[2], const HdMesh *mesh) {
+    const double half = hd_mesh_half_side(mesh), rounding = 1e-9;
+    const HdVec3 own = hd_add(hd_mesh_centre(mesh), hd_scale(point, half));
+    return (Line){point,
+                  {slope[0], slope[1]},
+                  {1.0 / slope[0], 1.0 / slope[1]},
+                  enlarged((Box){own, own}, rounding * half)};
+}
+
+/* Returns false if out of memory. Leaves out shells whose box does not hold the point. */
 static bool hit_leaf(const HdPlacedMesh *placed, const Line *line, int32_t leaf, int but,
                      Hits *hits) {
     const int first = leaf >> HD_LEAF_SHIFT, count = leaf & HD_MAX_LEAF;
     for (int i = first; i < first + count; i++) {
         const int32_t triangle = placed->mesh->tree.order[i];
         Hit hit = {.shell = placed->shells->shell_of[triangle]};
-        if (hit.shell != but && meets_triangle(line, placed->mesh, triangle, &hit.side) &&
+        const HdShell *shell = &placed->shells->shells[hit.shell];
+        if (hit.shell != but &&
+            hd_boxes_meet(shell->lower, shell->upper, line->near.lower, line->near.upper) &&
+            meets_triangle(line, placed->mesh, triangle, &hit.side) &&
             !hd_append(&hits->list, sizeof hit, &hits->count, &hits->capacity, &hit))
             return false;
     }
     return true;
 }
 
-static bool hit_triangles(const HdPlacedMesh *placed, const Line *line, int but, Hits *hits) {
-    int32_t waiting[2 * HD_MAX_HIERARCHY_DEPTH + 2] = {0};
+static bool hit_triangles(const HdPlacedMesh *placed, const Line *line, int but, Hits *hits,
+                          int64_t *work) {
+    int32_t waiting[HD_MAX_HIERARCHY_DEPTH + 2] = {0};
     for (int count = 1; count > 0;) {
         const int32_t child = waiting[--count];
+        --*work;
         if (child < 0) {
             if (!hit_leaf(placed, line, ~child, but, hits))
                 return false;
@@ -196,13 +203,14 @@ static bool list_odd(const Hits *hits, HdShellList *list, bool *has_memory) {
     return is_sure;
 }
 
-bool hd_shells_around(const HdPlacedMesh *around, HdVec3 point, int but, HdShellList *list) {
+bool hd_shells_around(const HdPlacedMesh *around, HdVec3 point, int but, HdShellList *list,
+                      int64_t *work) {
     Hits hits = {0};
     bool has_memory = true, is_sure = false;
     for (int i = 0; i < LINE_COUNT && has_memory && !is_sure; i++) {
-        const Line line = {point, {slopes[i][0], slopes[i][1]}};
+        const Line line = line_through(point, slopes[i], around->mesh);
         hits.count = 0;
-        has_memory = hit_triangles(around, &line, but, &hits);
+        has_memory = hit_triangles(around, &line, but, &hits, work);
         if (hits.count > 0)
             qsort(hits.list, (size_t)hits.count, sizeof *hits.list, compare_hits);
         is_sure = list_odd(&hits, list, &has_memory);
@@ -215,11 +223,11 @@ bool hd_shells_around(const HdPlacedMesh *around, HdVec3 point, int but, HdShell
 
 typedef struct Gap {
     const HdPlacedMesh *within, *around;
-    int inner, outer;
+    const HdHierarchy *inner, *outer;
     double least;    /* distance that is too near, in the coordinates of `around` */
     HdPlacement map; /* from the coordinates of `within` */
     bool is_same;    /* the map changes nothing */
-    Box reach;       /* of what is compared within, enlarged by the distance */
+    int64_t *work;
 } Gap;
 
 typedef struct Triangle {
@@ -268,24 +276,14 @@ static bool are_separate(const Triangle *a, const Triangle *b, double least) {
     return false;
 }
 
-/* Returns whether the triangle of each belongs to what is compared. */
-static bool is_compared(const Gap *gap, int32_t inner_triangle, int32_t outer_triangle) {
-    const int inner = gap->within->shells->shell_of[inner_triangle];
-    const int outer = gap->around->shells->shell_of[outer_triangle];
-    if (gap->inner != HD_ANY_SHELL)
-        return inner == gap->inner && outer == gap->outer;
-    return !gap->is_same || inner != outer;
-}
-
 static bool leaves_are_clear(const Gap *gap, int32_t inner_leaf, int32_t outer_leaf) {
-    const int32_t *inner = gap->within->mesh->tree.order + (inner_leaf >> HD_LEAF_SHIFT);
-    const int32_t *outer = gap->around->mesh->tree.order + (outer_leaf >> HD_LEAF_SHIFT);
+    const int32_t *inner = gap->inner->order + (inner_leaf >> HD_LEAF_SHIFT);
+    const int32_t *outer = gap->outer->order + (outer_leaf >> HD_LEAF_SHIFT);
     for (int i = 0; i < (inner_leaf & HD_MAX_LEAF); i++)
         for (int j = 0; j < (outer_leaf & HD_MAX_LEAF); j++) {
-            if (!is_compared(gap, inner[i], outer[j]))
-                continue;
             const Triangle a = triangle_of(gap, gap->within, inner[i]);
             const Triangle b = triangle_of(gap, gap->around, outer[j]);
+            --*gap->work;
             if (!are_separate(&a, &b, gap->least))
                 return false;
         }
@@ -294,58 +292,81 @@ static bool leaves_are_clear(const Gap *gap, int32_t inner_leaf, int32_t outer_l
 
 /* A node or a leaf, as HdBuildNode names it, and its box in the coordinates of `around`. */
 typedef struct Branch {
-    int32_t child, shell; /* the shell of all its triangles, -1: several */
+    int32_t child;
     Box box;
 } Branch;
 
-static Branch branch_of(const Gap *gap, const HdPlacedMesh *placed, int32_t node, int number) {
-    const HdBuildNode *of = &placed->mesh->tree.nodes[node];
+static Branch branch_of(const Gap *gap, bool is_inner, int32_t node, int number) {
+    const HdBuildNode *of = &(is_inner ? gap->inner : gap->outer)->nodes[node];
     const Box box = box_of_child(&of->box[number]);
-    const bool is_moved = placed == gap->within && !gap->is_same;
-    return (Branch){of->child[number], placed->shells->shell_below[node][number],
-                    is_moved ? placed_box(&gap->map, box) : box};
-}
-
-/* Returns whether nothing of the branches is compared. */
-static bool are_others(const Gap *gap, const Branch *inner, const Branch *outer) {
-    if (gap->inner == HD_ANY_SHELL)
-        return gap->is_same && inner->shell >= 0 && inner->shell == outer->shell;
-    return (inner->shell >= 0 && inner->shell != gap->inner) ||
-           (outer->shell >= 0 && outer->shell != gap->outer);
+    return (Branch){of->child[number],
+                    is_inner && !gap->is_same ? placed_box(&gap->map, box) : box};
 }
 
 /* Goes down the larger box first. */
 static bool branches_are_clear(const Gap *gap, const Branch *inner, const Branch *outer) {
     const Box near = enlarged(inner->box, gap->least);
-    if (!boxes_meet(&near, &outer->box) || !boxes_meet(&outer->box, &gap->reach) ||
-        !boxes_meet(&inner->box, &gap->reach) || are_others(gap, inner, outer))
+    if (--*gap->work <= 0)
+        return false;
+    if (!boxes_meet(&near, &outer->box))
         return true;
     if (inner->child < 0 && outer->child < 0)
         return leaves_are_clear(gap, ~inner->child, ~outer->child);
     const bool is_inner = outer->child < 0 || (inner->child >= 0 && half_diagonal(inner->box) >
                                                                         half_diagonal(outer->box));
     for (int i = 0; i < 2; i++) {
-        const Branch part = is_inner ? branch_of(gap, gap->within, inner->child, i)
-                                     : branch_of(gap, gap->around, outer->child, i);
+        const Branch part = branch_of(gap, is_inner, is_inner ? inner->child : outer->child, i);
         if (!branches_are_clear(gap, is_inner ? &part : inner, is_inner ? outer : &part))
             return false;
     }
     return true;
 }
 
-bool hd_shells_are_clear(const HdPlacedMesh *within, int inner, const HdPlacedMesh *around,
-                         int outer, double gap) {
-    const bool is_any = inner == HD_ANY_SHELL;
-    const Box whole[2] = {box_of_mesh(within->mesh), box_of_mesh(around->mesh)};
-    Gap work = {within, around, inner, outer, .is_same = within == around};
-    work.least = gap * half_diagonal(is_any ? whole[1] : box_of_shell(around, outer));
-    work.map = map_between(within, around);
-    Branch all[2] = {{0, -1, whole[0]}, {0, -1, whole[1]}};
-    work.reach = is_any ? whole[0] : box_of_shell(within, inner);
-    if (!work.is_same) {
-        all[0].box = placed_box(&work.map, all[0].box);
-        work.reach = placed_box(&work.map, work.reach);
+/* Returns the box of a shell in the coordinates of `around`. */
+static Box box_between(const HdPlacedMesh *within, int shell, const HdPlacedMesh *around) {
+    const Box box = box_of_shell(within, shell);
+    if (within == around)
+        return box;
+    const HdPlacement map = map_between(within, around);
+    return placed_box(&map, box);
+}
+
+bool hd_shell_boxes_meet(const HdPlacedMesh *a, int first, const HdPlacedMesh *b, int second) {
+    const Box box = box_between(a, first, b), other = box_of_shell(b, second);
+    return boxes_meet(&box, &other);
+}
+
+static bool is_in_box(HdVec3 at, const Box *box) {
+    return hd_boxes_meet(at, at, box->lower, box->upper);
+}
+
+bool hd_shell_fits(const HdPlacedMesh *within, int inner, const HdPlacedMesh *around, int outer) {
+    const Box box = box_of_shell(around, outer);
+    if (within == around) {
+        const Box same = box_of_shell(within, inner);
+        return is_in_box(same.lower, &box) && is_in_box(same.upper, &box);
     }
-    work.reach = enlarged(work.reach, work.least);
-    return branches_are_clear(&work, &all[0], &all[1]);
+    const HdShell *shell = &within->shells->shells[inner];
+    const int32_t *triangle = within->shells->triangles + shell->first;
+    const HdPlacement map = map_between(within, around);
+    for (int i = 0; i < shell->count; i++)
+        for (int k = 0; k < 3; k++)
+            if (!is_in_box(hd_place(&map, hd_mesh_corner(within->mesh, triangle[i], k)), &box))
+                return false;
+    return true;
+}
+
+bool hd_shells_are_clear(const HdPlacedMesh *within, int inner, const HdPlacedMesh *around,
+                         int outer, double gap, int64_t *work) {
+    const Box box = box_of_shell(around, outer);
+    const Gap between = {within,
+                         around,
+                         hd_shell_tree(within->shells, within->mesh, inner),
+                         hd_shell_tree(around->shells, around->mesh, outer),
+                         gap * half_diagonal(box),
+                         map_between(within, around),
+                         within == around,
+                         work};
+    return branches_are_clear(&between, &(Branch){0, box_between(within, inner, around)},
+                              &(Branch){0, box});
 }

@@ -130,13 +130,13 @@ done
 echo '{"hedron": 1, "camera": {"eye": [0, -9, 0]}, "materials": {"m": {"transmission": 1, "index_of_refraction": 1.5}},
     "solids": [{"kind": "cube", "circumradius": 4, "material": "m"}, {"kind": "cube", "material": "m"}], "meshes": [{"file": "models/cube.obj"}, {"file": "models/cube.obj"}, {"file": "models/copy.obj", "material": "m"}]}' >glass.json
 expect_exit 0 "$hedron" check glass.json
-for words in 'meshes: 1 of them is in the place' 'solids[1] lies within meshes[2], which refracts, the first of 2 such pairs: '; do
+for words in 'meshes: 1 of them is in the place' 'solids[1] lies in meshes[2] of index 1.5, the first of 2 such pairs: its own'; do
     expect_stdout_contains "glass.json: note: $words"
 done
 expect_stdout_contains 'meshes[0], models/cube.obj'
 expect_stdout_contains 'meshes[2], models/copy.obj'
 expect_exit 0 "$hedron" check glass.json --set 'meshes=[]'
-expect_stdout_contains 'solids[1] lies within solids[0]'
+expect_stdout_contains 'solids[1] lies in solids[0] of index 1.5: its own'
 
 # ---- indices count against those around; a tiny stray triangle opens a mesh, so that they do not; two files are as one
 part() { # MATERIAL SCALE FIRST: a cube of this material; its vertices count on from FIRST
@@ -158,9 +158,11 @@ done
 expect_same inner.data divided.data
 expect_same inner.data both.data
 sed -e '11iusemtl inner' -e '12iusemtl outer' models/outer.obj >models/mixed.obj
-for row in 'divided outer 0 lies within meshes[1], but one of them is not closed' \
-    'inner outer 0.6 and meshes[1] cross or nearly touch' \
-    'inner mixed 0 lies within meshes[1], which has several indices of refraction'; do
+sed 's/^f \(.*\) \(.*\) \(.*\) \(.*\)/f \4 \3 \2 \1/' models/inner.obj >models/inverted.obj
+for row in 'divided outer 0 lies in meshes[1], but meshes[0] is not closed, because' \
+    'inner outer 0.6 and meshes[1] intersect or nearly touch' \
+    'inverted outer 9 refracts, but is inside out, so it counts as a cavity' \
+    'inner mixed 0 lies in meshes[1], which has several indices of refraction'; do
     read -r inner outer z words <<<"$row"
     expect_exit 0 "$hedron" check cubes.json --set \
         "meshes=[{\"file\": \"models/$inner.obj\", \"position\": [0, 0, $z]}, {\"file\": \"models/$outer.obj\"}]"
