@@ -9,26 +9,40 @@
 #include "image/picture.h"
 #include "system/path.h"
 
-/* Returns false also if the file cannot be read, which the reader of textures reports. */
-static bool is_linear(const char *path) {
+/* What a file's first bytes tell. */
+typedef enum Kind { KIND_TEXTURE, KIND_LINEAR, KIND_OTHER } Kind;
+
+static HdStatus find_kind(Kind *kind, const char *path, HdError *error) {
     unsigned char head[8];
     struct stat found;
     const char *reason;
     FILE *file = hd_file_open(path, &found, &reason);
     if (file == NULL)
-        return false;
+        return hd_fail(error, HD_BAD_INPUT, "cannot read the environment %s: %s", path, reason);
     const size_t count = fread(head, 1, sizeof head, file);
     fclose(file);
-    return hd_format_exr.begins(head, count) || hd_format_pfm.begins(head, count);
+    *kind = KIND_OTHER;
+    if (hd_format_exr.begins(head, count) || hd_format_pfm.begins(head, count))
+        *kind = KIND_LINEAR;
+    else if (hd_format_png.begins(head, count) || hd_format_jpeg.begins(head, count))
+        *kind = KIND_TEXTURE;
+    return HD_OK;
 }
 
 /* Uses a row of `count` values from the top. */
 typedef void UseRow(void *context, const HdPictureValue *values, size_t count);
 
+typedef struct Light {
+    double top;
+    int64_t wrong; /* values that are infinite or NaN */
+} Light;
+
 static void find_top(void *context, const HdPictureValue *values, size_t count) {
-    double *top = context;
-    for (size_t i = 0; i < count; i++) /* NaN is skipped */
-        *top = fmax(*top, values[i].linear);
+    Light *light = context;
+    for (size_t i = 0; i < count; i++) { /* NaN is skipped */
+        light->top = fmax(light->top, values[i].linear);
+        light->wrong += !isfinite(values[i].linear);
+    }
 }
 
 typedef struct Rounding {
@@ -59,19 +73,33 @@ static HdStatus use_rows(HdPictureReader *reader, UseRow *use, void *context, Hd
     return status;
 }
 
+static void note_light(const Light *light, const char *path, HdProblems *notes) {
+    if (notes == NULL)
+        return;
+    if (light->wrong > 0)
+        hd_problem(notes,
+                   "%s has infinite or NaN values (%lld): infinite ones count as %g, NaN as 0",
+                   path, (long long)light->wrong, HD_MAX_PANORAMA_LIGHT);
+    if (isfinite(light->top) && light->top > HD_MAX_PANORAMA_LIGHT)
+        hd_problem(notes, "%s: light up to %.3g is clamped to %g", path, light->top,
+                   HD_MAX_PANORAMA_LIGHT);
+}
+
 /* Reads twice, which needs no memory for floats. */
-static HdStatus read_linear(HdTexture *texture, double *top, const char *path, HdError *error) {
+static HdStatus read_linear(HdTexture *texture, double *top, const char *path, HdProblems *notes,
+                            HdError *error) {
     HdPictureReader *reader;
-    *top = 0.0;
+    Light light = {0};
     HD_TRY(hd_picture_reader_open(&reader, path, error));
     const HdPictureFacts *facts = hd_picture_reader_facts(reader);
     HdStatus status =
         hd_texture_create(texture, (uint32_t)facts->width, (uint32_t)facts->height, path, error);
     if (status == HD_OK)
-        status = use_rows(reader, find_top, top, error);
+        status = use_rows(reader, find_top, &light, error);
     hd_picture_reader_close(reader);
     HD_TRY(status);
-    *top = *top > 0.0 ? fmin(*top, HD_MAX_PANORAMA_LIGHT) : 1.0;
+    note_light(&light, path, notes);
+    *top = light.top > 0.0 ? fmin(light.top, HD_MAX_PANORAMA_LIGHT) : 1.0;
     HD_TRY(hd_picture_reader_open(&reader, path, error));
     Rounding rounding = {*top, texture->texels};
     status = use_rows(reader, round_row, &rounding, error);
@@ -79,13 +107,27 @@ static HdStatus read_linear(HdTexture *texture, double *top, const char *path, H
     return status;
 }
 
+static HdStatus read_texture(HdTexture *texture, Kind kind, const char *path, HdCurve curve,
+                             HdError *error) {
+    const HdStatus status = hd_texture_read(texture, path, curve, error);
+    if (status != HD_BAD_INPUT || kind != KIND_OTHER || error == NULL)
+        return status;
+    const HdError cause = *error;
+    return hd_fail(error, status,
+                   "%s; an environment may also be OpenEXR or PFM, and a Radiance .hdr must be "
+                   "converted to OpenEXR",
+                   cause.message);
+}
+
 HdStatus hd_panorama_read(HdTexture *texture, double *top, const char *path, HdCurve curve,
-                          HdError *error) {
+                          HdProblems *notes, HdError *error) {
+    Kind kind = KIND_OTHER;
     *top = 1.0;
-    if (!is_linear(path))
-        return hd_texture_read(texture, path, curve, error);
     *texture = (HdTexture){0};
-    const HdStatus status = read_linear(texture, top, path, error);
+    HD_TRY(find_kind(&kind, path, error));
+    if (kind != KIND_LINEAR)
+        return read_texture(texture, kind, path, curve, error);
+    const HdStatus status = read_linear(texture, top, path, notes, error);
     if (status != HD_OK)
         hd_texture_clear(texture);
     return status;

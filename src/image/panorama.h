@@ -11,8 +11,9 @@
 
 /* Reads what hd_texture_read does, with `*top` 1. Also reads OpenEXR and PFM
    (hd_picture_reader_open), which are linear: `*top` is their largest value, at most
-   HD_MAX_PANORAMA_LIGHT, or 1 if none is positive, and 65535 in a texel stands for it. */
+   HD_MAX_PANORAMA_LIGHT, or 1 if none is positive, and 65535 in a texel stands for it.
+   `notes`, unless NULL, gets what was clamped and what is not finite. */
 HdStatus hd_panorama_read(HdTexture *texture, double *top, const char *path, HdCurve curve,
-                          HdError *error);
+                          HdProblems *notes, HdError *error);
 
 #endif

@@ -72,7 +72,7 @@ HdStatus hd_scene_file_load_environment(HdSceneFile *file, HdProblems *notes, Hd
         return HD_OK;
     HD_TRY(hd_path_expand_home(environment->file, expanded, error));
     HD_TRY(hd_panorama_read(&environment->texture, &environment->top, expanded, environment->curve,
-                            error));
+                            notes, error));
     note_cut_short(texture, expanded, notes);
     if (texture->width != 2 * texture->height && notes != NULL)
         hd_problem(notes, "%s has %d x %d pixels, so it is stretched: a panorama is twice as wide",

@@ -273,6 +273,8 @@ void hd_scene_notes(const HdScene *scene, HdProblems *notes) {
     note_path(&scene->eye, "eye", frames, distance, notes);
     note_path(&scene->target, "target", frames, distance, notes);
     note_eye_below_floor(scene, notes);
+    if (scene->environment.file != NULL && scene->environment.intensity == 0.0)
+        hd_problem(notes, "environment.intensity is 0, so nothing shows its picture");
     for (int i = 0; i < scene->solid_count; i++)
         note_edge_lights(&scene->solids[i], i, notes);
     note_contacts(scene, notes);

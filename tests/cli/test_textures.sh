@@ -52,8 +52,9 @@ accept early.png early.data
 expect_stderr_contains 'early.png ends early, so a part of the picture is grey or coarse'
 # As an environment it is too narrow, and remains where pixels have alpha.
 echo '{"hedron": 1, "camera": {"eye": [9, 0, 0]}}' >sky.json
-expect_exit 0 "$hedron" check sky.json --set 'environment={"file": "early.png"}' --set output.alpha=true
+expect_exit 0 "$hedron" check sky.json --set 'environment={"file": "early.png"}' --set output.alpha=true --set environment.intensity=0
 expect_stdout_contains 'early.png has 37 x 29 pixels, so it is stretched'
+expect_stdout_contains 'environment.intensity is 0'
 expect_stdout_contains 'environment remains at the borders of objects'
 # Alpha carries no meaning.
 for alpha in 000 377; do
@@ -74,6 +75,8 @@ refuse pipe 'not a regular file'
 refuse '~/nothing.data' 'No such file'
 printf 'this is a text and no picture\n' >bad.texture
 refuse bad.texture 'neither PNG, JPEG nor the data format'
+expect_refusal 2 "$hedron" check sky.json --set 'environment={"file": "bad.texture"}'
+expect_stderr_contains 'an environment may also be OpenEXR or PFM, and a Radiance'
 head -c 200 photo.png >bad.texture
 refuse bad.texture 'cannot read bad.texture as JPEG: Invalid JPEG file structure: missing SOS marker'
 finish

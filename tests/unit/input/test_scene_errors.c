@@ -345,7 +345,7 @@ TEST(test_problems_of_all_kinds) {
     expect_contains(error.message,
                     "\n  floor.texture.file: cannot read the texture no such.png: No such file");
     expect_contains(error.message,
-                    "\n  environment.file: cannot read the texture sky.pfm: No such");
+                    "\n  environment.file: cannot read the environment sky.pfm: No such");
     expect_contains(error.message, "\n  meshes[0].file: cannot read the mesh model.obj: No such");
 }
 

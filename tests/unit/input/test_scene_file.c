@@ -194,16 +194,24 @@ TEST(test_environments_keep_bright_light) {
         float light[6];
         double top;
         uint16_t texels[6];
-    } cases[] = {{{0.5F, 0.0F, 4.0F, 1.0F, -1.0F, 2.0F}, 4.0, {8192, 0, 65535, 16384, 0, 32768}},
-                 {{1e5F, 8.0F, NAN, 16.0F, 0.0F, 0.0F}, 16.0, {65535, 32768, 0, 65535, 0, 0}},
-                 {{0.0F}, 1.0, {0}}};
+        const char *notes;
+    } cases[] = {
+        {{0.5F, 0.0F, 4.0F, 1.0F, -1.0F, 2.0F}, 4.0, {8192, 0, 65535, 16384, 0, 32768}, ""},
+        {{1e5F, 8.0F, NAN, 16.0F, 0.0F, 0.0F},
+         16.0,
+         {65535, 32768, 0, 65535, 0, 0},
+         "sky.pfm has infinite or NaN values (1): infinite ones count as 16, NaN as 0\n"
+         "sky.pfm: light up to 1e+05 is clamped to 16\n"},
+        {{0.0F}, 1.0, {0}, ""}};
     const HdEnvironment *environment = &file.scene.environment;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         HdFrame frame = {.width = 2, .height = 1, .floats = 3, .rgb = (float *)cases[i].light};
         const HdPictureStyle style = {.bits = 32};
         expect_scene(&file, rich_text, NULL);
         assert_int_equal(hd_picture_write(&frame, &style, "sky.pfm", &error), HD_OK);
-        assert_int_equal(hd_scene_file_load_environment(&file, NULL, &error), HD_OK);
+        HdProblems notes = {.count = 0};
+        assert_int_equal(hd_scene_file_load_environment(&file, &notes, &error), HD_OK);
+        assert_string_equal(notes.text, cases[i].notes);
         expect_near(environment->top, cases[i].top, 0.0);
         assert_memory_equal(environment->texture.texels, cases[i].texels, sizeof cases[i].texels);
         hd_scene_file_free(&file);
