@@ -62,8 +62,9 @@ static HdStatus use_rows(HdPictureReader *reader, UseRow *use, void *context, Hd
     const HdPictureFacts *facts = hd_picture_reader_facts(reader);
     const size_t count = (size_t)facts->width * 3;
     HdPictureValue *values = malloc(count * sizeof *values);
-    HdStatus status = values != NULL ? hd_picture_reader_start(reader, HD_CURVE_LINEAR, error)
-                                     : HD_NO_ROOM(error, "a row of a picture");
+    if (values == NULL)
+        return HD_NO_ROOM(error, "a row of a picture");
+    HdStatus status = hd_picture_reader_start(reader, HD_CURVE_LINEAR, error);
     for (int row = 0; row < facts->height && status == HD_OK; row++) {
         status = hd_picture_reader_next(reader, values, error);
         if (status == HD_OK)
