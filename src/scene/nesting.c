@@ -1,28 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 #include "scene/nesting.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/growth.h"
 #include "base/minmax.h"
 #include "scene/contact.h"
-#include "scene/shell_gap.h"
-#include "scene/triangulate.h"
+#include "scene/media.h"
 #include "system/interrupt.h"
-
-/* The triangles of a shell that let rays pass. */
-typedef struct Medium {
-    bool is_clear; /* there are such */
-    double index;  /* their index of refraction; NaN: several */
-} Medium;
-
-typedef struct Object Object;
 
 /* A shell of an object. */
 typedef struct Surface {
-    const Object *object; /* NULL: none */
+    const HdMediumObject *object; /* NULL: none */
     int shell;
 } Surface;
 
@@ -32,43 +22,24 @@ typedef struct Around {
     HdNestState state;      /* of the unsure one */
 } Around;
 
-/* A mesh, or the faces of a solid. */
-typedef struct Model {
-    const HdMesh *mesh;
-    HdShells *shells;
-    Medium *media;  /* owned; of the mesh's own materials, by shell */
-    Around *own[2]; /* owned; shells of the mesh around each of them, if its own materials count,
-                       and if an instance has another material */
-} Model;
-
-/* A solid, or an instance that lets rays pass. */
-struct Object {
-    HdNestObject name;
-    const HdSolid *solid;       /* NULL: an instance */
-    const HdMaterial *material; /* of all triangles; NULL: the mesh's own ones */
-    Model *model;               /* NULL without clear instances */
-    HdPlacedMesh placed;
-    HdVec3 lower, upper; /* box in the world */
-};
-
 /* A shell around a point. */
 typedef struct Candidate {
     double volume;
     int32_t shell;
 } Candidate;
 
+/* The shells of a mesh around each of them, if its own materials count, and if an instance has
+   another material. */
+typedef struct Own {
+    Around *around[2]; /* owned; NULL: not asked for */
+} Own;
+
 typedef struct Finder {
-    const HdScene *scene;
+    HdMedia media;
+    Own *own; /* by model */
     HdNesting *nesting;
     HdError *error;
     bool for_notes;
-    HdThreadPool *pool; /* one thread */
-    int object_count;
-    Object *objects; /* the solids come first */
-    Model *models;   /* of the meshes, then of the solids */
-    HdMesh *solids;  /* faces of the solids */
-    HdShells *of_solids;
-    HdHierarchy tree; /* over the objects */
     HdShellList list; /* reused, like the next */
     Candidate *candidates;
     int candidate_capacity;
@@ -88,54 +59,19 @@ static HdStatus no_memory(HdError *error) {
 
 /* ---- what counts ---- */
 
-static bool is_clear_instance(const HdScene *scene, int number) {
-    const HdInstance *instance = &scene->instances[number];
-    const HdMesh *mesh = hd_mesh_of(scene, number);
-    if (instance->has_material)
-        return !hd_is_opaque(&instance->material);
-    for (int i = 0; i < mesh->material_count; i++)
-        if (!hd_is_opaque(&mesh->materials[i].material))
-            return true;
-    return false;
-}
-
-static bool refracts(const HdMaterial *material) {
-    return material->index_of_refraction != 1.0 && !hd_is_opaque(material);
-}
-
-static bool instance_refracts(const HdScene *scene, int number) {
-    const HdInstance *instance = &scene->instances[number];
-    const HdMesh *mesh = hd_mesh_of(scene, number);
-    bool found = instance->has_material && refracts(&instance->material);
-    for (int i = 0; i < mesh->material_count && !instance->has_material; i++)
-        found |= refracts(&mesh->materials[i].material);
-    return found;
-}
-
-/* Opaque solids count too. */
-static bool has_media(const HdScene *scene) {
-    for (int i = 0; i < scene->solid_count; i++)
-        if (scene->solids[i].face.index_of_refraction != 1.0)
-            return true;
-    for (int i = 0; i < scene->instance_count; i++)
-        if (instance_refracts(scene, i))
-            return true;
-    return false;
-}
-
 /* Rays do not enter an opaque mesh, but solids hold others in any case. */
-static bool is_clear(const Object *object, int shell) {
+static bool is_clear(const HdMediumObject *object, int shell) {
     if (object->material != NULL)
         return !hd_is_opaque(object->material);
     return object->model->media[shell].is_clear;
 }
 
-static const HdShell *shell_of(const Object *object, int shell) {
+static const HdShell *shell_of(const HdMediumObject *object, int shell) {
     return &object->model->shells->shells[shell];
 }
 
 static bool surface_refracts(const Surface *surface) {
-    const Object *object = surface->object;
+    const HdMediumObject *object = surface->object;
     return (object->material != NULL ? object->material->index_of_refraction
                                      : object->model->media[surface->shell].index) != 1.0;
 }
@@ -149,140 +85,11 @@ static bool is_cavity(const Surface *surface) {
 }
 
 /* Returns the index within a shell; outer sides that face inwards bound a cavity. NaN: several. */
-static double index_within(const Object *object, int shell) {
+static double index_within(const HdMediumObject *object, int shell) {
     if (object->solid == NULL && shell_of(object, shell)->volume < 0.0)
         return 1.0;
     return object->material != NULL ? object->material->index_of_refraction
                                     : object->model->media[shell].index;
-}
-
-/* ---- preparing ---- */
-
-static void add_to_medium(Medium *medium, const HdMaterial *material) {
-    if (hd_is_opaque(material))
-        return;
-    if (!medium->is_clear)
-        *medium = (Medium){true, material->index_of_refraction};
-    else if (medium->index != material->index_of_refraction)
-        medium->index = (double)NAN;
-}
-
-static HdStatus prepare_model(Model *model, const HdMesh *mesh, HdShells *shells, HdError *error) {
-    if (model->mesh != NULL)
-        return HD_OK;
-    *model = (Model){.mesh = mesh, .shells = shells};
-    HD_TRY(hd_shells_find(shells, mesh, error));
-    model->media = calloc((size_t)shells->count, sizeof *model->media);
-    if (model->media == NULL)
-        return no_memory(error);
-    for (int i = 0; i < mesh->triangle_count; i++)
-        add_to_medium(
-            &model->media[shells->shell_of[i]],
-            &mesh->materials[mesh->material_of != NULL ? mesh->material_of[i] : 0].material);
-    return HD_OK;
-}
-
-static void place_object(Object *object, HdPlacement to) {
-    const HdMesh *mesh = object->model->mesh;
-    const HdVec3 half = hd_placed_half(
-        &to, hd_scale(hd_sub(mesh->upper, mesh->lower), 0.5 / hd_mesh_half_side(mesh)));
-    object->placed = (HdPlacedMesh){mesh, object->model->shells, to};
-    object->lower = hd_sub(to.start, half);
-    object->upper = hd_add(to.start, half);
-}
-
-/* A solid's faces, without rim and discs. */
-static HdStatus mesh_solid(Finder *finder, Object *object, int number) {
-    HdMesh *mesh = &finder->solids[number];
-    HdSolid plain = *object->solid;
-    plain.rim_width = 0.0;
-    plain.lights.per_edge = 0;
-    HD_TRY(hd_triangulate_solid(mesh, &plain, HD_MIN_DISC_SIDES, 1, finder->error));
-    HD_TRY(hd_mesh_build(mesh, finder->pool, finder->error));
-    object->model = &finder->models[finder->scene->mesh_count + number];
-    HD_TRY(prepare_model(object->model, mesh, &finder->of_solids[number], finder->error));
-    HD_TRY(hd_shells_measure(&finder->of_solids[number], mesh, finder->error));
-    const double half = hd_mesh_half_side(mesh);
-    place_object(object, (HdPlacement){{{half, 0.0, 0.0}, {0.0, half, 0.0}, {0.0, 0.0, half}},
-                                       hd_add(object->solid->centre, hd_mesh_centre(mesh))});
-    return HD_OK;
-}
-
-static HdStatus add_solids(Finder *finder, bool has_meshes) {
-    for (int i = 0; i < finder->scene->solid_count; i++) {
-        const HdSolid *solid = &finder->scene->solids[i];
-        const double radius = solid->circumradius;
-        Object *object = &finder->objects[finder->object_count++];
-        *object = (Object){.name = {true, i}, .solid = solid, .material = &solid->face};
-        if (has_meshes)
-            HD_TRY(mesh_solid(finder, object, i));
-        object->lower = hd_sub(solid->centre, hd_vec3(radius, radius, radius));
-        object->upper = hd_add(solid->centre, hd_vec3(radius, radius, radius));
-    }
-    return HD_OK;
-}
-
-static HdStatus add_instances(Finder *finder) {
-    const HdScene *scene = finder->scene;
-    for (int i = 0; i < scene->instance_count; i++) {
-        const HdInstance *instance = &scene->instances[i];
-        if (!is_clear_instance(scene, i))
-            continue;
-        Object *object = &finder->objects[finder->object_count++];
-        *object = (Object){.name = {false, i},
-                           .material = instance->has_material ? &instance->material : NULL,
-                           .model = &finder->models[instance->mesh]};
-        HD_TRY(prepare_model(object->model, hd_mesh_of(scene, i),
-                             &finder->nesting->shells[instance->mesh], finder->error));
-        place_object(object, hd_placement_of(scene, i));
-    }
-    return HD_OK;
-}
-
-/* Returns a box in floats, slightly too large. */
-static HdBox box_of(const Object *object) {
-    const double lower[3] = {object->lower.x, object->lower.y, object->lower.z};
-    const double upper[3] = {object->upper.x, object->upper.y, object->upper.z};
-    HdBox box;
-    for (int axis = 0; axis < 3; axis++) {
-        box.lower[axis] = nextafterf((float)lower[axis], -FLT_MAX);
-        box.upper[axis] = nextafterf((float)upper[axis], FLT_MAX);
-    }
-    return box;
-}
-
-static HdStatus build_tree(Finder *finder) {
-    const HdHierarchyOptions options = {.node_cost = 0.1f, .max_in_leaf = 1};
-    HdBox *boxes = calloc((size_t)finder->object_count, sizeof *boxes);
-    if (boxes == NULL)
-        return no_memory(finder->error);
-    for (int i = 0; i < finder->object_count; i++)
-        boxes[i] = box_of(&finder->objects[i]);
-    const HdStatus status = hd_hierarchy_build(&finder->tree, boxes, finder->object_count, &options,
-                                               finder->pool, finder->error);
-    free(boxes);
-    return status;
-}
-
-static HdStatus prepare(Finder *finder) {
-    const HdScene *scene = finder->scene;
-    const size_t solids = (size_t)scene->solid_count, meshes = (size_t)scene->mesh_count;
-    bool has_meshes = false;
-    for (int i = 0; i < scene->instance_count && !has_meshes; i++)
-        has_meshes = is_clear_instance(scene, i);
-    finder->nesting->mesh_count = scene->mesh_count;
-    finder->nesting->shells = calloc(meshes + 1, sizeof(HdShells));
-    finder->objects = calloc(solids + (size_t)scene->instance_count, sizeof *finder->objects);
-    finder->models = calloc(solids + meshes, sizeof *finder->models);
-    finder->solids = calloc(solids + 1, sizeof *finder->solids);
-    finder->of_solids = calloc(solids + 1, sizeof *finder->of_solids);
-    if (finder->nesting->shells == NULL || finder->objects == NULL || finder->models == NULL ||
-        finder->solids == NULL || finder->of_solids == NULL)
-        return no_memory(finder->error);
-    HD_TRY(hd_thread_pool_create(&finder->pool, 1, finder->error));
-    HD_TRY(add_solids(finder, has_meshes));
-    HD_TRY(add_instances(finder));
-    return build_tree(finder);
 }
 
 /* ---- pairs ---- */
@@ -307,13 +114,14 @@ static void add_holder(Around *around, const Surface *surface) {
         around->holder = *surface;
 }
 
-static HdStatus measure(Finder *finder, const Object *object) {
+static HdStatus measure(Finder *finder, const HdMediumObject *object) {
     return hd_shells_measure(object->model->shells, object->model->mesh, finder->error);
 }
 
 static HdStatus build_surface(Finder *finder, const Surface *surface) {
-    const Model *model = surface->object->model;
-    return hd_shell_build(model->shells, model->mesh, surface->shell, finder->pool, finder->error);
+    const HdMediumModel *model = surface->object->model;
+    return hd_shell_build(model->shells, model->mesh, surface->shell, finder->media.pool,
+                          finder->error);
 }
 
 static HdStatus is_within(Finder *finder, const Surface *surface, const Surface *outer,
@@ -354,7 +162,7 @@ static int compare_candidates(const void *first, const void *second) {
 }
 
 /* Sorts the listed shells that let rays pass by their volumes. Solids hold others in any case. */
-static HdStatus sort_candidates(Finder *finder, const Object *object, int *count) {
+static HdStatus sort_candidates(Finder *finder, const HdMediumObject *object, int *count) {
     *count = 0;
     if (finder->list.count == 0)
         return HD_OK;
@@ -382,7 +190,7 @@ static HdVec3 corner_of(const Surface *surface) {
 /* Adds the shells of a object that hold a corner of the surface, from the smallest to the first one
    that holds all of it. */
 static HdStatus judge_object(Finder *finder, Around *around, const Surface *surface,
-                             const Object *object) {
+                             const HdMediumObject *object) {
     const int but = object == surface->object ? surface->shell : -1;
     int count;
     if (!hd_shells_around(
@@ -414,7 +222,7 @@ static HdStatus poll(const Finder *finder) {
 }
 
 /* Finds the shells of a mesh around each other. All its instances share them. */
-static HdStatus find_own(Finder *finder, const Object *object, Around *own) {
+static HdStatus find_own(Finder *finder, const HdMediumObject *object, Around *own) {
     for (int i = 0; i < object->model->shells->count && finder->work > 0; i++) {
         HD_TRY(poll(finder));
         if (is_clear(object, i))
@@ -424,8 +232,9 @@ static HdStatus find_own(Finder *finder, const Object *object, Around *own) {
 }
 
 static HdStatus add_own(Finder *finder, Around *around, const Surface *surface) {
-    const Object *object = surface->object;
-    Around **own = &object->model->own[object->material != NULL];
+    const HdMediumObject *object = surface->object;
+    Around **own =
+        &finder->own[object->model - finder->media.models].around[object->material != NULL];
     if (*own == NULL) {
         *own = calloc((size_t)object->model->shells->count, sizeof **own);
         if (*own == NULL)
@@ -444,7 +253,7 @@ static HdStatus add_own(Finder *finder, Around *around, const Surface *surface) 
 
 /* Solids within solids are known. */
 static HdStatus add_other(Finder *finder, Around *around, const Surface *surface,
-                          const Object *object) {
+                          const HdMediumObject *object) {
     if (object == surface->object || (object->solid != NULL && surface->object->solid != NULL))
         return HD_OK;
     return judge_object(finder, around, surface, object);
@@ -464,11 +273,12 @@ static HdStatus add_others(Finder *finder, Around *around, const Surface *surfac
     for (int count = 1; count > 0;) {
         const int32_t child = waiting[--count];
         if (child < 0) {
-            HD_TRY(add_other(finder, around, surface,
-                             &finder->objects[finder->tree.order[~child >> HD_LEAF_SHIFT]]));
+            HD_TRY(add_other(
+                finder, around, surface,
+                &finder->media.objects[finder->media.tree.order[~child >> HD_LEAF_SHIFT]]));
             continue;
         }
-        const HdBuildNode *node = &finder->tree.nodes[child];
+        const HdBuildNode *node = &finder->media.tree.nodes[child];
         for (int i = 0; i < 2; i++)
             if (is_in_box(point, &node->box[i]))
                 waiting[count++] = node->child[i];
@@ -476,11 +286,15 @@ static HdStatus add_others(Finder *finder, Around *around, const Surface *surfac
     return HD_OK;
 }
 
+static HdNestObject name_of(const HdMediumObject *object) {
+    return (HdNestObject){object->solid != NULL, object->number};
+}
+
 static HdStatus add_result(Finder *finder, const Surface *surface, const Surface *other,
                            HdNestState state, double around) {
     HdNesting *nesting = finder->nesting;
-    const HdNested nested = {surface->object->name, other->object->name, surface->shell, state,
-                             around};
+    const HdNested nested = {name_of(surface->object), name_of(other->object), surface->shell,
+                             state, around};
     return hd_append(&nesting->list, sizeof nested, &nesting->count, &nesting->capacity, &nested)
                ? HD_OK
                : no_memory(finder->error);
@@ -503,12 +317,12 @@ static HdStatus add_results(Finder *finder, const Surface *surface, const Around
 }
 
 static HdStatus find_around(Finder *finder, Around *around, const Surface *surface) {
-    const Object *object = surface->object;
+    const HdMediumObject *object = surface->object;
     if (object->solid != NULL) {
-        const HdScene *scene = finder->scene;
-        const int number = hd_solid_around(scene->solids, scene->solid_count, object->name.number);
+        const HdScene *scene = finder->media.scene;
+        const int number = hd_solid_around(scene->solids, scene->solid_count, object->number);
         if (number >= 0)
-            around->holder.object = &finder->objects[number];
+            around->holder.object = &finder->media.objects[number];
         return add_others(finder, around, surface, object->solid->centre);
     }
     if (object->model->shells->count > 1)
@@ -552,7 +366,7 @@ static void merge_results(HdNesting *nesting, int first, int shells) {
     nesting->count = first + 1;
 }
 
-static HdStatus find_object(Finder *finder, const Object *object) {
+static HdStatus find_object(Finder *finder, const HdMediumObject *object) {
     const int shells = object->solid != NULL ? 1 : object->model->shells->count;
     const int first = finder->nesting->count;
     for (int i = 0; i < shells && finder->work > 0; i++) {
@@ -565,9 +379,9 @@ static HdStatus find_object(Finder *finder, const Object *object) {
 
 /* ---- crossings ---- */
 
-static bool object_refracts(const Finder *finder, const Object *object) {
-    return object->solid != NULL ? refracts(&object->solid->face)
-                                 : instance_refracts(finder->scene, object->name.number);
+static bool object_refracts(const Finder *finder, const HdMediumObject *object) {
+    return object->solid != NULL ? hd_refracts(&object->solid->face)
+                                 : hd_instance_refracts(finder->media.scene, object->number);
 }
 
 static HdStatus surfaces_cross(Finder *finder, const Surface *a, const Surface *b, bool *cross) {
@@ -583,7 +397,8 @@ static HdStatus surfaces_cross(Finder *finder, const Surface *a, const Surface *
 }
 
 /* Solids that cross are none of a valid scene. */
-static HdStatus objects_cross(Finder *finder, const Object *a, const Object *b, bool *cross) {
+static HdStatus objects_cross(Finder *finder, const HdMediumObject *a, const HdMediumObject *b,
+                              bool *cross) {
     if ((a->solid != NULL && b->solid != NULL) ||
         !hd_boxes_meet(a->lower, a->upper, b->lower, b->upper))
         return HD_OK;
@@ -608,10 +423,10 @@ static HdStatus find_crossing(Finder *finder) {
     if (knows_crossing(finder->nesting))
         return HD_OK;
     finder->work = finder->work < MAX_CROSSING_WORK ? finder->work : MAX_CROSSING_WORK;
-    for (int i = 0; i < finder->object_count && finder->work > 0; i++) {
-        const Object *object = &finder->objects[i];
+    for (int i = 0; i < finder->media.object_count && finder->work > 0; i++) {
+        const HdMediumObject *object = &finder->media.objects[i];
         for (int j = 0; j <= i && object_refracts(finder, object) && finder->work > 0; j++) {
-            const Object *other = &finder->objects[j];
+            const HdMediumObject *other = &finder->media.objects[j];
             finder->work--;
             if (object_refracts(finder, other))
                 HD_TRY(objects_cross(finder, object, other, &cross));
@@ -625,44 +440,42 @@ static HdStatus find_crossing(Finder *finder) {
 
 /* ---- all ---- */
 
-static HdStatus find(Finder *finder) {
-    HD_TRY(prepare(finder));
-    for (int i = 0; i < finder->object_count && finder->work > 0; i++)
-        HD_TRY(find_object(finder, &finder->objects[i]));
+static HdStatus find(Finder *finder, const HdScene *scene) {
+    HdNesting *nesting = finder->nesting;
+    nesting->mesh_count = scene->mesh_count;
+    nesting->shells = calloc((size_t)scene->mesh_count + 1, sizeof *nesting->shells);
+    finder->own =
+        calloc((size_t)scene->mesh_count + (size_t)scene->solid_count, sizeof *finder->own);
+    if (nesting->shells == NULL || finder->own == NULL)
+        return no_memory(finder->error);
+    HD_TRY(hd_media_find(&finder->media, scene, nesting->shells, finder->error));
+    for (int i = 0; i < finder->media.object_count && finder->work > 0; i++)
+        HD_TRY(find_object(finder, &finder->media.objects[i]));
     return finder->for_notes ? find_crossing(finder) : HD_OK;
 }
 
 static void free_finder(Finder *finder) {
-    const int solids = finder->scene->solid_count, meshes = finder->scene->mesh_count;
-    for (int i = 0; finder->models != NULL && i < meshes + solids; i++) {
-        free(finder->models[i].media);
-        free(finder->models[i].own[0]);
-        free(finder->models[i].own[1]);
+    const HdScene *scene = finder->media.scene;
+    for (int i = 0; finder->own != NULL && i < scene->mesh_count + scene->solid_count; i++) {
+        free(finder->own[i].around[0]);
+        free(finder->own[i].around[1]);
     }
-    for (int i = 0; finder->solids != NULL && i < solids; i++)
-        hd_mesh_free(&finder->solids[i]);
-    for (int i = 0; finder->of_solids != NULL && i < solids; i++)
-        hd_shells_free(&finder->of_solids[i]);
-    free(finder->objects);
-    free(finder->models);
-    free(finder->solids);
-    free(finder->of_solids);
+    free(finder->own);
     free(finder->list.shells);
     free(finder->candidates);
-    hd_thread_pool_destroy(finder->pool);
-    hd_hierarchy_free(&finder->tree);
+    hd_media_free(&finder->media);
 }
 
 HdStatus hd_nesting_find(HdNesting *nesting, const HdScene *scene, bool for_notes, HdError *error) {
     *nesting = (HdNesting){0};
-    if (!has_media(scene))
+    if (!hd_has_media(scene))
         return HD_OK;
-    Finder finder = {.scene = scene,
+    Finder finder = {.media.scene = scene,
                      .nesting = nesting,
                      .error = error,
                      .for_notes = for_notes,
                      .work = MAX_WORK};
-    const HdStatus status = find(&finder);
+    const HdStatus status = find(&finder, scene);
     free_finder(&finder);
     if (status != HD_OK)
         hd_nesting_free(nesting);
