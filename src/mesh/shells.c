@@ -6,8 +6,7 @@
 #include "mesh/places.h"
 
 static HdStatus no_memory(const HdMesh *mesh, HdError *error) {
-    HD_NO_ROOM(error, "the shells of %d triangles", mesh->triangle_count);
-    return HD_FAILED;
+    return HD_NO_ROOM(error, "the shells of %d triangles", mesh->triangle_count);
 }
 
 /* Returns the places of the vertices, which the caller frees; NULL: out of memory. */

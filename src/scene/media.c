@@ -8,34 +8,34 @@
 #include "scene/triangulate.h"
 
 static HdStatus no_memory(HdError *error) {
-    HD_NO_ROOM(error, "the objects that let light pass");
-    return HD_FAILED;
+    return HD_NO_ROOM(error, "the objects that let light pass");
 }
 
 /* ---- what counts ---- */
 
-static bool is_clear_instance(const HdScene *scene, int number) {
+static bool is_clear(const HdMaterial *material) {
+    return !hd_is_opaque(material);
+}
+
+bool hd_refracts(const HdMaterial *material) {
+    return material->index_of_refraction != 1.0 && is_clear(material);
+}
+
+/* Returns whether the condition holds for some material that the instance shows. */
+static bool some_material(const HdScene *scene, int number,
+                          bool (*condition)(const HdMaterial *material)) {
     const HdInstance *instance = &scene->instances[number];
     const HdMesh *mesh = hd_mesh_of(scene, number);
     if (instance->has_material)
-        return !hd_is_opaque(&instance->material);
+        return condition(&instance->material);
     for (int i = 0; i < mesh->material_count; i++)
-        if (!hd_is_opaque(&mesh->materials[i].material))
+        if (condition(&mesh->materials[i].material))
             return true;
     return false;
 }
 
-bool hd_refracts(const HdMaterial *material) {
-    return material->index_of_refraction != 1.0 && !hd_is_opaque(material);
-}
-
 bool hd_instance_refracts(const HdScene *scene, int number) {
-    const HdInstance *instance = &scene->instances[number];
-    const HdMesh *mesh = hd_mesh_of(scene, number);
-    bool found = instance->has_material && hd_refracts(&instance->material);
-    for (int i = 0; i < mesh->material_count && !instance->has_material; i++)
-        found |= hd_refracts(&mesh->materials[i].material);
-    return found;
+    return some_material(scene, number, hd_refracts);
 }
 
 /* Opaque solids count too. */
@@ -78,8 +78,7 @@ static HdStatus prepare_model(HdMediumModel *model, const HdMesh *mesh, HdShells
 
 static void place_object(HdMediumObject *object, HdPlacement to) {
     const HdMesh *mesh = object->model->mesh;
-    const HdVec3 half = hd_placed_half(
-        &to, hd_scale(hd_sub(mesh->upper, mesh->lower), 0.5 / hd_mesh_half_side(mesh)));
+    const HdVec3 half = hd_placed_mesh_half(mesh, &to);
     object->placed = (HdPlacedMesh){mesh, object->model->shells, to};
     object->lower = hd_sub(to.start, half);
     object->upper = hd_add(to.start, half);
@@ -120,7 +119,7 @@ static HdStatus add_instances(HdMedia *media, HdShells *shells, HdError *error) 
     const HdScene *scene = media->scene;
     for (int i = 0; i < scene->instance_count; i++) {
         const HdInstance *instance = &scene->instances[i];
-        if (!is_clear_instance(scene, i))
+        if (!some_material(scene, i, is_clear))
             continue;
         HdMediumObject *object = &media->objects[media->object_count++];
         *object = (HdMediumObject){.number = i,
@@ -162,7 +161,7 @@ HdStatus hd_media_find(HdMedia *media, const HdScene *scene, HdShells *shells, H
     const size_t solids = (size_t)scene->solid_count, meshes = (size_t)scene->mesh_count;
     bool has_meshes = false;
     for (int i = 0; i < scene->instance_count && !has_meshes; i++)
-        has_meshes = is_clear_instance(scene, i);
+        has_meshes = some_material(scene, i, is_clear);
     media->objects = calloc(solids + (size_t)scene->instance_count, sizeof *media->objects);
     media->models = calloc(solids + meshes, sizeof *media->models);
     media->solids = calloc(solids + 1, sizeof *media->solids);

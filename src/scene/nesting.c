@@ -53,8 +53,7 @@ static const int64_t MAX_WORK = INT64_C(1) << 30;
 static const int64_t MAX_CROSSING_WORK = INT64_C(1) << 23;
 
 static HdStatus no_memory(HdError *error) {
-    HD_NO_ROOM(error, "the objects that lie within others");
-    return HD_FAILED;
+    return HD_NO_ROOM(error, "the objects that lie within others");
 }
 
 /* ---- what counts ---- */

@@ -23,6 +23,11 @@ HdVec3 hd_placed_half(const HdPlacement *to, HdVec3 half) {
                    fabs(c[0].z) * half.x + fabs(c[1].z) * half.y + fabs(c[2].z) * half.z);
 }
 
+HdVec3 hd_placed_mesh_half(const HdMesh *mesh, const HdPlacement *to) {
+    const HdVec3 sides = hd_sub(mesh->upper, mesh->lower);
+    return hd_placed_half(to, hd_scale(sides, 0.5 / hd_mesh_half_side(mesh)));
+}
+
 /* Computes the columns of the matrix that turns a mesh upright and rotates it. */
 static void rotation_of(const HdInstance *instance, HdVec3 columns[3]) {
     columns[0] = hd_vec3(1.0, 0.0, 0.0);

@@ -26,6 +26,9 @@ void hd_invert_columns(const HdVec3 to[3], HdVec3 back[3]);
    `half`. */
 HdVec3 hd_placed_half(const HdPlacement *to, HdVec3 half);
 
+/* Likewise for the box of a built mesh. */
+HdVec3 hd_placed_mesh_half(const HdMesh *mesh, const HdPlacement *to);
+
 const HdMesh *hd_mesh_of(const HdScene *scene, int instance);
 
 /* Returns an instance's placement in world space. */

@@ -8,17 +8,11 @@
 #include "base/minmax.h"
 #include "system/thread_pool.h"
 
-/* Returns half the sides of the box about a placed mesh. */
-static HdVec3 reach_of(const HdMesh *mesh, const HdPlacement *to) {
-    HdVec3 half = hd_scale(hd_sub(mesh->upper, mesh->lower), 0.5 / hd_mesh_half_side(mesh));
-    return hd_placed_half(to, half);
-}
-
 double hd_box_meshes(const HdScene *scene, HdVec3 *centre) {
     HdVec3 lower = {0}, upper = {0};
     for (int i = 0; i < scene->instance_count; i++) {
         HdPlacement to = hd_placement_of(scene, i);
-        HdVec3 reach = reach_of(hd_mesh_of(scene, i), &to);
+        HdVec3 reach = hd_placed_mesh_half(hd_mesh_of(scene, i), &to);
         lower = i == 0 ? hd_sub(to.start, reach) : hd_minimum(lower, hd_sub(to.start, reach));
         upper = i == 0 ? hd_add(to.start, reach) : hd_maximum(upper, hd_add(to.start, reach));
     }
@@ -84,7 +78,7 @@ static HdStatus count_meshes(HdBuilder *builder, HdError *error) {
 static HdBox box_of_instance(const HdBuilder *builder, int number) {
     HdPlacement to = hd_placement_of(builder->scene, number);
     HdVec3 middle = hd_sub(to.start, builder->mesh_centre);
-    HdVec3 reach = reach_of(hd_mesh_of(builder->scene, number), &to);
+    HdVec3 reach = hd_placed_mesh_half(hd_mesh_of(builder->scene, number), &to);
     double low[3] = {middle.x - reach.x, middle.y - reach.y, middle.z - reach.z};
     double high[3] = {middle.x + reach.x, middle.y + reach.y, middle.z + reach.z};
     double slack = 0x1p-20 * builder->mesh_reach;
