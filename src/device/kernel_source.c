@@ -43,12 +43,14 @@ void hd_kernel_defines(const HdKernelShape *shape, char text[HD_KERNEL_DEFINES_S
 
 int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked) {
     enum { BLOCK_REGISTERS = 65536, GRANULARITY = 8 };
-    bool has_middle = (shape->needs.many_lights || shape->needs.node_stack_bound > 0) &&
-                      shape->precision == HD_PRECISION_FLOAT;
-    int few = 64, many = has_middle ? 80 : 128;
+    bool is_large = shape->needs.many_lights || shape->needs.node_stack_bound > 0;
+    int limit = is_large ? 80 : 96;
     if (asked > 0)
         return asked;
-    int limit = nvidia_arch >= 70 ? many : few;
+    if (shape->precision == HD_PRECISION_DOUBLE)
+        limit = 128;
+    if (nvidia_arch < 70)
+        limit = 64;
     int share = BLOCK_REGISTERS / shape->group_size / GRANULARITY * GRANULARITY;
     return hd_min(share, limit);
 }

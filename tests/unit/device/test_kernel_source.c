@@ -11,8 +11,8 @@ TEST(registers_suit_the_card_the_block_and_the_scene) {
         HdKernelShape shape;
         int arch, asked, expected;
     } cases[] = {
-        {{.group_size = 128}, 90, 0, 128},
-        {{.group_size = 128}, 70, 0, 128},
+        {{.group_size = 128}, 90, 0, 96},
+        {{.group_size = 128}, 70, 0, 96},
         {{.group_size = 128}, 69, 0, 64},
         {{.group_size = 128}, 61, 200, 200},
         {{.group_size = 128, .needs.many_lights = true}, 90, 0, 80},
@@ -26,8 +26,8 @@ TEST(registers_suit_the_card_the_block_and_the_scene) {
          128},
         {{.precision = HD_PRECISION_DOUBLE, .group_size = 1024}, 61, 0, 64},
         /* All threads of a block must fit. */
-        {{.group_size = 512}, 90, 0, 128},
-        {{.group_size = 544}, 90, 0, 120},
+        {{.group_size = 512}, 90, 0, 96},
+        {{.group_size = 768}, 90, 0, 80},
         {{.group_size = 1024}, 90, 0, 64},
         {{.group_size = 1024}, 90, 255, 255},
     };
