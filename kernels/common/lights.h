@@ -251,6 +251,7 @@ FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const rea
         int end = solid->first_plane + (has_rim ? solid->plane_count : 0);
         vreal t = has_rim ? crossing_time(where) : splat(R(0.0));
         vint near_planes = splat_int(0);
+        UNROLL_TWICE
         for (int k = solid->first_plane; k < end; k++) {
             vreal from = coordinates[k];
             vreal coordinate = multiply_add(t, splat(light_row[k]) - from, from);

@@ -79,15 +79,17 @@ FN Vec3 direction_to(GLOBAL const View *view, vreal right, vreal down) {
    row; returns the lanes that hold one. */
 FN vmask sample_directions(SAMPLE_PARAMETERS int item, int first, Vec3 *direction) {
     int n = view->grid_side, samples = view->samples;
-    vint within = lane_numbers() + first % samples; /* from the first lane's pixel on */
-    vint pixels = divide_int(within, samples), x, y;
+    int first_pixel = HD_PIXELS_PER_ITEM > 1 ? first / samples : 0;
+    first -= first_pixel * samples;
+    vint within = lane_numbers() + first, x, y;
+    vint pixels = HD_LANES > 1 ? divide_int(within, samples) : splat_int(0);
     within = within - pixels * samples;
-    vmask alive = pixels_at(view, item, pixels + first / samples, &x, &y);
+    vmask alive = pixels_at(view, item, pixels + first_pixel, &x, &y);
     vint row, column;
     if (view->listed)
         listed_pixels(SAMPLE_ARGUMENTS & alive, &x, &y);
     if (view->patterned) {
-        vint place = load_ints(sample_places + first % samples);
+        vint place = load_ints(sample_places + first);
         column = place & 0xffff;
         row = (place >> 16) & 0xffff;
     } else {
@@ -170,38 +172,25 @@ FN void add_sample(SCENE_PARAMETERS const Sample *sample, int first,
     }
 }
 
-/* Traces every `parts`-th packet of the item's samples from packet `part` on; dead ones, if it does
-   not exist. All threads of a group have equally many packets, so the loop needs no barrier. */
-FN void gather_samples(SCENE_PARAMETERS int item, int exists, int part, int parts,
-                       PixelAccumulator *accumulator) {
-    const int count = HD_PIXELS_PER_ITEM * view->samples, step = parts * HD_LANES;
-    for (int start = 0; start < count; start += step) {
-        Vec3 direction;
-        int first = start + part * HD_LANES;
-        vmask alive = sample_directions(SAMPLE_ARGUMENTS item, first, &direction);
-        Sample sample = empty_sample();
-        trace(SCENE_ARGUMENTS direction, exists ? alive : mask_none(), &sample);
-        add_sample(SCENE_ARGUMENTS & sample, first, accumulator);
-    }
+/* Stores a pixel's sum as a float of the picture. */
+FN void store_channel(GLOBAL const Header *header, GLOBAL const View *view, Pixel pixel,
+                      int channel, fixed64 sum, GLOBAL float *pixels) {
+    int floats = BOUNDED(header) ? HD_BOUNDED_SUMS : HD_RADIANCE_SUMS;
+    uint64 number = (uint64)pixel.y * (uint64)view->width + (uint64)pixel.x;
+    real from_fixed = channel < HD_RADIANCE_SUMS ? view->from_fixed : view->bound_from_fixed;
+    if (in_picture(view, pixel) && channel < floats)
+        pixels[number * (uint64)floats + (uint64)channel] =
+            (float)shared_quotient((real)sum * from_fixed, (real)view->samples);
 }
 
 FN void store_pixels(GLOBAL const Header *header, GLOBAL const View *view, int item,
                      const PixelAccumulator *accumulator, GLOBAL float *pixels) {
-    real samples = (real)view->samples;
-    int floats = BOUNDED(header) ? HD_BOUNDED_SUMS : HD_RADIANCE_SUMS;
     Pixel corner = block_of_item(view, item);
     for (int place = 0; place < HD_PIXELS_PER_ITEM; place++) {
         Pixel pixel = pixel_in_block(corner, item * HD_PIXELS_PER_ITEM + place);
-        if (!in_picture(view, pixel))
-            continue;
-        const fixed64 *sums = accumulator->sums + place * PIXEL_SUMS;
-        uint64 number = (uint64)pixel.y * (uint64)view->width + (uint64)pixel.x;
-        GLOBAL float *out = pixels + number * (uint64)floats;
-        for (int channel = 0; channel < HD_RADIANCE_SUMS; channel++)
-            out[channel] = (float)shared_quotient((real)sums[channel] * view->from_fixed, samples);
-        if (BOUNDED(header))
-            out[HD_RADIANCE_SUMS] = (float)shared_quotient(
-                (real)sums[HD_RADIANCE_SUMS] * view->bound_from_fixed, samples);
+        for (int channel = 0; channel < PIXEL_SUMS; channel++)
+            store_channel(header, view, pixel, channel,
+                          accumulator->sums[place * PIXEL_SUMS + channel], pixels);
     }
 }
 
@@ -209,63 +198,89 @@ FN void store_pixels(GLOBAL const Header *header, GLOBAL const View *view, int i
 FN void render_item(SCENE_PARAMETERS int item, GLOBAL float *pixels, GLOBAL RayCounts *counts) {
     PixelAccumulator accumulator;
     clear_accumulator(&accumulator);
-    gather_samples(SCENE_ARGUMENTS item, 1, 0, 1, &accumulator);
+    for (int first = 0; first < HD_PIXELS_PER_ITEM * view->samples; first += HD_LANES) {
+        Vec3 direction;
+        vmask alive = sample_directions(SAMPLE_ARGUMENTS item, first, &direction);
+        Sample sample = empty_sample();
+        trace(SCENE_ARGUMENTS direction, alive, &sample);
+        add_sample(SCENE_ARGUMENTS & sample, first, &accumulator);
+    }
     store_pixels(header, view, item, &accumulator, pixels);
     *counts = accumulator.counts;
 }
 
-/* Numbers that each thread of a group passes on: first its sums, then its counts. */
-enum { GROUP_SCRATCH = HD_PIXELS_PER_ITEM * PIXEL_SUMS > 4 ? HD_PIXELS_PER_ITEM *PIXEL_SUMS : 4 };
+#if HD_GROUP_SIZE
 
-/* Adds the results of `parts` neighbouring threads to the first one's `whole`. All threads of the
-   group must call this. */
-FN void add_parts(PixelAccumulator *whole, int part, int parts, LOCAL fixed64 *own) {
-    const int sums = HD_PIXELS_PER_ITEM * PIXEL_SUMS;
-    for (int i = 0; i < sums; i++)
-        own[i] = whole->sums[i];
-    BARRIER();
-    for (int p = 1; part == 0 && p < parts; p++)
-        for (int i = 0; i < sums; i++)
-            whole->sums[i] += own[p * GROUP_SCRATCH + i];
-    BARRIER();
-    own[0] = (fixed64)whole->counts.mirrored;
-    own[1] = (fixed64)whole->counts.transmitted;
-    own[2] = (fixed64)whole->counts.shadow_tests;
-    own[3] = (fixed64)whole->counts.clamps;
-    BARRIER();
-    for (int p = 1; part == 0 && p < parts; p++) {
-        whole->counts.mirrored += (uint64)own[p * GROUP_SCRATCH];
-        whole->counts.transmitted += (uint64)own[p * GROUP_SCRATCH + 1];
-        whole->counts.shadow_tests += (uint64)own[p * GROUP_SCRATCH + 2];
-        whole->counts.clamps += (uint64)own[p * GROUP_SCRATCH + 3];
+/* ---- by work groups: packets of one lane, and items of one pixel ---- */
+
+/* A thread's numbers in the memory of its group: its pixel's sums, then its counts. They lie at an
+   odd distance from the next thread's, so that neighbours use different banks. */
+enum { GROUP_NUMBERS = PIXEL_SUMS + 4, GROUP_STRIDE = GROUP_NUMBERS | 1 };
+
+/* Traces every `parts`-th sample of the item from sample `part` on; dead ones, if it does not
+   exist. Sums them in `own`, for registers are scarce while rays are traced. All threads of a group
+   trace equally many samples, so the loop needs no barrier. */
+FN void gather_part(SCENE_PARAMETERS int item, int exists, int part, int parts,
+                    LOCAL fixed64 *own) {
+    for (int i = 0; i < GROUP_NUMBERS; i++)
+        own[i] = 0;
+    for (int start = 0; start < view->samples; start += parts) {
+        Vec3 direction;
+        vmask alive = sample_directions(SAMPLE_ARGUMENTS item, start + part, &direction);
+        Sample sample = empty_sample();
+        trace(SCENE_ARGUMENTS direction, exists ? alive : mask_none(), &sample);
+        own[0] += sample.r >> view->pixel_shift;
+        own[1] += sample.g >> view->pixel_shift;
+        own[2] += sample.b >> view->pixel_shift;
+        if (BOUNDED(header))
+            own[HD_RADIANCE_SUMS] += shifted_bound(view, sample.bound);
+        own[PIXEL_SUMS] += sample.mirrored;
+        own[PIXEL_SUMS + 1] += sample.transmitted;
+        own[PIXEL_SUMS + 2] += sample.shadow_tests;
+        own[PIXEL_SUMS + 3] += sample.clamps;
     }
-    BARRIER();
+}
+
+/* Stores pixels and counts of `items` items from `first_item` on: each thread adds up a number of
+   all the threads that share an item. */
+FN void store_by_group(GLOBAL const Header *header, GLOBAL const View *view, int first_item,
+                       int items, int parts, int thread, int thread_count,
+                       LOCAL const fixed64 *scratch, GLOBAL float *pixels,
+                       GLOBAL RayCounts *counts) {
+    for (int i = thread; i < items * GROUP_NUMBERS; i += thread_count) {
+        int place = i / GROUP_NUMBERS, number = i % GROUP_NUMBERS, item = first_item + place;
+        fixed64 sum = 0;
+        for (int p = 0; p < parts; p++)
+            sum += scratch[(place * parts + p) * GROUP_STRIDE + number];
+        if (number < PIXEL_SUMS)
+            store_channel(header, view, pixel_in_block(block_of_item(view, item), item), number,
+                          sum, pixels);
+        else
+            ((GLOBAL uint64 *)(counts + item))[number - PIXEL_SUMS] = (uint64)sum;
+    }
 }
 
 /* Renders the items [first_item, first_item + item_count) by work groups: `parts` neighbouring
-   threads share the samples of an item, and the first one adds up their results. All threads must
-   call this; `scratch` has GROUP_SCRATCH numbers for each. Sums are integers: the split of the
-   samples changes no bit. */
+   threads share the samples of an item. All threads must call this; `scratch` has GROUP_STRIDE
+   numbers for each. Sums are integers: the split of the samples changes no bit. */
 FN void render_by_group(SCENE_PARAMETERS int first_item, int item_count, int parts, int group_index,
                         int group_count, int thread, int thread_count, LOCAL fixed64 *scratch,
                         GLOBAL float *pixels, GLOBAL RayCounts *counts) {
-    int items_per_group = thread_count / parts;
+    int per_group = thread_count / parts;
     int place = thread / parts, part = thread % parts;
-    for (int first = group_index * items_per_group; first < item_count;
-         first += group_count * items_per_group) {
-        int item = first_item + first + place;
-        int has_item = place < items_per_group && first + place < item_count;
-        PixelAccumulator accumulator;
-        clear_accumulator(&accumulator);
-        gather_samples(SCENE_ARGUMENTS item, has_item, part, parts, &accumulator);
-        /* Threads without an item may have no neighbours to read from. */
-        add_parts(&accumulator, has_item ? part : -1, parts, scratch + thread * GROUP_SCRATCH);
-        if (has_item && part == 0) {
-            store_pixels(header, view, item, &accumulator, pixels);
-            counts[item] = accumulator.counts;
-        }
+    for (int first = group_index * per_group; first < item_count;
+         first += group_count * per_group) {
+        int items = item_count - first < per_group ? item_count - first : per_group;
+        gather_part(SCENE_ARGUMENTS first_item + first + place, place < items, part, parts,
+                    scratch + thread * GROUP_STRIDE);
+        BARRIER();
+        store_by_group(header, view, first_item + first, items, parts, thread, thread_count,
+                       scratch, pixels, counts);
+        BARRIER();
     }
 }
+
+#endif
 
 /* ---- first hits, in frames that are not listed ---- */
 

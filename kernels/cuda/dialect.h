@@ -7,9 +7,10 @@
 #define FN_NOINLINE static __device__ __forceinline__
 #define GLOBAL
 #define LOCAL
-#define BARRIER()  __syncthreads()
-#define RESTRICT   __restrict__
-#define ALIGNED_16 __align__(16)
+#define BARRIER()    __syncthreads()
+#define RESTRICT     __restrict__
+#define ALIGNED_16   __align__(16)
+#define UNROLL_TWICE _Pragma("unroll 2")
 typedef unsigned int uint;
 typedef unsigned long long uint64;
 typedef long long fixed64;

@@ -42,17 +42,12 @@ void hd_kernel_defines(const HdKernelShape *shape, char text[HD_KERNEL_DEFINES_S
 }
 
 int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked) {
-    enum { BLOCK_REGISTERS = 65536, GRANULARITY = 8 };
     bool is_large = shape->needs.many_lights || shape->needs.node_stack_bound > 0;
-    int limit = is_large ? 80 : 96;
     if (asked > 0)
         return asked;
-    if (shape->precision == HD_PRECISION_DOUBLE)
-        limit = 128;
     if (nvidia_arch < 70)
-        limit = 64;
-    int share = BLOCK_REGISTERS / shape->group_size / GRANULARITY * GRANULARITY;
-    return hd_min(share, limit);
+        return 64;
+    return shape->precision == HD_PRECISION_DOUBLE ? 128 : is_large ? 80 : 96;
 }
 
 const char *hd_kernel_name(const HdKernelShape *shape, HdKernel kernel) {

@@ -44,8 +44,7 @@ typedef struct HdKernelShape {
 } HdKernelShape;
 
 /* Returns the register limit for a shape on sm_`nvidia_arch`: `asked`, or an automatic one if 0.
-   Without a limit NVIDIA's compilers use so many registers that few threads are in flight. A
-   block's threads share 65536. */
+   Without a limit NVIDIA's compilers use so many registers that few threads are in flight. */
 int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked);
 
 enum { HD_KERNEL_DEFINES_SIZE = 512 };

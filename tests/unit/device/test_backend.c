@@ -112,7 +112,7 @@ TEST(supported_requests_are_possible) {
         {.lanes = 4},
         {.lanes = 16},
         {.threads = 1, .block = 32, .grid = 1},
-        {.threads = 1024, .block = 1024, .grid = 1 << 20},
+        {.threads = 1024, .block = 512, .grid = 1 << 20},
         {.registers = 16, .launch_ms = 1.0},
         {.registers = 255, .launch_ms = 10000.0},
         {.pipeline = HD_PIPELINE_WAVEFRONT_UNCOMPACTED},
