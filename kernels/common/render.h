@@ -76,7 +76,7 @@ FN Vec3 direction_to(GLOBAL const View *view, vreal right, vreal down) {
 }
 
 /* Computes the directions of samples `first`, first + 1, ... of an item, pixel by pixel and row by
-   row; returns the lanes that hold one. */
+   row; returns the lanes that hold one. The first lane must, unless the item lies outside. */
 FN vmask sample_directions(SAMPLE_PARAMETERS int item, int first, Vec3 *direction) {
     int n = view->grid_side, samples = view->samples;
     int first_pixel = HD_PIXELS_PER_ITEM > 1 ? first / samples : 0;
@@ -213,13 +213,13 @@ FN void render_item(SCENE_PARAMETERS int item, GLOBAL float *pixels, GLOBAL RayC
 
 /* ---- by work groups: packets of one lane, and items of one pixel ---- */
 
-/* A thread's numbers in the memory of its group: its pixel's sums, then its counts. They lie at an
-   odd distance from the next thread's, so that neighbours use different banks. */
-enum { GROUP_NUMBERS = PIXEL_SUMS + 4, GROUP_STRIDE = GROUP_NUMBERS | 1 };
+/* A thread's numbers in the memory of its group: its pixel's sums, then its RayCounts. They lie at
+   an odd distance from the next thread's, so that neighbours use different banks. */
+enum { GROUP_NUMBERS = PIXEL_SUMS + HD_RAY_COUNTS, GROUP_STRIDE = GROUP_NUMBERS | 1 };
 
 /* Traces every `parts`-th sample of the item from sample `part` on; dead ones, if it does not
-   exist. Sums them in `own`, for registers are scarce while rays are traced. All threads of a group
-   trace equally many samples, so the loop needs no barrier. */
+   exist. Sums them in `own`, for registers are scarce while rays are traced. `parts` divides the
+   number of samples, so all threads of a group trace equally many. */
 FN void gather_part(SCENE_PARAMETERS int item, int exists, int part, int parts,
                     LOCAL fixed64 *own) {
     for (int i = 0; i < GROUP_NUMBERS; i++)

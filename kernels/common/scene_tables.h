@@ -368,6 +368,9 @@ typedef struct ALIGNED_16 {
     uint64 mirrored, transmitted, shadow_tests, clamps;
 } RayCounts;
 
+enum { HD_RAY_COUNTS = 4 };
+HD_ASSERT_SIZE(RayCounts, 0, 2 * HD_RAY_COUNTS);
+
 /* Limits after exposure: of one contribution, and of a ray of weight 1, which adds one contribution
    at each depth of the deepest tree. */
 enum { HD_CONTRIBUTION_LIMIT = 1 << 16, HD_RADIANCE_LIMIT = HD_CONTRIBUTION_LIMIT * 1001 };

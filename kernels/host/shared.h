@@ -13,8 +13,6 @@
 #define FN          static inline __attribute__((always_inline, unused))
 #define FN_NOINLINE static __attribute__((noinline, unused))
 #define GLOBAL
-#define LOCAL
-#define BARRIER()  ((void)0) /* a group has one work item */
 #define RESTRICT   restrict
 #define ALIGNED_16 __attribute__((aligned(16)))
 typedef uint32_t uint;

@@ -23,7 +23,7 @@ typedef enum HdPipeline {
 enum {
     HD_MAX_THREADS = 1024,
     HD_BLOCK_STEP = 32,
-    HD_MAX_BLOCK = 512, /* larger ones lack memory for the sums of their threads */
+    HD_MAX_BLOCK = 256, /* a thread takes up to 72 bytes of its group's memory, at least 32 KiB */
     HD_MAX_GRID = 1 << 20,
     HD_MIN_REGISTERS = 16,
     HD_MAX_REGISTERS = 255,

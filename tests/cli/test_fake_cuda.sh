@@ -116,8 +116,11 @@ expect_as_c() { # OPTION...
     for backend in c cuda; do
         mkdir $backend
         cd $backend
-        expect_exit 0 "$hedron" render --backend $backend --frames 0-3 --quiet -o %d.png "${film[@]}" "$@"
+        expect_exit 0 "$hedron" render --backend $backend --frames 0-3 --quiet --stats "$work/$backend.jsonl" \
+            -o %d.png "${film[@]}" "$@"
         expect_silent_stderr
+        jq -c '[.frame, .rays, .shadow_tests, .clamps]' "$work/$backend.jsonl" >counts
+        rm "$work/$backend.jsonl"
         expect_exit 0 "$hedron" render --backend $backend --frames 0-3 --quiet -o %d.pfm "$@"
         if [[ -e film.mkv ]]; then
             expect_exit 0 ffmpeg -v error -i film.mkv -f framemd5 film.md5

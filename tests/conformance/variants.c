@@ -26,7 +26,8 @@ const Variant variants[] = {
      {WAVEFRONT, .block = 96, .test = {.queue_bytes = LITTLE, .launch_work = 500}}},
     {FOR_GPUS, FEW_FRAMES, {UNCOMPACTED, .block = 256, .test.queue_bytes = SOME}},
     {FOR_GPUS, ONLY_CUT | FIRST_HITS, {MEGA, .block = 96, .grid = 1, .test.launch_work = 999}},
-    {FOR_CUDA, ONLY_CUT, {MEGA, .block = 1024, .grid = 2}},
+    {FOR_CUDA, ONLY_CUT, {MEGA, .block = 256, .grid = 2}},
+    {FOR_GPUS, ONLY_CUT, {MEGA, .block = 32, .grid = 2}}, /* threads that sum several samples */
     {FOR_GPUS,
      EVERY_FRAME | ONLY_CUT,
      {WAVEFRONT, .block = 32, .grid = 24, .test.queue_bytes = LEAST}},

@@ -4,7 +4,7 @@ from harness.chart.axes import Axis
 from harness.chart.lines import lines
 from harness.page.section import TIME_AXIS, WHOLE_FRAME, Part, best_words, ticks_of
 
-BLOCKS = (32, 64, 128, 256, 512)
+BLOCKS = (32, 64, 128, 256)
 GRIDS = (1, 4, 16, 64, 256, 1024, 4096, 16384, 65536)
 
 

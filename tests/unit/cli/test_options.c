@@ -58,7 +58,7 @@ static const struct {
     {"--geometry", "solids|triangles", "|solid|Triangles|1"},
     {"--divisions", "1|2|1000", "|0|-1|1.5|abc|1001"},
     {"--accel", "auto|brute|bvh", "|tree|1"},
-    {"--block", "32|96|512", "|0|1|33|544|-32|abc"},
+    {"--block", "32|96|256", "|0|1|33|288|-32|abc"},
     {"--grid", "1|7|1048576", "|0|-1|1048577|abc"},
     {"--max-launch", "1|12.5|10000", "|0|0.5|-1|10001|abc"},
     {"--precision", "float|double", "|single|Float|64"},

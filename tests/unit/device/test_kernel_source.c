@@ -11,20 +11,17 @@ TEST(registers_suit_the_card_and_the_scene) {
         HdKernelShape shape;
         int arch, asked, expected;
     } cases[] = {
-        {{.group_size = 128}, 90, 0, 96},
-        {{.group_size = 128}, 70, 0, 96},
-        {{.group_size = 128}, 69, 0, 64},
-        {{.group_size = 512}, 61, 200, 200},
-        {{.group_size = 128, .needs.many_lights = true}, 90, 0, 80},
-        {{.group_size = 128, .needs.many_lights = true}, 61, 0, 64},
-        {{.group_size = 128, .needs.node_stack_bound = 32}, 90, 0, 80},
-        {{.group_size = 128, .needs.node_stack_bound = 32}, 61, 0, 64},
-        {{.precision = HD_PRECISION_DOUBLE, .group_size = 128}, 90, 0, 128},
-        {{.precision = HD_PRECISION_DOUBLE, .group_size = 128, .needs.many_lights = true},
-         90,
-         0,
-         128},
-        {{.precision = HD_PRECISION_DOUBLE, .group_size = 512}, 61, 0, 64},
+        {{0}, 90, 0, 96},
+        {{0}, 70, 0, 96},
+        {{0}, 69, 0, 64},
+        {{0}, 61, 200, 200},
+        {{.needs.many_lights = true}, 90, 0, 80},
+        {{.needs.many_lights = true}, 61, 0, 64},
+        {{.needs.node_stack_bound = 32}, 90, 0, 80},
+        {{.needs.node_stack_bound = 32}, 61, 0, 64},
+        {{.precision = HD_PRECISION_DOUBLE}, 90, 0, 128},
+        {{.precision = HD_PRECISION_DOUBLE, .needs.many_lights = true}, 90, 0, 128},
+        {{.precision = HD_PRECISION_DOUBLE}, 61, 0, 64},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const int limit = hd_register_limit(&cases[i].shape, cases[i].arch, cases[i].asked);
