@@ -7,10 +7,10 @@
 
    words    FN begins every function (static and inlined); FN_NOINLINE a function that stays out of
             line if that helps. GLOBAL and LOCAL precede the type of a pointer to a table or to
-            memory of a group. RESTRICT, ALIGNED_16. With HD_GROUP_SIZE, BARRIER() waits for the
-   group. scalars  uint, uint64 and fixed64 of 32, 64 and 64 bits; real_bits: an integer as wide as
-   real packets  vreal of real; vint: int, or with several lanes integers as wide as real, to be
-   used as if they had 32 bits; vmask: opaque, 0 or -1 in each lane, or a bit for each; vfix of
+            memory of a group. RESTRICT, ALIGNED_16. BARRIER() waits for the group, if any.
+   scalars  uint, uint64 and fixed64 of 32, 64 and 64 bits; real_bits: an integer as wide as real
+   packets  vreal of real; vint: int, or with several lanes integers as wide as real, to be used as
+            if they had 32 bits; vmask: opaque, 0 or -1 in each lane, or a bit for each; vfix of
             fixed64; vbits of real_bits
 
    Operators + - * and, on integers and masks, & | ^ ~ >> work on packets as on scalars; a vreal may

@@ -13,7 +13,7 @@
 #define HD_KERNEL_ARGUMENTS_H
 
 /* hedron_render: TABLES, then these. Renders items [first_item, first_item + item_count), each by
-   `parts` threads. */
+   `parts` threads; `parts` divides the number of samples. */
 #define HD_RENDER_ARGUMENTS(X, LAST)                                                               \
     X(NUMBER, int, first_item)                                                                     \
     X(NUMBER, int, item_count)                                                                     \

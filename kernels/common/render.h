@@ -76,7 +76,7 @@ FN Vec3 direction_to(GLOBAL const View *view, vreal right, vreal down) {
 }
 
 /* Computes the directions of samples `first`, first + 1, ... of an item, pixel by pixel and row by
-   row; returns the lanes that hold one. The first lane must, unless the item lies outside. */
+   row; returns the lanes that hold one. The item has the sample `first`. */
 FN vmask sample_directions(SAMPLE_PARAMETERS int item, int first, Vec3 *direction) {
     int n = view->grid_side, samples = view->samples;
     int first_pixel = HD_PIXELS_PER_ITEM > 1 ? first / samples : 0;
