@@ -45,7 +45,7 @@ render)
     [[ $last != *lights-100.json ]] || ms=$((ms + 5))
     [[ $frames != *-* ]] || eval "frames={${frames%-*}..${frames#*-}}"
     for frame in $(eval "echo ${frames//,/ }"); do
-        if [[ $frame == 2 && -e $FAKE_HOLD && $(<"$FAKE_HOLD") == "${#runs[@]}" ]]; then
+        if [[ ($frame == 2 || $words == *--reference*) && -e $FAKE_HOLD && $(<"$FAKE_HOLD") == "${#runs[@]}" ]]; then
             trap 'exit 130' INT
             echo $$ >"$FAKE_HOLD.held"
             for ((wait = 0; wait < 6000; wait++)); do sleep 0.1; done
@@ -140,6 +140,13 @@ kill -INT "$pid"
 expect_end 130
 expect_stdout_contains Interrupted
 expect_value out/frames.json '[r["complete"], *((e["summary"] or {}).get("frames") for e in r["measurements"])]' '[false, 4, 4, 1]'
+
+# ---- interrupted before accuracy's reference is complete
+hold_in 1 "${study[@]}" --out early --parts accuracy
+kill -INT "$pid"
+expect_end 130
+expect_stdout_contains Interrupted
+expect_in early/report.html unfinished
 
 # ---- a wrong picture fails; a device that fails leaves the others
 fake_study 1 wrong --out wrong --parts lights

@@ -207,6 +207,11 @@ LIMITS = (20, 10, 5, 2, 1)  # errors for which the page names a setting
 GUIDE = 5  # the error that the chart marks and the first screen shows
 
 
+def measured(result):
+    """Returns what was measured at each size; none if the study was interrupted before its first setting."""
+    return [memory for memory in (result["accuracy"] or {}).values() if memory["points"]]
+
+
 def panels(device, memory):
     """Returns lines of the device's front, and of its other settings."""
     own = [point for point in memory["points"] if point["device"] == device.label and point["rmse"] > 0]
@@ -240,14 +245,14 @@ def fill(section):
                       "recommended"]]
     drawn, found = [], all_devices(section.results, section.part)
     for device in found:
-        for memory in (device.result["accuracy"] or {}).values():
+        for memory in measured(device.result):
             drawn += panels(device, memory)
             section.table += [[device.label, device.result["machine"]["name"], point["name"], " ".join(point["options"]),
                                number(point["ms"]), number(point["rmse"], 3), number(point["largest"], 3),
                                "yes" if point["on_front"] else "", point["recommended"] or ""]
                               for point in memory["points"] if point["device"] == device.label]
     for result in section.results:
-        for memory in (result["accuracy"] or {}).values():
+        for memory in measured(result):
             title = f"Fastest settings, {result['machine']['name']}, {memory['size'][0]} x {memory['size'][1]}{dagger(result)}"
             names = {device.label: device.name for device in found if device.result is result}
             section.shown.append((title, list(choice_rows(memory, names))))
@@ -260,7 +265,7 @@ def fill(section):
 
 def at_guide(device):
     """Returns (size, the device's fastest setting at the error GUIDE, or None), or None if it was not measured."""
-    for memory in (device.result["accuracy"] or {}).values():
+    for memory in measured(device.result):
         own = [point for point in memory["points"] if point["device"] == device.label]
         if own:
             return memory["size"], choice(own, GUIDE)
