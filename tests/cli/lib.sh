@@ -210,7 +210,8 @@ use_official_input() {
 small=(--size 32x24 --samples 1 --depth 2)
 # Hides NVIDIA's graphics cards from this command, in CUDA and in OpenCL.
 no_nvidia=(env CUDA_VISIBLE_DEVICES=)
-# Hides all of OpenCL as well.
+# Hides all of OpenCL as well. The loader takes drivers of OCL_ICD_FILENAMES too.
+unset OCL_ICD_FILENAMES
 nothing=(env CUDA_VISIBLE_DEVICES= OCL_ICD_VENDORS="$work/no_vendors")
 export small no_nvidia nothing project
 
