@@ -11,12 +11,12 @@ source "$(dirname "${BASH_SOURCE[0]}")/bench_lib.sh"
 mkdir out results
 cat >make.py <<'PYTHON'
 import json, sys
-r = json.load(open(f"{sys.argv[1]}/amd-epyc-2-cores.json", encoding="utf-8"))
+r = json.load(open(f"{sys.argv[1]}/intel-xeon-2-cores.json", encoding="utf-8"))
 r["hedron"]["kernels"] = json.load(open("devices.json", encoding="utf-8"))["kernels"]
 json.dump(r, open("out/study.json", "w", encoding="utf-8"))
-other = json.load(open(f"{sys.argv[1]}/nvidia-h100.json", encoding="utf-8"))
+other = json.load(open(f"{sys.argv[1]}/nvidia-h200.json", encoding="utf-8"))
 other["hedron"]["kernels"] = "of other kernels"
-json.dump(other, open("results/nvidia-h100.json", "w", encoding="utf-8"))
+json.dump(other, open("results/nvidia-h200.json", "w", encoding="utf-8"))
 PYTHON
 python3 -B make.py "$project/bench/results"
 expect_exit 0 "$project/bench/study" --report --hedron "$hedron" --out out --results results
@@ -29,23 +29,23 @@ from pathlib import Path
 from statistics import mean, median
 def read(name):
     return Path(name).read_text(encoding="utf-8")
-page, own, h100 = read("out/report.html"), json.loads(read("out/study.json")), json.loads(read("results/nvidia-h100.json"))
+page, own, h200 = read("out/report.html"), json.loads(read("out/study.json")), json.loads(read("results/nvidia-h200.json"))
 answer = page[page.index("<header>"):page.index("</header>")]
 said = re.findall(r'data-figure="(\w+)" data-value="([^"]+)">([^<]*)<', answer)
 def ms(label):
-    """Milliseconds of the official example on the H100's machine, by the raw seconds."""
-    entry = next(e for e in h100["measurements"] if (e["part"], e["device"]) == ("official", label))
+    """Milliseconds of the official example on the H200's machine, by the raw seconds."""
+    entry = next(e for e in h200["measurements"] if (e["part"], e["device"]) == ("official", label))
     return median(1e3 * entry["scale"] * mean(sum(f["seconds"][s] for s in ("prepare", "trace", "copy")) for f in run["frames"] if not f["warm_up"])
                   for run in [run for run in entry["runs"] if not run["noisy"]] or entry["runs"])
-gpu, cpu = min(ms("cuda:0"), ms("opencl:0")), ms("c:0")
+gpu, cpu = min(ms("cuda:0"), ms("opencl:1")), ms("c:0")
 wanted = {"gpu_ms": gpu, "cpu_ms": cpu, "gpu_to_cpu": cpu / gpu,
-          "frames_alike": sum(r["pictures"]["compared"] for r in (own, h100) if r["pictures"] and r["pictures"]["same"]),
+          "frames_alike": sum(r["pictures"]["compared"] for r in (own, h200) if r["pictures"] and r["pictures"]["same"]),
           "frame_ms": gpu, "times_cpu": 84.5e3 / gpu, "times_gtx_1050": 1.1e3 / gpu}
 values = {name: float(value) for name, value, _ in reversed(said)}  # of the first row, which is the fastest device's
 wrong = [name for name, value in wanted.items() if abs(values.get(name, -1) - value) > 1e-9 * abs(value)]
 told = re.sub("<[^>]+>", "", answer)
 sentences = re.split(r"(?<=[.]) (?=[A-Z])", re.sub("<[^>]+>", "", answer[answer.index("<p>"):]))
-print(wrong, len(said) >= 15, page.index("<header>") < page.index("<h2"), "H100 (CUDA) \u2020" in told, "EPYC (C) \u2020" in page,
+print(wrong, len(said) >= 15, page.index("<header>") < page.index("<h2"), "H200 (CUDA) \u2020" in told, "2-core Xeon (C) \u2020" in page,
       [len(each.split()) <= 30 for each in sentences], "cannot run: the NVIDIA driver" in told)
 PYTHON
 expect_python '[] True True True False [True, True, True] True' "$(cat figures.py)"
