@@ -210,9 +210,10 @@ use_official_input() {
 small=(--size 32x24 --samples 1 --depth 2)
 # Hides NVIDIA's graphics cards from this command, in CUDA and in OpenCL.
 no_nvidia=(env CUDA_VISIBLE_DEVICES=)
-# Hides all of OpenCL as well. The loader takes drivers of OCL_ICD_FILENAMES too.
-unset OCL_ICD_FILENAMES
-nothing=(env CUDA_VISIBLE_DEVICES= OCL_ICD_VENDORS="$work/no_vendors")
+# Hides OpenCL from this command. Khronos' loader takes drivers of OCL_ICD_FILENAMES too.
+no_opencl=(env -u OCL_ICD_FILENAMES OCL_ICD_VENDORS="$work/no_vendors")
+# Hides both.
+nothing=("${no_opencl[@]}" CUDA_VISIBLE_DEVICES=)
 export small no_nvidia nothing project
 
 # True if some backend has a GPU that the command above does not hide.
@@ -311,6 +312,7 @@ use_fake_cuda() {
     nvrtc=$1/tests/fake_cuda/libnvrtc.so.12
     [[ -e $nvrtc ]] || skip "no compiler of C++ is here that could build the kernels"
     export OCL_ICD_VENDORS=$work/no_vendors
+    unset OCL_ICD_FILENAMES
     export LD_LIBRARY_PATH=$1/tests/fake_cuda${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
     export HEDRON_CACHE=$work/cache HEDRON_NVRTC=$nvrtc
 }

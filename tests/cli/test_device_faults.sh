@@ -164,8 +164,7 @@ if [[ ! -e $nvrtc ]]; then
     echo "not tested: CUDA that fails, for no compiler of C++ is here that could build the kernels"
     finish
 fi
-cuda=(env LD_LIBRARY_PATH="$build/tests/fake_cuda" HEDRON_NVRTC="$nvrtc" HEDRON_CACHE="$work/cache"
-    OCL_ICD_VENDORS="$work/no_vendors")
+cuda=("${no_opencl[@]}" LD_LIBRARY_PATH="$build/tests/fake_cuda" HEDRON_NVRTC="$nvrtc" HEDRON_CACHE="$work/cache")
 frames=("$hedron" render "${small[@]}" --frames 0-6 --backend cuda --math fast --quiet -o '%d.data')
 expect_exit 0 "${cuda[@]}" "${frames[@]}"
 # A device that fell off the bus, an error of its memory, a kernel that took too long, one that crashed.
