@@ -23,7 +23,7 @@ typedef enum HdPipeline {
 enum {
     HD_MAX_THREADS = 1024,
     HD_BLOCK_STEP = 32,
-    HD_MAX_BLOCK = 256, /* a thread takes up to 72 bytes of its group's memory, at least 32 KiB */
+    HD_MAX_BLOCK = 256, /* of 72 bytes a thread at most; a group has at least 32 KiB of memory */
     HD_MAX_GRID = 1 << 20,
     HD_MIN_REGISTERS = 16,
     HD_MAX_REGISTERS = 255,

@@ -216,7 +216,7 @@ no_opencl=(env -u OCL_ICD_FILENAMES OCL_ICD_VENDORS="$work/no_vendors")
 nothing=("${no_opencl[@]}" CUDA_VISIBLE_DEVICES=)
 export small no_nvidia nothing project
 
-# True if some backend has a GPU that the command above does not hide.
+# True if some backend has a GPU that no_nvidia does not hide.
 has_other_gpu() {
     "${no_nvidia[@]}" "$hedron" devices | grep -q '^ *GPU,'
 }
